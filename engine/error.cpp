@@ -1,11 +1,11 @@
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <new>
 #include <string_view>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 namespace {
 
@@ -81,4 +81,4 @@ Result<void> result_of(const char* call, Status status) noexcept {
   return tl::unexpected<Error>(error_of(call, status));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

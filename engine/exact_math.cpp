@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace mobil::exact {
+namespace mobil::inline v0_3::exact {
 namespace {
 
 /// A number as the sum of two doubles, the second below half a unit of the first's last place.
@@ -238,4 +238,4 @@ double acos(double x) {
   return angle_of(square_root(sum_of(1, -x) * sum_of(1, x)), {x, 0});
 }
 
-}  // namespace mobil::exact
+}  // namespace mobil::inline v0_3::exact

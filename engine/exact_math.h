@@ -3,7 +3,7 @@
 // the last one. Each is computed with twice a double's digits and then rounded, so it is the nearest double to the true
 // value in all but one case of some 10¹⁴. One takes about a microsecond: not for ticks.
 
-namespace mobil::exact {
+namespace mobil::inline v0_3::exact {
 
 /// NaN and infinity give what the standard library's give.
 double exp(double x);
@@ -30,4 +30,4 @@ inline float acos(float x) {
   return static_cast<float>(acos(double{x}));
 }
 
-}  // namespace mobil::exact
+}  // namespace mobil::inline v0_3::exact

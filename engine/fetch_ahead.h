@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Argument of `fetch`: all that is left, which is right for a few dozen lines.
 inline constexpr std::size_t all_lines = static_cast<std::size_t>(-1);
@@ -28,4 +28,4 @@ class FetchAhead {
   const char *at_, *end_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

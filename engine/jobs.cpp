@@ -1,4 +1,4 @@
-#include "engine/jobs.h"
+#include <mobil/engine/jobs.h>
 
 #include <atomic>
 #include <cassert>
@@ -9,7 +9,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 #if defined(__SSE2__)
 constexpr unsigned long flush_bits = _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON;
@@ -78,4 +78,4 @@ FlushDenormals::~FlushDenormals() {
   set_control((control() & ~flush_bits) | (before_ & flush_bits));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

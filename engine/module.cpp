@@ -1,10 +1,10 @@
-#include "engine/module.h"
+#include <mobil/engine/module.h>
 
 #include <algorithm>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 const Module* module_of(std::span<const Module> modules, std::uint64_t part) {
   for (const Module& module : modules) {
@@ -41,4 +41,4 @@ Result<Schedule> make_schedule(std::span<const Module> modules, std::pmr::memory
   return systems.build(memory);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,7 +1,7 @@
 // Sixteen lanes are hashed side by side, each in two words of 32 bits that go different ways. Every step is a bijection
 // of the lane's words as well as of the word that comes in.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "engine/row_hash.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -9,7 +9,7 @@
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Takes `count` lines of sixteen words into both halves of sixteen hashes.
@@ -36,16 +36,16 @@ void hash_lines(const std::uint8_t* line, std::size_t count, std::uint32_t* low,
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include <cstring>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
 #include "engine/row_hash.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 HWY_EXPORT(hash_lines);
@@ -103,5 +103,5 @@ std::uint64_t hash_bytes(const void* bytes, std::size_t count) {
   return hash;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/table.h"
+#include <mobil/engine/table.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A bijection that scatters bits (the finaliser of splitmix64; Steele, Lea and Flood 2014).
 constexpr std::uint64_t mix64(std::uint64_t x) {
@@ -31,4 +31,4 @@ void hash_rows(const Table& table, std::size_t first, std::size_t end, std::uint
 /// One number for bytes and how many they are. Changes within one aligned word of four always change it.
 std::uint64_t hash_bytes(const void* bytes, std::size_t count);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

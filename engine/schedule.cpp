@@ -1,4 +1,4 @@
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 
 #include "engine/schedule_order.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 namespace {
 
@@ -288,4 +288,4 @@ Result<Schedule> ScheduleBuilder::build(std::pmr::memory_resource* memory) const
   return Schedule(std::move(sorted), memory);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

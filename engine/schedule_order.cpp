@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 using Mode = Access::Mode;
 
@@ -164,4 +164,4 @@ std::vector<SystemRange> schedule_passes(std::span<const System> ordered) {
   return passes;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

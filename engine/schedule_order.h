@@ -1,14 +1,14 @@
 #pragma once
-// The order in which systems run, from what they read and write; the rules stand in engine/schedule.h.
+// The order in which systems run, from what they read and write; the rules stand in mobil/schedule.h.
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "engine/error.h"
-#include "engine/schedule.h"
+#include <mobil/engine/error.h>
+#include <mobil/schedule.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Indices of the systems in the order of running, or what is wrong with them.
 Result<std::vector<std::size_t>> schedule_order(std::span<const System> systems);
@@ -17,4 +17,4 @@ Result<std::vector<std::size_t>> schedule_order(std::span<const System> systems)
 /// done, and nobody changes what another system of the pass looks up.
 std::vector<SystemRange> schedule_passes(std::span<const System> ordered);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,8 +1,8 @@
-#include "engine/scratch.h"
+#include <mobil/engine/scratch.h>
 
 #include <new>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 constexpr std::size_t alignment = 64;
 }
@@ -64,4 +64,4 @@ ScratchPool::Buffer* ScratchPool::take() {
   return add(true);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

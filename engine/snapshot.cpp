@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 struct WorldHeader {
@@ -397,4 +397,4 @@ void WorldSnapshot::give_up(World& world) noexcept {
   for (Table& table : world.tables_) table.trim();
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

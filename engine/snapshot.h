@@ -12,12 +12,12 @@
 #include <span>
 #include <vector>
 
-#include "engine/error.h"
-#include "engine/jobs.h"
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
 #include "engine/snapshot_bytes.h"
-#include "engine/world.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One table with rows: its parts and entities are among those of all tables, its blocks within the bytes of all.
 struct SavedTable {
@@ -115,4 +115,4 @@ class WorldSnapshot {
   std::pmr::vector<KeyPart> key_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

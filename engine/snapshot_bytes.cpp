@@ -7,7 +7,7 @@
 
 #include "engine/row_hash.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint64_t magic = 0x70616e736c69626d;  // "mbilsnap" in bytes
@@ -112,4 +112,4 @@ Result<OpenSnapshot> open_snapshot(std::span<const std::byte> in, const Jobs& jo
                       in.subspan(layout.blocks_at(), layout.blocks)};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -12,10 +12,10 @@
 #include <span>
 #include <type_traits>
 
-#include "engine/error.h"
-#include "engine/jobs.h"
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Values of a plain type, one after the other.
 template <class T>
@@ -114,4 +114,4 @@ void seal_snapshot(const SnapshotLayout& layout, std::span<std::byte> out, const
 /// Errors, one line each: no snapshot, another version or byte order, too short or too long, altered.
 Result<OpenSnapshot> open_snapshot(std::span<const std::byte> in, const Jobs& jobs);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,7 +7,7 @@
 
 #include "engine/row_hash.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 struct Hashing {
@@ -102,4 +102,4 @@ std::uint64_t state_hash_of(std::uint64_t sum, std::uint32_t tick) {
   return mix64(sum + mix64(tick));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

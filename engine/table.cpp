@@ -1,4 +1,4 @@
-#include "engine/table.h"
+#include <mobil/engine/table.h>
 
 #include <algorithm>
 #include <cstring>
@@ -7,7 +7,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 constexpr std::size_t word_bytes = sizeof(float);
 constexpr std::size_t block_alignment = alignof(Lanes<float>);
@@ -229,4 +229,4 @@ void Table::park(std::uint32_t first_word, std::uint32_t words) {
   std::fill(entity + used, entity + lane_count, *entity);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

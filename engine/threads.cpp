@@ -1,10 +1,10 @@
-// The pool of engine/jobs.h: oneTBB's, or, where the library is built without it (MOBIL_PORTABLE), the calling thread
-// alone.
-#include "engine/jobs.h"
+// The pool of mobil/engine/jobs.h: oneTBB's, or, where the library is built without it (MOBIL_PORTABLE), the calling
+// thread alone.
+#include <mobil/engine/jobs.h>
 
 #if defined(MOBIL_PORTABLE)
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct Threads::Arena {};
 
@@ -21,7 +21,7 @@ Jobs Threads::jobs() const {
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 
 #else
 
@@ -36,7 +36,7 @@ Jobs Threads::jobs() const {
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct Threads::Arena {
   explicit Arena(int count) : arena(count) {}
@@ -91,6 +91,6 @@ Jobs Threads::jobs() const {
           static_cast<std::size_t>(count())};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 
 #endif

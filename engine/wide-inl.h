@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
 #include "engine/fused-inl.h"
 
 /// For functions of some ten operations and more. Where sixteen lanes are four registers they are called: their code is
@@ -28,7 +28,7 @@
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using FloatTag = hn::CappedTag<float, lane_count>;
@@ -271,7 +271,7 @@ MOBIL_WIDE_INLINE Wide acos(const Wide& x) {
   return atan2(sqrt(max((wide(1.0F) - c) * (wide(1.0F) + c), wide(0.0F))), c);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -10,7 +10,7 @@
 #include "engine/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 HWY_INLINE Wide mix(const Wide& from, const Wide& to, const Wide& part) {
   return fma(part, to - from, from);
@@ -22,7 +22,7 @@ MOBIL_WIDE_INLINE Wide smooth(const Wide& u) {
   return v * v * v * fma(v, fma(v, wide(6.0F), wide(-15.0F)), wide(10.0F));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -10,7 +10,7 @@
 #include "engine/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// eˣ, relative error below 2e-7 (without fused multiply-add 3e-5); x beyond ±87 as at ±87. Reduction to ±ln 2 / 2 in
 /// two parts, then Taylor's polynomial of degree 7.
@@ -52,7 +52,7 @@ MOBIL_WIDE_INLINE Wide log(const Wide& x) {
   return fma(power, wide(0.693145752F), fma(power, wide(1.42860677e-6F), p));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

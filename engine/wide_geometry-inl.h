@@ -7,11 +7,11 @@
 #define MOBIL_ENGINE_WIDE_GEOMETRY_INL_H_
 #endif
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
 #include "engine/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 struct WideVec {
   Wide x, y, z;
@@ -63,6 +63,10 @@ HWY_INLINE WideVec fma(const Wide& s, const WideVec& a, const WideVec& b) {
   return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
 }
 
+HWY_INLINE WideVec select(const WideMask& m, const WideVec& yes, const WideVec& no) {
+  return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
+}
+
 /// First b, then a.
 MOBIL_WIDE_INLINE WideQuat operator*(const WideQuat& a, const WideQuat& b) {
   return {fma(a.w, b.x, fma(a.x, b.w, fnma(a.z, b.y, a.y * b.z))),
@@ -76,7 +80,7 @@ MOBIL_WIDE_INLINE WideVec rotate(const WideQuat& q, const WideVec& v) {
   return v + fma(q.w, t, cross(axis, t));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,9 +1,9 @@
-#include "engine/world.h"
+#include <mobil/engine/world.h>
 
 #include <algorithm>
 #include <utility>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 World::World(std::pmr::memory_resource* memory)
     : memory_(memory),
@@ -457,4 +457,4 @@ void World::forget(Entity entity) {
   members_.release(entity.index);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

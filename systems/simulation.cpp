@@ -1,4 +1,4 @@
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 
 #include <fmt/format.h>
 
@@ -8,13 +8,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
-#include "components/avoidance.h"
-#include "components/compact.h"
-#include "components/fat.h"
-#include "components/footing.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/avoidance.h>
+#include <mobil/components/compact.h>
+#include <mobil/components/fat.h>
+#include <mobil/components/footing.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/step_watch.h>
+#include <mobil/systems/people/style_limits.h>
 #include "engine/row_hash.h"
-#include "engine/schedule.h"
 #include "engine/state_hash.h"
 #include "systems/gait/gait.h"
 #include "systems/muscles/compact.h"
@@ -25,16 +28,13 @@
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
-#include "systems/people/person.h"
-#include "systems/people/step_watch.h"
-#include "systems/people/style_limits.h"
 #include "systems/people/whole.h"
 #include "systems/simulation_reading.h"
 #include "systems/simulation_world.h"
 #include "systems/snapshot/snapshot.h"
 #include "systems/standard_modules.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// An error with the name of the call that it is of.
@@ -484,4 +484,4 @@ Entity Simulation::muscle(Entity human, Muscle muscle, Side side) const {
   return muscle_of(*world_, human, muscle, side);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,15 +2,15 @@
 
 #include <bit>
 
-#include "assets/body/anthropometry.h"
-#include "components/sleep.h"
-#include "engine/each.h"
-#include "engine/schedule.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/sleep.h>
+#include <mobil/each.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/people/person.h>
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/sleep.h"
-#include "systems/people/person.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::optional<Human> read_human(const Simulation& simulation, Entity entity) {
   const World& world = simulation.world();
@@ -60,4 +60,4 @@ StepReport read_report(const Schedule& schedule, std::uint32_t ticks) {
   return report;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

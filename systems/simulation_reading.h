@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// As Simulation::human, people and report.
 std::optional<Human> read_human(const Simulation& simulation, Entity entity);
 std::vector<Entity> read_people(const World& world);
 StepReport read_report(const Schedule& schedule, std::uint32_t ticks);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

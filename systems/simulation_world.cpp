@@ -3,15 +3,15 @@
 #include <array>
 #include <vector>
 
-#include "components/relevance.h"
+#include <mobil/components/relevance.h>
+#include <mobil/systems/relevance/relevance_module.h>
 #include "systems/muscles/compact.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/sleep.h"
 #include "systems/people/by_table.h"
 #include "systems/people/ground_forces.h"
-#include "systems/relevance/relevance_module.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What no sleeper can do wakes them first, and so with who is compact. All of them, or nobody.
 Result<void> Simulation::make_whole(std::span<const Entity> people) {
@@ -117,4 +117,4 @@ Result<void> SimulationWorld::begin_muscles(Simulation& simulation, std::span<co
   });
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

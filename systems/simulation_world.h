@@ -1,10 +1,10 @@
 #pragma once
 // What a simulation keeps to itself, its world's structure and what muscles share: for what is the library's own.
 
+#include <mobil/simulation.h>
 #include "systems/people/waking.h"
-#include "systems/simulation.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct SimulationWorld {
   static World& of(Simulation& simulation) { return *simulation.world_; }
@@ -39,4 +39,4 @@ inline World& world_of(Simulation& simulation) {
   return SimulationWorld::of(simulation);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

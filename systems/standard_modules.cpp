@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <mobil/systems/people/step_watch.h>
+#include <mobil/systems/relevance/relevance_module.h>
 #include "systems/avoidance/avoidance_module.h"
 #include "systems/muscles/compact_module.h"
 #include "systems/muscles/leg_moments.h"
@@ -9,11 +11,9 @@
 #include "systems/people/fat_wobble.h"
 #include "systems/people/people_modules.h"
 #include "systems/people/sleep_module.h"
-#include "systems/people/step_watch.h"
-#include "systems/relevance/relevance_module.h"
 #include "systems/terrain/terrain_module.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::vector<Module> standard_modules() {
   std::vector<Module> all = {walking_module(), forces_module(),     skeleton_module(), leg_moments_module(),
@@ -26,4 +26,4 @@ std::vector<Module> standard_modules() {
   return all;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

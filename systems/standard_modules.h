@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "engine/module.h"
+#include <mobil/engine/module.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::vector<Module> standard_modules();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

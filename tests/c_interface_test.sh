@@ -6,12 +6,12 @@ set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 warnings=(-Wall -Wextra -Wconversion -Wstrict-prototypes -Werror)
-"${CC:-cc}" -std=c89 -pedantic-errors "${warnings[@]}" -I"$1/include" "$2/demo/examples/crowd.c" "$1/libmobil.so" \
+"${CC:-cc}" -std=c89 -pedantic-errors "${warnings[@]}" -I"$2/systems/c/include" "$2/demo/examples/crowd.c" "$1/libmobil.so" \
   -Wl,-rpath,"$1" -o "$scratch/crowd"
 "$scratch/crowd"
-echo '#include <mobil/mobil.h>' | "${CXX:-c++}" -std=c++98 -pedantic-errors -Wall -Wextra -Werror -I"$1/include" -fsyntax-only -x c++ -
+echo '#include <mobil/mobil.h>' | "${CXX:-c++}" -std=c++98 -pedantic-errors -Wall -Wextra -Werror -I"$2/systems/c/include" -fsyntax-only -x c++ -
 nm -D --defined-only "$1/libmobil.so" | awk '$2 ~ /[TDBRVW]/ {print $3}' | sed 's/@.*//' | sort >"$scratch/exported"
-tr '\n' ' ' <"$1/include/mobil/mobil.h" | grep -oE 'MOBIL_API [^;(]*\(' | grep -oE 'mobil_[a-z_]+\($' | tr -d '(' | sort >"$scratch/declared"
+cat "$2"/systems/c/include/mobil/mobil.h "$2"/systems/c/include/mobil/c/*.h | tr '\n' ' ' | grep -oE 'MOBIL_API [^;(]*\(' | grep -oE 'mobil_[a-z_]+\($' | tr -d '(' | sort >"$scratch/declared"
 [ "$(wc -l <"$scratch/declared")" -gt 40 ]
 diff "$scratch/declared" "$scratch/exported"
 # A host that closes the library while the pool's threads are still about goes on.
@@ -51,5 +51,5 @@ int main(int count, char** given) {
   return 0;
 }
 C
-"${CC:-cc}" -I"$1/include" "$scratch/closes.c" -ldl -o "$scratch/closes"
+"${CC:-cc}" -I"$2/systems/c/include" "$scratch/closes.c" -ldl -o "$scratch/closes"
 "$scratch/closes" "$1/libmobil.so"

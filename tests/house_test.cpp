@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/version.h>
+
 namespace {
 namespace fs = std::filesystem;
 
@@ -45,13 +47,60 @@ std::vector<std::string> lines(const fs::path& file) {
   return all;
 }
 
-/// The files of ours that a file includes, as written ("room/…").
+/// Public headers lie as they are installed, in ROOM/include/mobil/, or ROOM/FOLDER/include/mobil/ where the folder is
+/// a library that can be left out. Each belongs to a folder of its room: mobil/ROOM/FOLDER/NAME.h says which. What
+/// hosts include is mobil/NAME.h and belongs where its source is.
+std::string place_of(const fs::path& file) {
+  static const std::regex door("^(?:([a-z]+)(/[a-z]+)?)/include/mobil/([^/]+)$");
+  const std::string name = fs::relative(file, root).generic_string();
+  std::smatch match;
+  if (std::regex_match(name, match, door)) {
+    const std::string room = match[1], header = match[3];
+    if (match[2].matched) return room + match[2].str() + "/" + header;
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+      if (entry.path().extension() == ".cpp" && entry.path().stem() == fs::path(header).stem()) {
+        return (fs::relative(entry.path(), root).parent_path() / header).generic_string();
+      }
+    }
+    return room + "/" + header;
+  }
+  const auto inside = name.find("/include/mobil/");
+  if (inside == std::string::npos) return name;
+  const std::string rest = name.substr(inside + std::string("/include/mobil/").size());
+  return rest.starts_with("c/") ? "systems/" + rest : rest;
+}
+
+/// By the name that sources include them by, <mobil/…>.
+const std::map<std::string, fs::path>& public_headers() {
+  static const auto found = [] {
+    std::map<std::string, fs::path> all;
+    for (const auto* room : {"components", "engine", "assets", "systems"}) {
+      for (const auto& file : sources(room)) {
+        const std::string name = file.generic_string();
+        const auto inside = name.find("/include/mobil/");
+        if (inside != std::string::npos) all[name.substr(inside + std::string("/include/").size())] = file;
+      }
+    }
+    return all;
+  }();
+  return found;
+}
+
+/// The files of ours that a file includes, as their places ("room/…").
 std::vector<std::string> includes(const fs::path& file) {
-  static const std::regex include("^\\s*#include \"([^\"]+)\"");
+  static const std::regex include("^\\s*#include (?:\"([^\"]+)\"|<(mobil/[^>]+)>)");
   std::vector<std::string> found;
   for (const auto& line : lines(file)) {
     std::smatch match;
-    if (std::regex_search(line, match, include)) found.push_back(match[1]);
+    if (!std::regex_search(line, match, include)) continue;
+    if (match[1].matched) {
+      found.push_back(match[1]);
+      EXPECT_TRUE(fs::exists(root / found.back())) << file << " includes " << found.back() << ", which is not there";
+    } else if (const auto header = public_headers().find(match[2]); header != public_headers().end()) {
+      found.push_back(place_of(header->second));
+    } else {
+      ADD_FAILURE() << file << " includes <" << match[2] << ">, which is not there";
+    }
   }
   return found;
 }
@@ -62,7 +111,6 @@ TEST(House, IncludesPointDownTheListOfRooms) {
       for (const auto& included : includes(file)) {
         const std::string target = included.substr(0, included.find('/'));
         EXPECT_TRUE(allowed.contains(target)) << file << " includes " << included;
-        EXPECT_TRUE(fs::exists(root / included)) << file << " includes " << included << ", which is not there";
       }
     }
   }
@@ -126,7 +174,7 @@ TEST(House, FoldersIncludeOnlyThoseBeforeThem) {
   std::set<std::pair<std::string, std::string>> needed;
   for (const auto& [room, folders] : order) {
     for (const auto& file : sources(room)) {
-      const std::string name = fs::relative(file, root).generic_string();
+      const std::string name = place_of(file);
       for (const auto& included : includes(file)) {
         if (!included.starts_with(room + "/")) continue;
         if (folder_may_include(room, folder_of(name), folder_of(included))) continue;
@@ -144,7 +192,7 @@ TEST(House, FoldersIncludeOnlyThoseBeforeThem) {
 TEST(House, EveryFileLiesInAKnownFolder) {
   for (const auto* room : {"assets", "systems", "demo", "tests"}) {
     for (const auto& file : sources(room)) {
-      const std::string name = fs::relative(file, root).generic_string(), folder = folder_of(name);
+      const std::string name = place_of(file), folder = folder_of(name);
       if (folder == no_folder) {
         EXPECT_TRUE(name.starts_with("systems/simulation") || name.starts_with("systems/standard_modules") ||
                     name == "demo/hello.cpp" || name.starts_with("tests/"))
@@ -154,6 +202,53 @@ TEST(House, EveryFileLiesInAKnownFolder) {
         const bool kernel = room == std::string("systems") && kernels.contains(folder);
         EXPECT_TRUE(kernel || std::find(folders.begin(), folders.end(), folder) != folders.end())
             << name << " lies in a folder that house_test.cpp does not know";
+      }
+    }
+  }
+}
+
+/// An installed header needs nothing that is not installed with it.
+TEST(House, PublicHeadersIncludePublicOnes) {
+  static const std::regex internal("^\\s*#include \"");
+  for (const auto& [name, file] : public_headers()) {
+    for (const auto& line : lines(file)) EXPECT_FALSE(std::regex_search(line, internal)) << name << ": " << line;
+  }
+  EXPECT_GT(public_headers().size(), 100U);
+}
+
+/// Internal headers that programs outside the laboratory include, until they need them no longer.
+const std::set<std::string> still_internal = {};
+
+/// What hosts cannot do, our own programs do not; the laboratory may look inside.
+TEST(House, ProgramsIncludePublicHeadersAlone) {
+  static const std::regex internal("^\\s*#include \"((?:components|engine|assets|systems)/[^\"]+)\"");
+  std::set<std::string> needed;
+  for (const auto& file : sources("demo")) {
+    if (fs::relative(file, root).generic_string().starts_with("demo/lab/")) continue;
+    for (const auto& line : lines(file)) {
+      std::smatch match;
+      if (!std::regex_search(line, match, internal)) continue;
+      EXPECT_TRUE(still_internal.contains(match[1])) << file << " includes " << match[1] << ", which is internal";
+      needed.insert(match[1]);
+    }
+  }
+  for (const auto& header : still_internal) EXPECT_TRUE(needed.contains(header)) << "no program includes " << header;
+}
+
+/// CMakeLists.txt, version.h and the namespace of every public header say the same.
+TEST(House, TheVersionIsOne) {
+  static const std::regex opened("^namespace mobil(.*) \\{");
+  const std::string version = MOBIL_CMAKE_VERSION;
+  const auto minor = version.find('.'), patch = version.find('.', minor + 1);
+  const std::string space =
+      "::inline v" + version.substr(0, minor) + "_" + version.substr(minor + 1, patch - minor - 1);
+  EXPECT_EQ(version, MOBIL_VERSION);
+  for (const auto* room : {"components", "engine", "assets", "systems"}) {
+    for (const auto& file : sources(room)) {
+      for (const auto& line : lines(file)) {
+        std::smatch match;
+        if (std::regex_search(line, match, opened))
+          EXPECT_TRUE(match[1].str().starts_with(space)) << file << ": " << line;
       }
     }
   }
@@ -224,12 +319,15 @@ TEST(House, TypesOfHeadersHaveNamesOfTheirOwn) {
 }
 
 TEST(House, EverySourceHasAHeaderOfItsName) {
-  std::set<std::string> without;
+  std::set<std::string> without, headers;
   for (const auto* room : {"engine", "assets", "systems"}) {
-    for (fs::path file : sources(room)) {
+    for (const auto& file : sources(room)) {
+      if (file.extension() == ".h") headers.insert(place_of(file));
+    }
+    for (const auto& file : sources(room)) {
       if (file.extension() != ".cpp") continue;
       const std::string name = fs::relative(file, root).generic_string();
-      if (fs::exists(file.replace_extension(".h"))) continue;
+      if (headers.contains(fs::path(place_of(file)).replace_extension(".h").generic_string())) continue;
       EXPECT_TRUE(no_header_yet.contains(name)) << name << " has no header of its name";
       without.insert(name);
     }
@@ -319,7 +417,8 @@ TEST(House, FilesThatAreNamedAreThere) {
       for (const auto& line : lines(file)) {
         if (line.starts_with("#include")) continue;
         for (std::sregex_iterator at(line.begin(), line.end(), named), end; at != end; ++at, ++found) {
-          EXPECT_TRUE(fs::exists(root / at->str())) << file << " names " << at->str();
+          const bool there = fs::exists(root / at->str()) || public_headers().contains("mobil/" + at->str());
+          EXPECT_TRUE(there) << file << " names " << at->str();
         }
       }
     }

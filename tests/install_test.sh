@@ -24,7 +24,7 @@ fi
 # The version is in few places, and the same in all.
 version=$(sed -n 's/^#define MOBIL_VERSION "\(.*\)"/\1/p' "$scratch/prefix/include/mobil/version.h")
 grep -q "\"version\": \"$version\"" "$2/systems/javascript/package.json"
-grep -q "mobil_library_version(void); /\* \"$version\" \*/" "$2/systems/c/mobil.h"
+grep -q "mobil_library_version(void); /\* \"$version\" \*/" "$2/systems/c/include/mobil/mobil.h"
 grep -q "^## \[$version\]" "$2/CHANGELOG.md"
 # Where the program was built, shells and man find what it can do.
 if [ -x "$scratch/prefix/bin/mobil" ]; then

@@ -16,7 +16,8 @@ if grep -vE '^(mobil::|mobil_v[0-9_]+$|(vtable|typeinfo|typeinfo name) for mobil
   echo "libmobil_core.so exports these, which are not ours" >&2
   exit 1
 fi
-"${compile[@]}" -I"$1/include" "$2/demo/hello.cpp" "$1/libmobil_core.so" -Wl,-rpath,"$1" -o "$scratch/hello"
+cmake --install "$1" --prefix "$scratch/prefix" >/dev/null
+"${compile[@]}" -I"$scratch/prefix/include" "$2/demo/hello.cpp" "$1/libmobil_core.so" -Wl,-rpath,"$1" -o "$scratch/hello"
 "$scratch/hello" >"$scratch/hello.txt"
 ldd "$scratch/hello" >"$scratch/libraries"
 grep -q libmobil_core.so "$scratch/libraries"
@@ -31,7 +32,6 @@ extern "C" unsigned long long hash_of_a_step() {
   return simulation.state_hash();
 }
 CPP
-cmake --install "$1" --prefix "$scratch/prefix" >/dev/null
 cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DHOSTS= \
   -DPLUGIN="$scratch/plugin.cpp" >/dev/null
 cmake --build "$scratch/build" >/dev/null
@@ -45,8 +45,8 @@ fi
 
 # Another version: the same archives and headers under another name.
 mkdir "$scratch/other"
-cp -r "$1/include" "$scratch/other/include"
-version=$(sed -n 's/^namespace mobil::inline \(v[0-9_]*\) .*/\1/p' "$1/include/mobil/systems/simulation.h")
+cp -r "$scratch/prefix/include" "$scratch/other/include"
+version=$(sed -n 's/^namespace mobil::inline \(v[0-9_]*\) .*/\1/p' "$scratch/prefix/include/mobil/simulation.h")
 other=$(echo "$version" | tr '0-9' '9')
 find "$scratch/other/include" -name '*.h' -exec sed -i "s/namespace mobil::inline $version/namespace mobil::inline $other/" {} +
 nm "${archives[@]}" | sed -n "s/.* \([^ ]*5mobil${#version}$version[^ ]*\)$/\1/p" | sort -u |
@@ -54,7 +54,7 @@ nm "${archives[@]}" | sed -n "s/.* \([^ ]*5mobil${#version}$version[^ ]*\)$/\1/p
   '{renamed = $1; gsub(a, b, renamed); print $1, renamed}' >"$scratch/renamed"
 for archive in "${archives[@]}"; do objcopy --redefine-syms="$scratch/renamed" "$archive" "$scratch/other/${archive##*/}"; done
 sed 's/hash_of_a_step/hash_of_another_step/' "$scratch/plugin.cpp" >"$scratch/another.cpp"
-"${compile[@]}" -c -I"$1/include" "$scratch/plugin.cpp" -o "$scratch/one.o"
+"${compile[@]}" -c -I"$scratch/prefix/include" "$scratch/plugin.cpp" -o "$scratch/one.o"
 "${compile[@]}" -c -I"$scratch/other/include" "$scratch/another.cpp" -o "$scratch/another.o"
 cat >"$scratch/both.cpp" <<'CPP'
 extern "C" unsigned long long hash_of_a_step();

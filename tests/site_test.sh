@@ -13,7 +13,7 @@ fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 # The packages are there, under whatever name: nothing is installed by a test.
-if ! "$2/demo/site/run" --headers "$1/include/mobil" --out "$scratch/site" --no-install >"$scratch/said" 2>&1; then
+if ! "$2/demo/site/run" --out "$scratch/site" --no-install >"$scratch/said" 2>&1; then
   tail -n 40 "$scratch/said"
   exit 1
 fi
@@ -31,7 +31,7 @@ grep -q '^index.html: nowhere.html#at-all leads nowhere$' "$scratch/said" || { c
 # So is a public function without a comment.
 mkdir -p "$scratch/bare/mobil"
 printf '#pragma once\n// A header.\n\nnamespace mobil {\n\nint bare(int x);\n\n}  // namespace mobil\n' >"$scratch/bare/mobil/bare.h"
-cp "$1/include/mobil/mobil.h" "$scratch/bare/mobil/"
+cp -r "$2"/systems/c/include/mobil/. "$scratch/bare/mobil/"
 if "$2/demo/site/run" --headers "$scratch/bare/mobil" --out "$scratch/bare/site" --no-install >"$scratch/said" 2>&1; then
   echo "a function without a comment was not found"
   exit 1

@@ -1,4 +1,4 @@
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/body_composition.h"
+#include <mobil/body_composition.h>
 #include "assets/body/fat_distribution.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Empty if value lies in [low, high]; NaN does not.
@@ -151,4 +151,4 @@ Pose<float> standing_pose(const Body& body) {
   return pose;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/body/anthropometry.h"
-#include "components/segments.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/segments.h>
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Pose<float> with_bent_legs(const Body& body, const LegBend& bend) {
   using namespace geometry;
@@ -42,4 +42,4 @@ Pose<float> with_bent_legs(const Body& body, const LegBend& bend) {
   return pose;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

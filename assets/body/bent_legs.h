@@ -1,10 +1,10 @@
 #pragma once
 // A posed body with both legs bent: for pictures, tables and hard cases.
 
-#include "components/body.h"
-#include "components/pose.h"
+#include <mobil/components/body.h>
+#include <mobil/components/pose.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Degrees; all 0: the anatomical position.
 struct LegBend {
@@ -14,4 +14,4 @@ struct LegBend {
 /// The pelvis stays where the body stands; kneecaps slide round their knees as in a walk.
 Pose<float> with_bent_legs(const Body& body, const LegBend& bend);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

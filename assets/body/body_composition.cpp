@@ -1,4 +1,4 @@
-#include "assets/body/body_composition.h"
+#include <mobil/body_composition.h>
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "assets/body/fat_distribution.h"
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double least_mass_index = 12, most_lean_index = 36;
@@ -163,4 +163,4 @@ std::vector<std::string> body_notes(const Body& body) {
   return notes;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

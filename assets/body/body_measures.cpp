@@ -1,9 +1,9 @@
-#include "assets/body/body_measures.h"
+#include <mobil/assets/body/body_measures.h>
 
 #include <array>
 #include <cmath>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Of 1.75 m and 75 kg, in mm, and the powers of height and mass.
@@ -56,4 +56,4 @@ BodyMeasures body_measures(const BodyRequest& request) {
   return measures;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

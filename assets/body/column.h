@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 
-#include "components/segments.h"
+#include <mobil/components/segments.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The pelvis' anterior tilt of somebody who stands upright, as gait laboratories measure it (front and back of the
 /// iliac crest), rad: that of the anatomical position, from which the column is turned.
@@ -26,4 +26,4 @@ constexpr ColumnParts column_parts() {
   return parts;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

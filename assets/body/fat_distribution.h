@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Share of fat in the mass at which the published masses of segments are taken to hold: a man of 24.5 kg/m²
 /// (`fat_share_of_mass_index`).
@@ -51,4 +51,4 @@ constexpr double mass_fraction(std::size_t segment, double extra) {
   return unit_body.mass_fraction[segment] + extra * mass_per_extra_fat(segment);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

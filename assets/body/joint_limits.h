@@ -18,9 +18,9 @@
 #include <span>
 #include <string_view>
 
-#include "components/segments.h"
+#include <mobil/components/segments.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One motion of the joint at a segment's origin (right side; the left mirrors it). `low` to `high`: the first word of
 /// `motion` is positive, what it is called the other way follows the dash.
@@ -70,4 +70,4 @@ inline constexpr std::array<VertebraLimit, 24> vertebra_limits = {{
     {9, 4, 2},  {17, 7, 6}, {20, 8, 7}, {20, 11, 7}, {15, 11, 7}, {10, 10, 3}, {20, 5, 40},  // C7–T1 to C1–C2
 }};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,13 +1,13 @@
-#include "assets/body/leg_profile.h"
+#include <mobil/assets/body/leg_profile.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "assets/body/between.h"
+#include <mobil/assets/body/between.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t stations = 73, angles = 64, harmonics = 4;
@@ -102,4 +102,4 @@ double LegProfile::girth(double s) const {
   return tape([&](double turn) { return radius(s, turn); });
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

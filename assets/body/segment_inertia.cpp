@@ -1,8 +1,8 @@
 #include "assets/body/segment_inertia.h"
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using namespace geometry;
 
@@ -21,4 +21,4 @@ Vec3<double> joint_centre_m(const Body& body, Segment segment) {
   return at;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

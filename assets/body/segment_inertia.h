@@ -11,10 +11,10 @@
 #include <array>
 #include <cstddef>
 
-#include "assets/body/anthropometry.h"
-#include "components/body.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/body.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// About each segment's centre of mass, its frame's axes (x to the left, y along or up, z forward), which are its
 /// principal axes; of a body of height 1 m and mass 1 kg: times mass · height².
@@ -135,4 +135,4 @@ constexpr UnitInertia make_unit_inertia() {
 
 inline constexpr UnitInertia unit_inertia = make_unit_inertia();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "assets/export/basis_writer.h"
+#include <mobil/basis_writer.h>
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "assets/export/mesh_shading.h"
 #include "assets/files/output_file.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 bool all_finite(const std::vector<float>& values) {
@@ -138,4 +138,4 @@ Result<void> write_basis_glb(const std::filesystem::path& path, const BasisRecor
   return write_file(path, *bytes);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

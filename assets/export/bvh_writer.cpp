@@ -1,4 +1,4 @@
-#include "assets/export/bvh_writer.h"
+#include <mobil/bvh_writer.h>
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "assets/export/skeleton_keys.h"
 #include "assets/files/output_file.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double bvh_degrees = 180 / std::numbers::pi;
@@ -97,4 +97,4 @@ Result<void> write_bvh(const std::filesystem::path& path, const WalkRecording& r
   return write_file(path, bvh_text(recording));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,7 +4,7 @@
 
 #include "assets/export/mesh_shading.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 void append_texture(std::span<const Vec3<float>> position, FigurePiece& piece) {
@@ -94,4 +94,4 @@ Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const S
   return pieces;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,18 +1,18 @@
 #pragma once
 // A figure as the meshes that formats with skins take: one a cloth, where the figure stands.
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include <mobil/assets/surfaces/texture_places.h>
+#include <mobil/engine/error.h>
 #include "assets/export/recorded_people.h"
 #include "assets/export/skeleton_keys.h"
-#include "assets/surfaces/texture_places.h"
-#include "engine/error.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using StandingPlaces = std::array<Eigen::Vector3d, segment_count>;
 
@@ -35,4 +35,4 @@ StandingPlaces figure_standing(const SeenFigure& figure, const SkeletonKeys& ske
 /// Errors: a surface whose triangles have no area.
 Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const StandingPlaces& standing);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "assets/export/gl_writer.h"
+#include <mobil/gl_writer.h>
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/geometry.h>
 #include "assets/export/mesh_shading.h"
 #include "assets/export/recording_check.h"
 #include "assets/files/output_file.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file holds little-endian numbers");
@@ -131,4 +131,4 @@ Result<void> write_gl(const std::filesystem::path& path, const WalkRecording& re
   return write_file(path, *bytes);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -10,7 +10,7 @@
 #include <limits>
 #include <sstream>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "a GLB holds little-endian numbers");
@@ -207,4 +207,4 @@ Result<std::string> glb_bytes(GltfDraft& draft) {
   return text;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,17 +3,17 @@
 
 #include <tiny_gltf.h>
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "assets/surfaces/texture_places.h"
-#include "engine/error.h"
+#include <mobil/assets/surfaces/texture_places.h>
+#include <mobil/engine/error.h>
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A model whose accessors' `bufferView` is one of the arrays until glb_bytes has run. A view of vertices has one
 /// stride, so that texture places (8 bytes) and joints (4) have arrays of their own.
@@ -58,4 +58,4 @@ void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std
 /// than 2 GiB, names that are not UTF-8.
 Result<std::string> glb_bytes(GltfDraft& draft);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -8,7 +8,7 @@
 #include "assets/export/mesh_shading.h"
 #include "assets/export/morph_targets.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 int number_of(std::size_t i) {
@@ -256,4 +256,4 @@ Result<void> add_person(GltfScene& scene, const SeenPerson& person, const SeenFi
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/error.h>
+#include <mobil/gltf_writer.h>
 #include "assets/export/gltf_buffers.h"
-#include "assets/export/gltf_writer.h"
 #include "assets/export/recorded_people.h"
 #include "assets/export/skeleton_keys.h"
 #include "assets/export/unique_names.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A figure's surfaces, written once for all who look like that: a primitive for each cloth (without its material), in
 /// the places where the first of them stands.
@@ -41,4 +41,4 @@ struct GltfScene {
 Result<void> add_person(GltfScene& scene, const SeenPerson& person, const SeenFigure& figure, const std::string& prefix,
                         const ExportOptions& options, std::vector<MuscleFidelity>& fidelity);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "assets/export/gltf_writer.h"
+#include <mobil/gltf_writer.h>
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include "assets/export/recording_check.h"
 #include "assets/files/output_file.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 Result<void> check_options(const ExportOptions& options) {
@@ -65,4 +65,4 @@ Result<ExportReport> write_glb(const std::filesystem::path& path, const CrowdRec
   return write_people(path, recorded_people(recording), options);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

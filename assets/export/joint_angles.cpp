@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double half_turn = std::numbers::pi, whole_turn = 2 * std::numbers::pi;
@@ -54,4 +54,4 @@ std::vector<Eigen::Quaterniond> turned_against(const SkeletonKeys& skeleton, Seg
   return turned;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

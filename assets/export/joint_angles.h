@@ -1,12 +1,12 @@
 #pragma once
 // Joint rotations as three angles, which older formats have instead of quaternions.
 
-#include <Eigen/Geometry>
 #include <vector>
 
 #include "assets/export/skeleton_keys.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// R = Rx(x) · Rz(z) · Ry(y): about the parent's x axis, then about z, then about the segment's own y. So flexion comes
 /// first and the turn along the bone last, and only a z of ±90° has no answer of its own. rad.
@@ -21,4 +21,4 @@ std::vector<JointTurn> joint_turns(const std::vector<Eigen::Quaterniond>& rotati
 /// How `child` is turned against `parent`, at each frame.
 std::vector<Eigen::Quaterniond> turned_against(const SkeletonKeys& skeleton, Segment parent, Segment child);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,8 +1,8 @@
 #include "assets/export/mesh_shading.h"
 
-#include <Eigen/Geometry>
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double least_area_m2 = 1e-12;
@@ -51,4 +51,4 @@ std::vector<std::uint32_t> triangles_with_area(const Eigen::Matrix3Xd& position,
   return kept;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

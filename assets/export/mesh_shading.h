@@ -1,14 +1,14 @@
 #pragma once
 // What a triangle list needs before a viewer can shade it.
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A column for each place.
 Eigen::Matrix3Xd columns_of(std::span<const Vec3<float>> position);
@@ -20,4 +20,4 @@ Eigen::Matrix3Xd vertex_normals(const Eigen::Matrix3Xd& position, const std::vec
 std::vector<std::uint32_t> triangles_with_area(const Eigen::Matrix3Xd& position,
                                                const std::vector<std::uint32_t>& triangle);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,13 +1,14 @@
 #include "assets/export/morph_targets.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "assets/export/mesh_shading.h"
+#include "assets/reduction/dense.h"
 #include "assets/reduction/symmetric_eigen.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -30,7 +31,7 @@ MatrixXd principal_shapes(const MatrixXd& displacement, Index count) {
   MatrixXd shapes(displacement.rows(), std::min(count, samples));
   Index kept = 0;
   for (; kept < shapes.cols() && eigen.values(samples - 1 - kept) > negligible; ++kept) {
-    shapes.col(kept) = (sampled * eigen.vectors.col(samples - 1 - kept)).normalized();
+    shapes.col(kept) = product(sampled, VectorXd(eigen.vectors.col(samples - 1 - kept))).normalized();
   }
   shapes.conservativeResize(Eigen::NoChange, kept);
   return shapes;
@@ -53,7 +54,7 @@ void fit_normals(const MatrixXd& frames, const std::vector<std::uint32_t>& trian
   MatrixXd design(frames.cols(), targets + 1);  // constant, then the weights
   design.col(0).setOnes();
   design.rightCols(targets) = weight;
-  const MatrixXd solve = (design.transpose() * design).ldlt().solve(design.transpose());
+  const MatrixXd solve = solved(product(transposed(design), design), transposed(design));
   std::vector<Matrix3Xd> fitted(static_cast<std::size_t>(targets) + 1, Matrix3Xd::Zero(3, vertices));
   for (Index f = 0; f < frames.cols(); ++f) {
     const Matrix3Xd normal = vertex_normals(as_vertices(frames.col(f)), triangle);
@@ -103,8 +104,8 @@ MorphedSurface morph_targets(const MatrixXd& frames, const std::vector<std::uint
   if (max_targets > 0 && largest_vertex(rest) >= tolerance_m) {
     const MatrixXd shapes = principal_shapes(rest, max_targets);
     for (Index k = 0; k < shapes.cols() && largest_vertex(rest) >= tolerance_m; ++k) {
-      VectorXd along = rest.transpose() * shapes.col(k);
-      rest.noalias() -= shapes.col(k) * along.transpose();
+      VectorXd along = transposed_product(rest, shapes.col(k));
+      add_outer(rest, -1, shapes.col(k), along);
       Index peak = 0;
       double scale = along.cwiseAbs().maxCoeff(&peak);
       if (along(peak) < 0) scale = -scale;
@@ -125,4 +126,4 @@ MorphedSurface morph_targets(const MatrixXd& frames, const std::vector<std::uint
   return surface;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,11 +1,12 @@
 #pragma once
 // A surface that deforms over time, as a mean shape and a few shapes added to it with weights that change.
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
-namespace mobil {
+#include "engine/eigen.h"
+
+namespace mobil::inline v0_3 {
 
 struct MorphTarget {
   Eigen::Matrix3Xf position;  // displacement at weight 1, a column per vertex, m
@@ -27,4 +28,4 @@ struct MorphedSurface {
 MorphedSurface morph_targets(const Eigen::MatrixXd& frames, const std::vector<std::uint32_t>& triangle, int max_targets,
                              double tolerance_m);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "assets/export/opensim_writer.h"
+#include <mobil/opensim_writer.h>
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "assets/export/skeleton_keys.h"
 #include "assets/files/output_file.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double opensim_degrees = 180 / std::numbers::pi;
@@ -158,4 +158,4 @@ Result<void> write_opensim_forces(const std::filesystem::path& path, const WalkR
   return write_file(path, table_text(table, recording, "ground_forces", false));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

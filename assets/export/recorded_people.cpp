@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::size_t SeenFigure::cloths() const {
   std::size_t count = 0;
@@ -30,4 +30,4 @@ RecordedPeople recorded_people(const CrowdRecording& recording) {
   return seen;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
+#include <mobil/assets/export/walk_recording.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Linear red, green, blue, 0–1.
 inline constexpr Vec3<float> ivory_colour{0.80F, 0.74F, 0.60F};
@@ -44,4 +44,4 @@ struct RecordedPeople {
 RecordedPeople recorded_people(const WalkRecording& recording);
 RecordedPeople recorded_people(const CrowdRecording& recording);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

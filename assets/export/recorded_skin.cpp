@@ -6,9 +6,9 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "assets/skin/skin_atlas.h"
+#include <mobil/skin_atlas.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::array<std::string_view, skin_parts> part_name = {"skin",  "legs",   "lips", "hair",
@@ -102,4 +102,4 @@ SkinnedSurface recorded_own_skin(const BodySkin& bare, const OwnSkin& own, std::
   return surface;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

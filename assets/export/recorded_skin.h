@@ -3,14 +3,14 @@
 
 #include <span>
 
-#include "assets/export/walk_recording.h"
-#include "assets/skin/body_skin.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/assets/skin/body_skin.h>
 #include "assets/skin/own_skin.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A surface a part (SkinPart), whose number is its cloth, from `first_cloth` on, with its places in the skin's atlas
-/// (assets/skin/skin_atlas.h). Of several joints that a vertex follows the four heaviest are kept: formats blend their
+/// (mobil/skin_atlas.h). Of several joints that a vertex follows the four heaviest are kept: formats blend their
 /// matrices, which at a bent elbow loses a little of the girth that the library's own skin keeps.
 /// `own`: what has taken the place of some of it, which is left out.
 std::vector<SkinnedSurface> recorded_skin(const BodySkin& skin, std::size_t first_cloth = 0,
@@ -22,4 +22,4 @@ SkinnedSurface recorded_own_skin(const BodySkin& bare, const OwnSkin& own, std::
 /// Where its segments stand.
 std::array<Vec3<float>, segment_count> standing_of(const BodySkin& skin);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

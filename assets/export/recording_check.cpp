@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t most_cloths = 256;
@@ -194,4 +194,4 @@ Result<void> check_recording(const RecordedPeople& recorded) {
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,10 +1,10 @@
-#include "assets/export/scene_text.h"
+#include <mobil/assets/export/scene_text.h>
 
 #include <fmt/format.h>
 
 #include <utility>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 SceneText::SceneText(SceneNotation notation, const std::string& title) : notation_(notation) {
   if (notation == SceneNotation::vrml) {
@@ -86,4 +86,4 @@ std::string SceneText::text() && {
   return std::move(text_);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double still_m = 5e-6, still_rad = 2e-6;
@@ -119,4 +119,4 @@ std::array<Eigen::Vector3d, segment_count> standing_places(const SkeletonKeys& s
   return place;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

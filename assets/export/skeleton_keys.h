@@ -1,17 +1,17 @@
 #pragma once
 // World poses turned into what a nested node hierarchy wants: each segment's offset and rotation from its parent.
 
-#include <Eigen/Geometry>
 #include <array>
 #include <span>
 #include <vector>
 
-#include "components/lanes.h"
-#include "components/pose.h"
-#include "components/segments.h"
-#include "components/surface.h"
+#include <mobil/components/lanes.h>
+#include <mobil/components/pose.h>
+#include <mobil/components/segments.h>
+#include <mobil/components/surface.h>
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One segment's transform from its parent (the pelvis's from the world): one entry where it never changes, else one
 /// per frame. Rotations have unit length and consistent signs from key to key.
@@ -41,4 +41,4 @@ SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames);
 std::array<Eigen::Vector3d, segment_count> standing_places(const SkeletonKeys& skeleton,
                                                            std::span<const BoneSurface> surfaces);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

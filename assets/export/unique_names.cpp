@@ -1,6 +1,6 @@
 #include "assets/export/unique_names.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::string UniqueNames::take(const std::string& name) {
   std::string free = name;
@@ -19,4 +19,4 @@ std::string identifier(std::string_view name) {
   return made.empty() ? "_" : made;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 class UniqueNames {
  public:
@@ -20,4 +20,4 @@ class UniqueNames {
 /// one before it. An empty name is _.
 std::string identifier(std::string_view name);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

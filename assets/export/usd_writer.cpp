@@ -1,4 +1,4 @@
-#include "assets/export/usd_writer.h"
+#include <mobil/usd_writer.h>
 
 #include <fmt/format.h>
 
@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/surfaces/texture_places.h>
 #include "assets/export/figure_pieces.h"
 #include "assets/export/mesh_shading.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
 #include "assets/export/unique_names.h"
 #include "assets/files/output_file.h"
-#include "assets/surfaces/texture_places.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// A file under way: lines that are indented as prims nest.
@@ -317,4 +317,4 @@ Result<void> write_usda(const std::filesystem::path& path, const CrowdRecording&
   return write_usda_people(path, recorded_people(recording));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "assets/export/x3d_writer.h"
+#include <mobil/x3d_writer.h>
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "assets/export/unique_names.h"
 #include "assets/files/output_file.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Joints' places have a digit more, for they add up along the chain.
@@ -166,4 +166,4 @@ Result<void> write_x3d(const std::filesystem::path& path, const WalkRecording& r
   return write_file(path, x3d_text(recording, notation));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -9,7 +9,7 @@
 #include "assets/fem/stencil_matrix.h"
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Displacements = std::vector<double>;
@@ -136,4 +136,4 @@ double axial_stiffness(const AxialStiffness& table, double across, double along)
   return across * r * per_ratio;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,7 +6,7 @@
 
 #include "assets/fem/stiffness_terms.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A belly whose far face is held one metre out, statically: every node's displacement (three a node, m per m) and the
 /// total force along z on that face (N per m).
@@ -37,4 +37,4 @@ AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, std::span<c
 /// N/m; ratios outside the table take its end.
 double axial_stiffness(const AxialStiffness& table, double across, double along);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// A symmetric matrix and then its Cholesky factor: column c's entries at and below the diagonal, `reach` + 1 of them.
@@ -257,4 +257,4 @@ Result<BellySolver> make_belly_solver(const MuscleTemplate& muscle, Method metho
   return solver;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/muscle_template.h"
-#include "components/muscle.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Lower Cholesky factor G of a symmetric banded matrix over the planes of nodes that move, as the kernels walk through
 /// it. Every node has `components` rows (3, or 1 where x, y and z are alike), its coupling to another is a square block
@@ -55,4 +55,4 @@ inline constexpr std::size_t largest_band_factor = 50'000'000;
 /// The last of these refusals, ahead of all work.
 Result<void> check_belly_solver(const Cells& cells, Method method);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

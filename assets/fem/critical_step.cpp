@@ -11,7 +11,7 @@
 #include "assets/fem/top_eigenvalue.h"
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double widest = 4;  // scale across up to which a foundation's entries are as close as they are promised
@@ -225,4 +225,4 @@ std::uint32_t substeps_within(double critical_step_s, double tick_s) {
   return static_cast<std::uint32_t>(std::max(1.0, std::ceil(tick_s / (0.9 * critical_step_s))));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

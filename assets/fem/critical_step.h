@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <mobil/components/muscle.h>
 #include "assets/fem/stiffness_terms.h"
-#include "components/muscle.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Whether a component (0 x, 1 y, 2 z) of a node moves freely.
 constexpr bool moves(const Cells& cells, FarEnd end, std::uint32_t node, std::size_t component) {
@@ -66,4 +66,4 @@ Result<double> critical_step(const CriticalSteps& table, double across, double a
 /// Smallest number of equal substeps of a tick that keeps each within 0.9 of the critical step; both s, positive.
 std::uint32_t substeps_within(double critical_step_s, double tick_s);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

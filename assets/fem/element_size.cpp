@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <mobil/engine/geometry.h>
 #include "assets/fem/stiffness_terms.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 using namespace geometry;
 
 double compression_wave_speed(const Material& m) {
@@ -31,4 +31,4 @@ double longest_edge_m(const HexahedralMesh& mesh) {
   return longest;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,10 +1,10 @@
 #pragma once
 // How coarse a mesh may be for the waves that it is to carry.
 
-#include "assets/fem/hexahedral_mesh.h"
-#include "components/muscle.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Elements to a compression wave's length, and the highest frequency of a walk's loads (Hz) at which they are counted.
 /// The paper (section 6.3) states one result of its rule, Δx ≤ 0.030 m for a material whose compression waves travel at
@@ -23,4 +23,4 @@ double largest_element_m(const Material& material);
 /// Longest edge of any element of a mesh, m.
 double longest_edge_m(const HexahedralMesh& mesh);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

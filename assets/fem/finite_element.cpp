@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::array<std::array<int, 3>, 8> corner_sign = {
@@ -243,4 +243,4 @@ void element_force(const FiniteElement& element, const FiniteTissue& tissue, con
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

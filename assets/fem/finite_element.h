@@ -9,11 +9,11 @@
 #include <cstddef>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/finite_tissue.h"
-#include "assets/fem/hexahedral_mesh.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Of an element at rest. Pairs of corners a ≥ b are packed: a(a + 1)/2 + b.
 struct FiniteElement {
@@ -53,4 +53,4 @@ struct Activity {
 void element_force(const FiniteElement& element, const FiniteTissue& tissue, const Activity& activity,
                    const Corners& at_m, Corners& force_n, ElementTangent* tangent);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

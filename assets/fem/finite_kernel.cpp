@@ -10,7 +10,7 @@
 #include "assets/fem/hexahedron_points.h"
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Of the element's middle line from its lower face to its upper.
@@ -197,4 +197,4 @@ StiffnessTerms finite_bound(const HexahedralMesh& mesh, const FiniteKernel& kern
   return bound;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/finite_tissue.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/stiffness_terms.h"
-#include "components/muscle.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// κ' over μ of what is stepped. 10, 20, 50 keep the volume of 2×2×8 elements to 5, 3 and 1 %, and take steps of 2.5,
 /// 1.8 and 1.2 ms; the better the volume is kept, the more elements lock.
@@ -82,4 +82,4 @@ inline constexpr float least_dilatation = -0.4F, most_dilatation = 0.6F;
 StiffnessTerms finite_bound(const HexahedralMesh& mesh, const FiniteKernel& kernel, const StiffnessTerms& linear,
                             const FiniteEnvelope& envelope = {});
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

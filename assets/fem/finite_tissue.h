@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Ends are driven by displacement, so shapes follow from the ratios of pressures alone.
 struct FiniteTissue {
@@ -56,4 +56,4 @@ inline FibreTension fibre_tension(const FiniteTissue& tissue, double activation,
   return tension;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,14 +1,14 @@
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include <mobil/engine/geometry.h>
 #include "engine/exact_math.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -257,4 +257,4 @@ Result<void> check_elements(const HexahedralMesh& mesh) {
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,7 +4,7 @@
 
 #include "assets/fem/stiffness_terms.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr auto& corner = hexahedron_corner;
@@ -90,4 +90,4 @@ HourglassStiffness hourglass_stiffness(const MeanGradient& mean, double shear_pa
   return {stiffness * across, stiffness * along};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Corners of the reference cube in the order of `element_nodes`, and of its Gauss points.
 inline constexpr std::array<std::array<int, 3>, 8> hexahedron_corner = {
@@ -42,4 +42,4 @@ struct HourglassStiffness {
 };
 HourglassStiffness hourglass_stiffness(const MeanGradient& mean, double shear_pa);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::vector<double> far_shares(const HexahedralMesh& mesh) {
   const std::uint32_t first = first_insertion_node(mesh.cells);
@@ -136,4 +136,4 @@ KernelArrays make_kernel_arrays(const HexahedralMesh& mesh, const StiffnessTerms
   return kernel;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

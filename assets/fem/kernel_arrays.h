@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/fem/stiffness_terms.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Rows are the nodes from the second plane to the last, x fastest; a row's neighbours are those that exist, except in
 /// the (fixed) first plane, x fastest.
@@ -34,4 +34,4 @@ std::vector<double> far_shares(const HexahedralMesh& mesh);
 
 KernelArrays make_kernel_arrays(const HexahedralMesh& mesh, const StiffnessTerms& terms);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

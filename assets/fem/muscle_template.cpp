@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Result<void> check_muscle_options(const MuscleOptions& options) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
@@ -53,4 +53,4 @@ Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material&
                         std::move(steps), std::move(kernel), std::move(finite)};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,15 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/critical_step.h"
 #include "assets/fem/finite_kernel.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/kernel_arrays.h"
 #include "assets/fem/stiffness_terms.h"
-#include "components/muscle.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Damping is Rayleigh's, C = α·M + β·K: `damping_per_s` is α (0–1000), `stiffness_damping_s` β (0–1). Fascia and
 /// neighbours hold a belly sideways as an elastic foundation (2π·`foundation_hz`)²·M in x and y (0–1000 Hz). The
@@ -57,4 +57,4 @@ Result<void> check_muscle_options(const MuscleOptions& options);
 Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material, const MuscleOptions& options,
                                             std::optional<CriticalSteps> known = std::nullopt);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/fem/belly_solver.h"
-#include "assets/fem/hexahedral_mesh.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Calls f(array, length) with each array of a solver (const or not) for bellies of those cells and the length that
 /// follows from them and from the couplings, which come first.
@@ -29,4 +29,4 @@ void each_array(Solver& solver, const Cells& cells, F&& f) {
   f(solver.far_mass_kg, plane_nodes(cells));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,6 +1,6 @@
 #include "assets/fem/stencil_matrix.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 void StencilMatrix::add(std::uint32_t neighbour, const std::array<double, 9>& block) {
   Coupling& to = coupling_.emplace_back();
@@ -21,4 +21,4 @@ void StencilMatrix::multiply(const std::vector<double>& x, std::vector<double>& 
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -8,7 +8,7 @@
 
 #include "assets/fem/stiffness_terms.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 class StencilMatrix {
  public:
@@ -38,4 +38,4 @@ class StencilMatrix {
   std::vector<Coupling> coupling_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,7 +4,7 @@
 
 #include "assets/fem/hexahedron_points.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Adds ∫(λ·div u·div v + 2μ·ε(u):ε(v)) of shape functions with the gradients g and h, volume inside λ and μ.
@@ -144,4 +144,4 @@ std::array<double, 9> stiffness_block(const StencilPair& p, double across, doubl
           a * p.a_zz + c * p.c_zz};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

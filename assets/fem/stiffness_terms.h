@@ -12,11 +12,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
-#include "components/muscle.h"
-#include "engine/error.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Coupling of a node's force (first letter) to a neighbour's displacement (second), N/m in the template's size.
 struct StencilPair {
@@ -90,4 +90,4 @@ void for_each_node(const Cells& cells, F&& f) {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

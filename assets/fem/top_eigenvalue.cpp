@@ -12,7 +12,7 @@
 #include "assets/fem/stiffness_terms.h"
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -256,4 +256,4 @@ double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double>
   return high * rounding;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

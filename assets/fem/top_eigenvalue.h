@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// K and M over all displacements of a mesh, both multiplied by D^{-½} from either side, D the lumped mass. Rows and
 /// columns of displacements that do not move are zero.
@@ -31,4 +31,4 @@ std::vector<double> lanczos_start(const std::vector<bool>& moving);
 /// 2 % are added. `start`: lanczos_start(pencil.moving), which takes longer than a Lanczos step.
 double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double> start);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

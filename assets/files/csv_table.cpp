@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Nothing for an open quote.
@@ -110,4 +110,4 @@ Result<CsvTable> read_csv(const std::string& path, std::span<const std::string_v
   return parse_csv(text, path, required);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Header and rows, every row as wide as the header. `path`: the file, or what else messages are to call it; `line[r]`:
 /// the row's line in it, counted from 1.
@@ -38,4 +38,4 @@ std::string_view cell(const CsvTable& table, std::size_t row, std::string_view n
 /// The whole cell as a finite number, with or without a sign.
 std::optional<double> number(std::string_view text);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -17,7 +17,7 @@
 
 #include "assets/files/unfinished.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ OutputFolder::~OutputFolder() {
   forget_unfinished(inside_);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

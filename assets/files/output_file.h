@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string_view>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Where one result is written until it is complete. Symbolic links are followed. What is no regular file (a device, a
 /// pipe) is written to itself and never replaced. Dropped before `put`, it leaves nothing behind.
@@ -64,4 +64,4 @@ class OutputFolder {
   std::filesystem::path made_;  // the outermost folder that was not there before; empty where all were
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,7 +7,7 @@
 #include <set>
 #include <system_error>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 struct Register {
@@ -76,4 +76,4 @@ void remove_unfinished() noexcept {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <mutex>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// From here on the path is a file or folder that is not complete. Noted before it is made, forgotten once it is gone
 /// or has its own name. `made`: the outermost of the folders above it that were made for it; with the path, those go
@@ -29,4 +29,4 @@ std::unique_lock<std::recursive_mutex> hold_unfinished();
 /// not in a signal handler, for it allocates.
 void remove_unfinished() noexcept;
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

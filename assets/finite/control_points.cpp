@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
-namespace mobil {
+#include "assets/reduction/dense.h"
+#include "engine/eigen.h"
+
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -104,17 +106,17 @@ Result<ControlMesh> make_control_mesh(const FiniteBelly& belly, const Cells& cel
       }
     }
   }
-  points.mass = points.moment * shape.transpose();
+  points.mass = product(points.moment, transposed(shape));
   const auto [first, count] = inner_points(cells);
   points.inner = points.mass.block(first, first, count, count).llt().matrixL();
   return points;
 }
 
 std::vector<double> nearest_points(const ControlMesh& points, const std::vector<double>& displacement_m) {
-  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-  const Eigen::Map<const Columns> fine(displacement_m.data(), points.moment.cols(), 3);
+  using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const Eigen::Map<const Places> fine(displacement_m.data(), points.moment.cols(), 3);
   std::vector<double> result(3 * points.mesh.node.size());
-  Eigen::Map<Columns> shown(result.data(), points.moment.rows(), 3);
+  Eigen::Map<Places> shown(result.data(), points.moment.rows(), 3);
   const auto [first, count] = inner_points(points.mesh.cells);
   const Index plane = first;
   shown.topRows(plane) = fine.topRows(1).replicate(plane, 1);
@@ -183,4 +185,4 @@ std::vector<double> sampled_points(const Cells& fine, const Cells& control, cons
   return result;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,14 +2,14 @@
 // A fine mesh's displacement as that of a few control points, whose trilinear cells are what is shown: the nearest to
 // it in the mean over the belly's mass that keeps the volume which the cells enclose.
 
-#include <Eigen/Core>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/engine/error.h>
 #include "assets/finite/finite_belly.h"
-#include "engine/error.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct ControlMesh {
   HexahedralMesh mesh;     // of the control cells, at rest
@@ -35,4 +35,4 @@ double enclosed_volume(const HexahedralMesh& mesh, const std::vector<double>& di
 /// Those of a finer mesh's nodes that are control points: three displacements each.
 std::vector<double> sampled_points(const Cells& fine, const Cells& control, const std::vector<double>& displacement_m);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

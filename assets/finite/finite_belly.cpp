@@ -9,7 +9,7 @@
 
 #include "assets/finite/finite_sections.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -213,4 +213,4 @@ double worst_dilatation(const FiniteBelly& belly, const FiniteState& state) {
   return worst;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,18 +2,18 @@
 // Statics of one belly at finite strain, in double: the shape that its tissue takes when its ends come nearer and its
 // fibres pull. The origin face is fixed; the insertion face is held sideways and moved by −e·l along z.
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/finite_element.h"
 #include "assets/fem/finite_tissue.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/finite/section_chain.h"
-#include "engine/error.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Fascia holds each section where it is by a spring on the mean of its displacement sideways, (2πf)² times its mass:
 /// bellies may bulge, but long, thin and bent ones do not bow aside.
@@ -60,4 +60,4 @@ double volume_ratio(const FiniteBelly& belly, const FiniteState& state);
 /// Largest of |J̄ − 1| over elements.
 double worst_dilatation(const FiniteBelly& belly, const FiniteState& state);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -9,7 +9,7 @@
 
 #include "assets/finite/finite_sections.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::VectorXd;
@@ -107,4 +107,4 @@ Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const Fin
                   h, step.shortening, step.activation));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,13 +4,13 @@
 #include <array>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "assets/finite/finite_belly.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
-/// What gravity and the frame's motion do to a mass at rest position x: constant + gradient·x (components/muscle.h,
-/// FrameLoad).
+/// What gravity and the frame's motion do to a mass at rest position x: constant + gradient·x
+/// (mobil/components/muscle.h, FrameLoad).
 struct FinitePush {
   std::array<double, 3> constant_m_s2{};
   std::array<std::array<double, 3>, 3> gradient_s2{};
@@ -38,4 +38,4 @@ FiniteMotion motion_at_rest(const FiniteBelly& belly);
 /// which Newton's method does not converge.
 Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const FiniteStep& step, FiniteMotion& motion);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,6 +1,6 @@
 #include "assets/finite/finite_sections.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using Eigen::Index;
 
@@ -58,4 +58,4 @@ void assemble_elements(const FiniteBelly& belly, const Activity& activity, const
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

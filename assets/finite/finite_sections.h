@@ -3,7 +3,7 @@
 
 #include "assets/finite/finite_belly.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Where an element's corners are, m, its nodes moved by `displacement_m` (three a node).
 Corners corners_of(const FiniteBelly& belly, const FiniteElement& element, const std::vector<double>& displacement_m);
@@ -22,4 +22,4 @@ Activity activity_of(const FiniteBelly& belly, double shortening, double activat
 void assemble_elements(const FiniteBelly& belly, const Activity& activity, const std::vector<double>& displacement_m,
                        double stiffening, double pull_m, FiniteScratch& scratch);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

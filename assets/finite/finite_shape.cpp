@@ -5,7 +5,7 @@
 
 #include "assets/finite/shape_tables.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr Cells tabled_cells = {2, 2, 8};
@@ -89,4 +89,4 @@ FiniteShape make_finite_shape(Muscle muscle, const HexahedralMesh& mesh, const S
   return shape;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

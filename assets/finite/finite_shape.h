@@ -5,12 +5,12 @@
 #include <array>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
 #include "assets/fem/axial_stiffness.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/finite/shape_amounts.h"
-#include "components/muscle.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Immutable. Components are three a control point, node-major; m at the template's size.
 struct FiniteShape {
@@ -31,4 +31,4 @@ inline constexpr float least_shortening = -0.2F, most_shortening = 0.25F, least_
 /// and along the belly a cubic goes through the nearest four.
 FiniteShape make_finite_shape(Muscle muscle, const HexahedralMesh& mesh, const StaticStretch& stretch);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

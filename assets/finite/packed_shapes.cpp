@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Adds items to a text, separated and broken into lines.
@@ -97,4 +97,4 @@ std::string initialiser(const PackedShapes& packed) {
   return out.text;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

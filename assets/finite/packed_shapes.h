@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <string>
 
+#include <mobil/engine/error.h>
 #include "assets/finite/shape_table.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Numbers of a vector: three at each of the 63 points between the ends of 2×2×8 cells.
 inline constexpr std::size_t packed_numbers = 189;
@@ -29,4 +29,4 @@ ShapeTable unpack_shapes(const PackedShapes& packed);
 /// The initialiser of a PackedShapes, in lines of at most 120 columns; floats to five digits.
 std::string initialiser(const PackedShapes& packed);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

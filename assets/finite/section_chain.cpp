@@ -1,8 +1,8 @@
 #include "assets/finite/section_chain.h"
 
-#include <Eigen/Cholesky>
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -48,4 +48,4 @@ void solve(const SectionChain& chain, Eigen::VectorXd& rows) {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

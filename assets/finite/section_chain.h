@@ -2,11 +2,12 @@
 // A symmetric matrix of sections that are each coupled to the next one alone, factorised section by section with dense
 // blocks: bellies are long, and a spring on a section's mean adds nothing to the work.
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
-namespace mobil {
+#include "engine/eigen.h"
+
+namespace mobil::inline v0_3 {
 
 struct SectionChain {
   std::vector<Eigen::MatrixXd> own;    // of each section; the lower triangle counts
@@ -23,4 +24,4 @@ bool factorise(SectionChain& chain);
 /// Of a factorised chain, in place: `rows` is the right side, section after section, then the solution.
 void solve(const SectionChain& chain, Eigen::VectorXd& rows);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

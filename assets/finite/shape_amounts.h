@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr std::size_t shape_amount_count = 11, shape_ratio_terms = 3;
 /// Vectors of a table that is kept. With five, plantaris is off by 11 % at worst instead of 5; more change nothing.
@@ -27,4 +27,4 @@ std::array<F, shape_amount_count> shape_amounts(F e, F root) {
   return {e, e2, e * e2, root, e * root, root2, e2 * root, e * root2, root * root2, e * e2 * root, e * root * root2};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

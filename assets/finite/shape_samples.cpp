@@ -5,7 +5,7 @@
 
 #include "assets/finite/control_points.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// A mesh's shapes as control points, volume not yet kept.
@@ -80,4 +80,4 @@ Result<std::vector<ShapeSample>> shape_samples(const SampledBelly& belly, double
   return samples;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

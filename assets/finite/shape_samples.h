@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/finite_tissue.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/finite/finite_belly.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Shortenings and activations that tables are made from; and slenderness r, a body's size across over that along,
 /// against the template's: bodies in use have 0.80 to 1.26.
@@ -51,4 +51,4 @@ Result<std::vector<ShapeSample>> shape_samples(const SampledBelly& belly, double
                                                std::span<const double> shortenings,
                                                std::span<const double> activations);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

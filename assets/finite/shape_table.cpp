@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "assets/finite/control_points.h"
+#include "assets/reduction/dense.h"
 #include "assets/reduction/symmetric_eigen.h"
+#include "engine/eigen.h"
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -93,12 +94,14 @@ Result<ShapeTable> fit_shape_table(std::span<const ShapeSample> samples, const H
           i % 3 == 2 ? along_weight * (moved + sample.shortening * height) : moved;
     }
   }
-  const MatrixXd fitted = terms.colPivHouseholderQr().solve(shapes);
-  const MatrixXd shown = terms * fitted;
+  const MatrixXd fitted = least_squares(terms, shapes);
+  const MatrixXd shown = product(terms, fitted);
   // The first right singular vectors. (Eigen's own decomposition for them takes the compiler 20 s.)
-  const MatrixXd most =
-      symmetric_eigen(shown.transpose() * shown).vectors.rightCols(static_cast<Index>(vectors)).rowwise().reverse();
-  const MatrixXd shares = fitted * most;  // terms × vectors
+  const MatrixXd most = symmetric_eigen(product(transposed(shown), shown))
+                            .vectors.rightCols(static_cast<Index>(vectors))
+                            .rowwise()
+                            .reverse();
+  const MatrixXd shares = product(fitted, most);  // terms × vectors
   ShapeTable table;
   table.control = rest.cells;
   for (auto& term : table.coefficient) term.resize(vectors);
@@ -139,4 +142,4 @@ ShapeErrors shape_errors(const ShapeTable& table, const HexahedralMesh& rest, st
   return errors;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

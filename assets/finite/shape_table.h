@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/engine/error.h>
 #include "assets/finite/shape_amounts.h"
 #include "assets/finite/shape_samples.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// `vector[v][i]`: b_v at the points between the ends, three numbers a point, m. `coefficient[t][v][f]`: C_t.
 struct ShapeTable {
@@ -48,4 +48,4 @@ struct ShapeErrors {
 /// Without samples all 0.
 ShapeErrors shape_errors(const ShapeTable& table, const HexahedralMesh& rest, std::span<const ShapeSample> samples);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,12 +3,12 @@
 #include <iterator>
 #include <utility>
 
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/muscle_table.h>
 #include "assets/finite/packed_shapes.h"
-#include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_table.h"
 #include "assets/surfaces/muscle_cage.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 // In the order of muscles().
@@ -83,4 +83,4 @@ Result<ShapeTable> make_shape_table(Muscle muscle) {
   return fit_shape_table(samples, finite_mesh(muscle, control_cells), shape_vectors);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

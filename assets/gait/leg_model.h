@@ -1,10 +1,10 @@
 #pragma once
 // What a leg weighs, and the numbers of the rules in systems/forces.
 
+#include <mobil/components/segments.h>
 #include "assets/body/fat_distribution.h"
-#include "components/segments.h"
 
-namespace mobil::forces {
+namespace mobil::inline v0_3::forces {
 
 inline constexpr float gravity = 9.81F;
 
@@ -44,4 +44,4 @@ inline constexpr Rod foot = {static_cast<float>(mass_of(Segment::foot_right) + m
 /// adds to it.
 inline constexpr float pivot_height = 1.4F;
 
-}  // namespace mobil::forces
+}  // namespace mobil::inline v0_3::forces

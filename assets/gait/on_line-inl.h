@@ -11,7 +11,7 @@
 #include "assets/gait/walking_line-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// The walking line in the frame of the stance foothold (+Z its heading there): it comes from the foothold before and
 /// goes on to the next one.
@@ -139,7 +139,7 @@ HWY_NOINLINE inline Foothold other_foothold(const Line& line, const FootMotion& 
   return f;
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

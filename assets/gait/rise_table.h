@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace mobil::rise_table {
+namespace mobil::inline v0_3::rise_table {
 
 enum Number : std::size_t {
   trunk_lean,      // rad
@@ -49,4 +49,4 @@ inline constexpr float numbers[2][count] = {{0.12F, -0.011F, 0.164F, 0.129F, 0.0
                                             {0.03F, 1.289F, 0.506F, 0.334F, 0.0340F, -0.0315F, 0.0263F, 0.0671F,
                                              -0.0276F, -0.0081F, -0.853F, -0.986F, -0.123F, -0.124F}};
 
-}  // namespace mobil::rise_table
+}  // namespace mobil::inline v0_3::rise_table

@@ -5,7 +5,7 @@
 
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 float slope_speed(float asked_m_s, float steepness) {
   constexpr double easiest = -0.05, per_steepness = 3.5;
@@ -25,4 +25,4 @@ LevelWalk level_walk(const Gait<float>& gait, const Footing<float>& footing) {
   return {gait.speed_m_s, gait.step_length_m};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,10 +1,10 @@
 #pragma once
 // How people slow down on slopes and stairs.
 
-#include "components/footing.h"
-#include "components/gait.h"
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// How fast, m/s, who walks at `asked_m_s` on level ground goes where it rises by `steepness`, m per m of the way;
 /// falls below 0. Tobler's hiking function (W. Tobler, Three presentations on geographical analysis and modeling, NCGIA
@@ -21,4 +21,4 @@ struct LevelWalk {
 };
 LevelWalk level_walk(const Gait<float>& gait, const Footing<float>& footing);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -10,7 +10,7 @@
 #include "assets/gait/step_curves-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 namespace sole {
 /// The fitted centre of pressure is counted from here, ahead of the ankle, in body heights.
@@ -42,7 +42,7 @@ HWY_INLINE Wide pressed(const Shape& of, const Wide& height, const Wide& part) {
              legendre_sum(of, step_shape::pressure, 2.0F * clamp(part, 0.0F, 1.0F) - 1.0F));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,4 +1,4 @@
-// The curves that a step's shape stands for (components/step_shape.h), of sixteen walkers. Include it as
+// The curves that a step's shape stands for (mobil/components/step_shape.h), of sixteen walkers. Include it as
 // engine/wide-inl.h says.
 
 #if defined(MOBIL_ASSETS_GAIT_STEP_CURVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -8,12 +8,12 @@
 #define MOBIL_ASSETS_GAIT_STEP_CURVES_INL_H_
 #endif
 
-#include "assets/body/anthropometry.h"
-#include "components/gait.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/gait.h>
 #include "engine/wide_curve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Foot flat and heel rise in the usual walk, of the cycle from a leg's own heel strike; the part of the cycle in which
 /// the heel's pad yields.
@@ -326,7 +326,7 @@ HWY_INLINE Wide hips_height(const StepPlan<Lanes<float>>& plan, const MixedShape
   return fma(sunk, height, harmonics(of, step_shape::hips_up, 4, w));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -10,7 +10,7 @@
 #include "assets/gait/step_curves-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// A foot: pitch, bend of the toes, heading of the line under it, toe-out; its ankle's height, distance from the body's
 /// middle line on the leg's own side, and place along the line.
@@ -118,7 +118,7 @@ HWY_NOINLINE inline FootMotion other_foot(const StepPlan<Lanes<float>>& plan, co
   return foot;
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace step_table;
@@ -111,4 +111,4 @@ void add_styles(float at, std::span<const float, style_effects.size()> amounts, 
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,7 +5,7 @@
 
 #include "assets/gait/step_styles.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The walk of a body of height 1 m at a speed and a step length: what is usual there, and its shape.
 struct TabledStep {
@@ -29,4 +29,4 @@ double usual_step_length(float speed);
 /// What is usual at a speed; tabled_step's.
 StepGiven usual_step(float speed);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,7 +2,7 @@
 
 #include "assets/gait/step_styles.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 // clang-format off
 const std::array<std::array<TabledShape, style_effects.size()>, step_table::speed_count> step_styles = {{
@@ -279,4 +279,4 @@ const std::array<std::array<TabledShape, style_effects.size()>, step_table::spee
 }};
 // clang-format on
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,10 +4,10 @@
 #include <array>
 #include <string_view>
 
+#include <mobil/components/gait_style.h>
 #include "assets/gait/step_table.h"
-#include "components/gait_style.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A parameter of a walk, and the unit of what of the step it changes: deg, parts of the cycle, m, or a part of what
 /// it usually is.
@@ -36,4 +36,4 @@ inline constexpr std::array<StyleEffect, 14> style_effects = {{
 /// Changes of a usual step's shape by one unit of each, of a body of height 1 m (so lengths are as in TabledShape).
 extern const std::array<std::array<TabledShape, style_effects.size()>, step_table::speed_count> step_styles;
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

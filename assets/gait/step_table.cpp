@@ -2,7 +2,7 @@
 
 #include "assets/gait/step_table.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 // clang-format off
 const std::array<StepGiven, step_table::speed_count> step_given = {{
@@ -399,4 +399,4 @@ const std::array<std::array<TabledShape, step_table::length_count>, step_table::
 }};
 // clang-format on
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 
-#include "components/step_shape.h"
+#include <mobil/components/step_shape.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 namespace step_table {
 inline constexpr std::size_t speed_count = 9, length_count = 5;
@@ -28,4 +28,4 @@ using TabledShape = std::array<float, step_shape::size>;
 extern const std::array<StepGiven, step_table::speed_count> step_given;
 extern const std::array<std::array<TabledShape, step_table::length_count>, step_table::speed_count> step_shapes;
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,13 +7,13 @@
 #define MOBIL_ASSETS_GAIT_UNEVEN_INL_H_
 #endif
 
+#include <mobil/components/footing.h>
 #include "assets/gait/on_line-inl.h"
 #include "assets/gait/rise_table.h"
-#include "components/footing.h"
 #include "engine/wide_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// The ground about a foothold: its height over the stance foothold, and how much it rises to the left of the stance
 /// foot's heading and along it, m per m; and how far the foothold is moved that way.
@@ -321,7 +321,7 @@ HWY_NOINLINE inline void put_on(const Slope& slope, const Ground& flat, FootMoti
   foot.ankle_up = slope.height + off.y;
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

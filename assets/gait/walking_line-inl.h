@@ -11,7 +11,7 @@
 #include "engine/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// The line from one foothold to the next, beside the straight way between them. Its curvature is that of one foot's
 /// stance until the other foot takes the weight over, and then that of the other's: `bend_rad` and `change_rad` are
@@ -54,7 +54,7 @@ HWY_INLINE Wide heading_on_chord(const Chord& c, const Wide& part) {
   return fma(c.bend_rad, part, c.change_rad * changed_slope(part)) - chord_heading(c);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,4 +1,4 @@
-#include "assets/import/anatomy_folder.h"
+#include <mobil/assets/import/anatomy_folder.h>
 
 #include <fmt/format.h>
 
@@ -9,13 +9,13 @@
 #include <thread>
 #include <utility>
 
+#include <mobil/mesh_file.h>
 #include "assets/import/anatomy_manifest.h"
 #include "assets/import/mesh_check.h"
-#include "assets/import/mesh_file.h"
 #include "assets/import/mesh_place.h"
 #include "assets/import/simplify_surface.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// A row's mesh, whole and in mobil's frame, and its box in the file's.
@@ -158,4 +158,4 @@ Result<Anatomy> load_anatomy(const std::string& folder, const AnatomyOptions& op
   return std::move(survey.anatomy);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -14,11 +14,11 @@
 #include <tuple>
 #include <utility>
 
+#include <mobil/muscle_table.h>
 #include "assets/files/csv_table.h"
 #include "assets/import/mesh_text.h"
-#include "assets/muscles/muscle_table.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::array<std::string_view, 5> landmark_columns = {"name", "side", "x", "y", "z"};
@@ -358,4 +358,4 @@ Result<Manifest> read_manifest(const std::string& folder, const MeshFrame& frame
   return manifest;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "assets/import/anatomy_folder.h"
+#include <mobil/assets/import/anatomy_folder.h>
 #include "assets/import/mesh_frame.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One wanted row: everything about a part but its mesh (whose name is set).
 struct ManifestRow {
@@ -41,4 +41,4 @@ Result<LandmarkTable> read_landmarks(const std::string& folder);
 /// The rows that `options` wants; fails for a table that cannot be read, or has no such row.
 Result<Manifest> read_manifest(const std::string& folder, const MeshFrame& frame, const AnatomyOptions& options);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Matrix3d;
@@ -192,4 +192,4 @@ Vector3d BoneMaps::along_muscle(const Vector3d& p, Segment origin, Segment inser
   return sum;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

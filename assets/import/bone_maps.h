@@ -1,12 +1,11 @@
 #pragma once
 // Where each part of the anatomy's right leg comes to lie in one body: one map a bone, agreeing at the joint centres.
 
-#include <Eigen/Geometry>
+#include <mobil/assets/import/anatomy_folder.h>
+#include <mobil/components/body.h>
+#include "engine/eigen.h"
 
-#include "assets/import/anatomy_folder.h"
-#include "components/body.h"
-
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline Eigen::Vector3d eigen(const Vec3<float>& v) {
   return {v.x, v.y, v.z};
@@ -45,4 +44,4 @@ LegJoints leg_joints(const Body& body);
 /// leg's length gives). Fails for a body whose lengths are not finite and positive.
 Result<BoneMaps> bone_maps(const Anatomy& anatomy, const Body& body);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

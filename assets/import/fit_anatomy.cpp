@@ -1,4 +1,4 @@
-#include "assets/import/fit_anatomy.h"
+#include <mobil/fit_anatomy.h>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "assets/import/bone_maps.h"
 #include "assets/surfaces/surface_mesh.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Vector3d;
@@ -151,4 +151,4 @@ std::optional<Ligament> cut_at_kneecap(FittedMuscle& muscle, const Body& body) {
   return ligament;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

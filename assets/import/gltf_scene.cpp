@@ -15,7 +15,7 @@
 
 #include "assets/import/mesh_text.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Opens regular files of one folder for reading, and nothing else.
@@ -120,4 +120,4 @@ Result<RawMesh> read_gltf_scene(const std::string& path) {
   return raw;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,13 +3,13 @@
 
 #include <string>
 
+#include <mobil/engine/error.h>
 #include "assets/import/mesh_join.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Only the importers of glTF are registered, and only files below the mesh's folder are opened. Fails with a line
 /// that lacks the path.
 Result<RawMesh> read_gltf_scene(const std::string& path);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

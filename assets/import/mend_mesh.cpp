@@ -6,11 +6,11 @@
 #include <numbers>
 #include <utility>
 
-#include "assets/import/mesh_edges.h"
+#include <mobil/assets/import/mesh_edges.h>
+#include <mobil/engine/geometry.h>
 #include "assets/import/union_find.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -233,4 +233,4 @@ std::size_t turn_outwards(SurfaceMesh& mesh, const Pieces& pieces) {
   return static_cast<std::size_t>(std::count(turns.begin(), turns.end(), true));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include <mobil/components/surface.h>
 #include "assets/import/mesh_pieces.h"
-#include "components/surface.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Takes away triangles that have the same corners as another one before them, where more than two triangles use one
 /// of their edges. Returns how many.
@@ -41,4 +41,4 @@ std::size_t turn_outwards(SurfaceMesh& mesh, const Pieces& pieces);
 /// How often the pieces but number `piece` go round the first vertex of that piece: 0 outside of all, 1 inside of one.
 double times_inside_others(const SurfaceMesh& mesh, const Pieces& pieces, std::uint32_t piece);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

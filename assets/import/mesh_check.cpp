@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <limits>
 
+#include <mobil/assets/import/mesh_edges.h>
+#include <mobil/engine/geometry.h>
 #include "assets/import/mend_mesh.h"
-#include "assets/import/mesh_edges.h"
 #include "assets/import/simplify_surface.h"
 #include "assets/import/triangle_cuts.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -210,4 +210,4 @@ Result<void> mend_and_check(SurfaceMesh& mesh, AnatomyKind kind, double speck_sh
   return fleshy && pieces.count > 1 ? check_nested(mesh, pieces) : Result<void>();
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,11 +1,11 @@
 #pragma once
 // What the surfaces of an anatomy must be, and what of it is mended.
 
-#include "assets/import/surface_report.h"
-#include "components/surface.h"
-#include "engine/error.h"
+#include <mobil/assets/import/surface_report.h>
+#include <mobil/components/surface.h>
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Edges and doubled triangles: fails where more than two different triangles use an edge. Errors lack the file.
 Result<void> check_edges(SurfaceMesh& mesh, SurfaceReport& report);
@@ -20,4 +20,4 @@ Result<void> keep_right_side(SurfaceMesh& mesh, float middle_x, SurfaceReport& r
 /// from all but bones). Positions in m.
 Result<void> mend_and_check(SurfaceMesh& mesh, AnatomyKind kind, double speck_share, SurfaceReport& report);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,9 +1,9 @@
-#include "assets/import/mesh_edges.h"
+#include <mobil/assets/import/mesh_edges.h>
 
 #include <algorithm>
 #include <utility>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::vector<MeshEdge> sorted_edges(const SurfaceMesh& mesh) {
   std::vector<MeshEdge> sorted(mesh.triangle.size());
@@ -25,4 +25,4 @@ EdgeCount count_edges(const SurfaceMesh& mesh) {
   return count;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

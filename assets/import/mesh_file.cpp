@@ -1,4 +1,4 @@
-#include "assets/import/mesh_file.h"
+#include <mobil/mesh_file.h>
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "assets/import/mesh_stl.h"
 #include "assets/import/mesh_text.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 enum class MeshFormat : std::uint8_t { obj, stl, ply, gltf };
@@ -76,4 +76,4 @@ Result<MeshFile> read_mesh(const std::string& path) try {
       fmt::format("{}: cannot be read ({}); free some memory, or make the mesh coarser", path, shown(error.what())));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

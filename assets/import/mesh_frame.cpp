@@ -6,7 +6,7 @@
 
 #include "assets/import/mesh_text.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Result<MeshFrame> read_frame(std::string_view unit, std::string_view up, const MeshFrame& usual,
                              std::string_view where) {
@@ -33,4 +33,4 @@ std::string frame_name(const MeshFrame& frame) {
   return fmt::format("unit {}, up {}", unit == mesh_units.end() ? "?" : unit->first, frame.y_up ? "y" : "z");
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

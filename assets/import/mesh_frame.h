@@ -7,10 +7,10 @@
 #include <string_view>
 #include <utility>
 
-#include "components/lanes.h"
-#include "engine/error.h"
+#include <mobil/components/lanes.h>
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// z up: +x to the left, +y backwards, +z up. y up: +x to the left, +y up, +z forwards, as mobil's own.
 struct MeshFrame {
@@ -37,4 +37,4 @@ inline Vec3<float> to_mobil(double x, double y, double z, const MeshFrame& frame
           static_cast<float>((frame.y_up ? z : -y) * s)};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

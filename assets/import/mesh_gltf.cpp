@@ -26,7 +26,7 @@
 
 #include "assets/import/gltf_scene.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr rlim_t processor_s = 10, memory_bytes = 2'000'000'000;
@@ -216,17 +216,17 @@ Result<MeshFile> read_gltf(const std::string& path) {
   return join_mesh(child->raw, path);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 
 #else
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Result<MeshFile> read_gltf(const std::string& path) {
   return fail(
       fmt::format("{}: glTF is not read on this system; valid: .obj, .stl, .ply: export it as one of them", path));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 
 #endif

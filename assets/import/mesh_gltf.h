@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "assets/import/mesh_file.h"
-#include "engine/error.h"
+#include <mobil/engine/error.h>
+#include <mobil/mesh_file.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Every mesh in the file, its nodes' transforms applied, in the file's own units and axes. A process of its own reads
 /// it, with at most 10 s of processor time, 15 s of wall time and 2 GB of memory; it writes no file, and opens only
@@ -14,4 +14,4 @@ namespace mobil {
 /// cannot fork (Windows), every file is refused. Messages begin with the path.
 Result<MeshFile> read_gltf(const std::string& path);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,7 +6,7 @@
 #include <array>
 #include <compare>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint32_t no_vertex = ~0U;
@@ -71,4 +71,4 @@ tl::unexpected<Error> too_many_triangles(std::string_view path) {
                           path, most_mesh_triangles));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

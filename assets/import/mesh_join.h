@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/import/mesh_file.h"
-#include "components/lanes.h"
-#include "engine/error.h"
+#include <mobil/components/lanes.h>
+#include <mobil/engine/error.h>
+#include <mobil/mesh_file.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Vertices and triangles as a file names them: three indices each, all below the count of positions, which are finite.
 struct RawMesh {
@@ -29,4 +29,4 @@ tl::unexpected<Error> fault_in_line(std::string_view path, std::size_t line, std
 /// Fails for more triangles than most_mesh_triangles.
 tl::unexpected<Error> too_many_triangles(std::string_view path);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -9,7 +9,7 @@
 #include "assets/import/mesh_join.h"
 #include "assets/import/mesh_text.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t most_obj_vertices = 3 * most_mesh_triangles;
@@ -144,4 +144,4 @@ Result<MeshFile> read_obj(std::string_view bytes, std::string_view path) {
   return join_mesh(reader.raw, path);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,9 +1,9 @@
 #include "assets/import/mesh_pieces.h"
 
+#include <mobil/engine/geometry.h>
 #include "assets/import/union_find.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Pieces label_pieces(const SurfaceMesh& mesh) {
   UnionFind sets(mesh.position.size());
@@ -39,4 +39,4 @@ std::vector<double> piece_volumes(const SurfaceMesh& mesh, const Pieces& pieces)
   return volume;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <mobil/components/surface.h>
 #include "assets/surfaces/surface_mesh.h"
-#include "components/surface.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A number for each triangle, counted from 0, the same for all that hang together.
 struct Pieces {
@@ -35,4 +35,4 @@ void keep_pieces(SurfaceMesh& mesh, const Pieces& pieces, Stays stays) {
   drop_unused(mesh);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -146,4 +146,4 @@ std::string frames_that_fit(const MeshBox& raw, const AnatomyPart& part, const A
   return fmt::format(": in other units or axes it would fit, write into its row: {}", fitting);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "assets/import/anatomy_folder.h"
+#include <mobil/assets/import/anatomy_folder.h>
+#include <mobil/components/surface.h>
 #include "assets/import/mesh_frame.h"
-#include "components/surface.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Parallel to the axes.
 struct MeshBox {
@@ -39,4 +39,4 @@ std::optional<std::string> misplaced(const MeshBox& box, const AnatomyPart& part
 std::string frames_that_fit(const MeshBox& raw, const AnatomyPart& part, const AnatomyLandmarks& landmarks,
                             const std::vector<PlacedBone>& bones);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -14,7 +14,7 @@
 #include "assets/import/mesh_text.h"
 #include "assets/import/ply_header.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t most_ply_vertices = 3 * most_mesh_triangles;
@@ -255,4 +255,4 @@ Result<MeshFile> read_ply(std::string_view bytes, std::string_view path) {
   return join_mesh(reader.raw, path);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -10,7 +10,7 @@
 #include "assets/import/mesh_join.h"
 #include "assets/import/mesh_text.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t stl_head = 84, stl_facet = 50;
@@ -157,4 +157,4 @@ Result<MeshFile> read_stl(std::string_view bytes, std::string_view path) {
   return join_mesh(reader.raw, path);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

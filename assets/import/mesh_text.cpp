@@ -4,7 +4,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 bool is_blank(char c) {
@@ -121,4 +121,4 @@ std::string shown(std::string_view word) {
   return text + (word.size() > most ? "…'" : "'");
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

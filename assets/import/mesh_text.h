@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct MeshText {
   std::string_view bytes;
@@ -43,4 +43,4 @@ bool same_word(std::string_view word, std::string_view small);
 /// What a message may show of a file's or user's text: printable ASCII, at most 40 characters, in quotes.
 std::string shown(std::string_view word);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -8,7 +8,7 @@
 
 #include "assets/import/mesh_join.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t most_ply_elements = 64, most_ply_properties = 256;
@@ -176,4 +176,4 @@ Result<PlyHeader> read_ply_header(MeshText& text, std::string_view path) {
   return header;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "assets/import/mesh_text.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 enum class PlyFormat : std::uint8_t { ascii, little_endian, big_endian };
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -40,4 +40,4 @@ struct PlyHeader {
 /// and for more elements than the bytes that follow can hold.
 Result<PlyHeader> read_ply_header(MeshText& text, std::string_view path);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

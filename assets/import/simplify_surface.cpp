@@ -1,6 +1,5 @@
 #include "assets/import/simplify_surface.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,8 +9,9 @@
 
 #include "assets/import/mesh_pieces.h"
 #include "assets/surfaces/surface_mesh.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 Eigen::Vector3d at(const SurfaceMesh& mesh, std::uint32_t vertex) {
@@ -85,4 +85,4 @@ SurfaceMesh clustered(const SurfaceMesh& mesh, double cell_m) {
   return light;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "components/surface.h"
+#include <mobil/components/surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Without the connected pieces that hold less than `share` (0–1) of the triangles, and without unused vertices. The
 /// largest piece always stays. Returns how many pieces were taken away.
@@ -16,4 +16,4 @@ std::size_t remove_specks(SurfaceMesh& mesh, double share);
 /// Vertices move by less than a cell's diagonal. The mesh is returned as it is where `cell_m` is 0 or less.
 SurfaceMesh clustered(const SurfaceMesh& mesh, double cell_m);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -151,4 +151,4 @@ CutCount count_cuts(const SurfaceMesh& mesh, std::span<const std::uint32_t> piec
   return count;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "components/surface.h"
+#include <mobil/components/surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Pairs of triangles without a common vertex that cut each other, all of them and those of two different pieces.
 /// Triangles that touch, or lie in one plane, do not count.
@@ -20,4 +20,4 @@ struct CutCount {
 /// of boxes that only a tangle needs them.
 CutCount count_cuts(const SurfaceMesh& mesh, std::span<const std::uint32_t> piece, std::size_t most_pairs = 100'000);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Members 0 to count - 1, each at first a set of its own, known by its least member.
 struct UnionFind {
@@ -25,4 +25,4 @@ struct UnionFind {
   }
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_path.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_path.h>
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -83,4 +83,4 @@ DrawnLine line_through_belly(const MemberMuscle& muscle) {
   return line;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/activation.h"
+#include <mobil/components/activation.h>
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 // clang-format off
@@ -52,4 +52,4 @@ double excitation(const MemberExcitation& of, double cycle, double speed) {
                     static_cast<double>(least_activation), static_cast<double>(most_activation));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -13,9 +13,9 @@
 #include <span>
 #include <string_view>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The measured share, a sum of harmonics of the gait cycle whose coefficients are polynomials of speed s, the walk's
 /// over √(g · leg): Σₖ (c₂ₖ₋₁ cos 2πkφ + c₂ₖ sin 2πkφ), cᵢ = cᵢ₀ + cᵢ₁ s + cᵢ₂ s².
@@ -47,4 +47,4 @@ MemberExcitation member_excitation(const MemberMuscle& muscle);
 /// tick computes in lanes (systems/activation/excitation.h).
 double excitation(const MemberExcitation& of, double cycle, double speed);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

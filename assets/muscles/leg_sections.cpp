@@ -1,14 +1,14 @@
-#include "assets/muscles/leg_sections.h"
+#include <mobil/assets/muscles/leg_sections.h>
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
 #include "engine/exact_math.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -112,4 +112,4 @@ std::optional<LegEllipse> leg_ellipse(std::span<const LegSection> sections, doub
                     mix(a.ll, b.ll)};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/muscles/muscle_path.h"
-#include "assets/muscles/muscle_plan.h"
+#include <mobil/assets/muscles/muscle_path.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/engine/geometry.h>
 #include "engine/exact_math.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 double cosine_deg(double angle) {
@@ -62,4 +62,4 @@ std::vector<PathPlace> member_places(const Body& body, const MemberMuscle& membe
   return places;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

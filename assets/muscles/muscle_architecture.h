@@ -10,14 +10,14 @@
 //     of the muscle's path there in the anatomical position. The tendon includes what of it lies within the belly. The
 //     model's quadriceps end on the kneecap.
 //   Where the model has no such muscle, its tendon is what the path leaves beside the fibres.
-//   Density 1060 kg/m³: Mendez & Keys, Metabolism 9, 1960. Volumes: assets/muscles/muscle_table.h.
+//   Density 1060 kg/m³: Mendez & Keys, Metabolism 9, 1960. Volumes: mobil/muscle_table.h.
 
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
-#include "components/body.h"
+#include <mobil/components/body.h>
+#include <mobil/muscle_table.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr double muscle_density_kg_m3 = 1060;
 
@@ -33,7 +33,7 @@ struct MuscleParameters {
 };
 
 /// Belly and fibres grow with stature, tendon and its fibres with the muscle's path, as OpenSim scales its models;
-/// the volume is member_volume_m3's (assets/muscles/muscle_plan.h).
+/// the volume is member_volume_m3's (mobil/assets/muscles/muscle_plan.h).
 MuscleParameters member_parameters(const Body& body, const MemberMuscle& member);
 MuscleParameters muscle_parameters(const Body& body, Muscle muscle);
 
@@ -46,4 +46,4 @@ struct PathPlace {
 /// the shank's frame.
 std::vector<PathPlace> member_places(const Body& body, const MemberMuscle& member);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

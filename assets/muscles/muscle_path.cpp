@@ -1,15 +1,15 @@
-#include "assets/muscles/muscle_path.h"
+#include <mobil/assets/muscles/muscle_path.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
 #include "engine/exact_math.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -210,4 +210,4 @@ double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFram
   return muscle_length(muscle, member_lengths(muscle, scale, leg));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "assets/muscles/muscle_plan.h"
+#include <mobil/assets/muscles/muscle_plan.h>
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
 #include "engine/exact_math.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -116,4 +116,4 @@ Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle) {
   return plan;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 
 #include <algorithm>
 #include <vector>
@@ -6,7 +6,7 @@
 #include "assets/muscles/drawn_line.h"
 #include "assets/muscles/published_frames.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace published;
@@ -203,4 +203,4 @@ double handsfield_volume_cm3(const MemberMuscle& muscle, double height_m, double
   return muscle.limb_share * (47 * mass_kg * height_m + 1285) + muscle.offset_cm3;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,9 +4,9 @@
 //
 // Source: the gait2392 model of OpenSim (CC BY 3.0; Delp et al. 1990).
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 
-namespace mobil::published {
+namespace mobil::inline v0_3::published {
 
 /// The best pin's place from the origin of the published shank, and the published hip–knee and knee–ankle vectors.
 inline constexpr double pin_x = -0.00478, pin_y = -0.01264;
@@ -63,4 +63,4 @@ inline constexpr KneeTrack rolling = {{{0, 0, 0},
                                        to_mobil(0.001649, -0.000266, 0),
                                        to_mobil(0.004426, -0.000305, 0)}};
 
-}  // namespace mobil::published
+}  // namespace mobil::inline v0_3::published

@@ -5,7 +5,7 @@
 
 #include "assets/reduction/reduced_basis.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Calls f(array, length) with each array of a basis (const or not) and the length that its options say, in a fixed
 /// order. The motions of its middle body (`turned`) may lack: their lengths are then 0.
@@ -42,4 +42,4 @@ void each_number(Basis& basis, F&& f) {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -14,7 +14,7 @@
 #include "assets/reduction/reduced_bellies.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 // Multiplications and additions are never fused here: the same bits with and without that instruction.
 #if HWY_HAVE_FLOAT64
@@ -129,7 +129,7 @@ HWY_INLINE V sub(V a, V b) {
   return dn::Sub(a, b);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,20 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "assets/reduction/dense.h"
 #include "assets/reduction/reduced_belly.h"
 #include "assets/reduction/reduced_eigen.h"
 #include "assets/reduction/reduced_operators.h"
 #include "assets/reduction/reduced_tension.h"
 #include "assets/reduction/reduced_training.h"
 #include "assets/reduction/symmetric_eigen.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -111,21 +112,21 @@ void make_orthonormal(Projected& p, Columns& fields, Index lifts) {
   for (; kept < all; ++kept) {
     Eigen::VectorXd v = Eigen::VectorXd::Unit(all, kept);
     for (int round = 0; round < 2; ++round) {
-      const Eigen::VectorXd pull = p.mass * v;
+      const Eigen::VectorXd pull = product(p.mass, v);
       for (Index c = lifts; c < kept; ++c) v -= turn.col(c).dot(pull) * turn.col(c);
     }
-    const double square = v.dot(p.mass * v);
+    const double square = v.dot(product(p.mass, v));
     if (!(square > 0.01 * p.mass(kept, kept))) break;  // the coarse mesh does not know this one
     turn.col(kept) = v / std::sqrt(square);
   }
-  const MatrixXd used = turn.leftCols(kept);
+  const MatrixXd used = turn.leftCols(kept), across = transposed(used);
   for (MatrixXd* const m : {&p.mass, &p.a, &p.b, &p.c, &p.foundation, &p.tension}) {
-    if (m->size() > 0) *m = used.transpose() * *m * used;
+    if (m->size() > 0) *m = product(product(across, *m), used);
   }
   for (MatrixXd* const m : {&p.frame, &p.traction}) {
-    if (m->size() > 0) *m = used.transpose() * *m;
+    if (m->size() > 0) *m = product(across, *m);
   }
-  fields = fields * used;
+  fields = columns_product(fields, used);
 }
 
 std::vector<double> row_major(const Eigen::Ref<const MatrixXd>& m) {
@@ -165,11 +166,12 @@ std::vector<double> fit_of(const ReducedBasis& basis) {
   for (Index row = 0; row < rows; ++row) weight(row) = basis.control_weight[static_cast<std::size_t>(row / 3)];
   const MatrixXd weighted = weight.asDiagonal() * phi;
   // Control points may be too few to tell all vectors apart: what they cannot see is left out of every one.
-  const SymmetricEigen gram = symmetric_eigen(phi.transpose() * weighted);
+  const SymmetricEigen gram = symmetric_eigen(product(transposed(phi), weighted));
   const double least = 1e-6 * gram.values(count - 1);
   const Eigen::VectorXd inverse =
       gram.values.unaryExpr([least](double value) { return value > least ? 1 / value : 0.0; });
-  return row_major(gram.vectors * inverse.asDiagonal() * gram.vectors.transpose() * weighted.transpose());
+  const MatrixXd scaled = gram.vectors * inverse.asDiagonal();
+  return row_major(product(product(scaled, transposed(gram.vectors)), transposed(weighted)));
 }
 
 /// The template scaled so: across and along.
@@ -221,7 +223,7 @@ Result<Columns> trained_vectors(const Training& given, Index lifts) {
   const Index moving = (columns.rowwise().squaredNorm().array() > 0).count();
   const Index real = (gram.values.array() > 1e-14 * gram.values(size - 1)).count();
   const Index count = std::min({Index{most_vectors}, real, moving});
-  Columns vectors = columns * gram.vectors.rowwise().reverse().leftCols(count);
+  Columns vectors = columns_product(columns, gram.vectors.rowwise().reverse().leftCols(count));
   orthonormalise(given.terms, Columns(vectors.rows(), 0), Columns(vectors.rows(), 0), vectors);
   Columns fields(vectors.rows(), lifts + vectors.cols());
   fields << first->lift, vectors;
@@ -382,4 +384,4 @@ ReducedBasis truncated(const ReducedBasis& basis, std::uint32_t vectors) {
   return cut;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

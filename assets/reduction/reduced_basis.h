@@ -17,13 +17,13 @@
 #include <span>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/critical_step.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/stiffness_terms.h"
-#include "components/muscle.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr std::uint32_t most_vectors = 32;
 inline constexpr std::size_t frame_inputs = 12;  // constant x y z, then the gradient's rows, as in FrameLoad
@@ -104,4 +104,4 @@ Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Materi
 /// The basis of its first `vectors` (1 to all of them), bit for bit as if made with so few.
 ReducedBasis truncated(const ReducedBasis& basis, std::uint32_t vectors);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

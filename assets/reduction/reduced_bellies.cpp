@@ -8,7 +8,7 @@
 #include "assets/reduction/reduced_bellies.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assets/reduction/reduced_bellies.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 #include "assets/reduction/double_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 /// A symmetric matrix, its upper half, and its eigenvectors to be, a row each.
 struct Eigen {
@@ -271,13 +271,13 @@ void solve_all(const ReducedBasis& basis, const Lanes<double>& across, const Lan
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include <fmt/format.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 HWY_EXPORT(solve_all);
@@ -337,5 +337,5 @@ ReducedBelly belly_of(const ReducedBellies& bellies, std::size_t lane) {
   return one;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "assets/reduction/reduced_belly.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What ReducedBelly (reduced_belly.h) has of one body, of sixteen. Lanes past `count` hold no numbers of use. The
 /// caller sets `tuned` before solve_bellies.
@@ -64,4 +64,4 @@ Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale
                            ReducedBellies& bellies);
 ReducedBelly belly_of(const ReducedBellies& bellies, std::size_t lane);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include <mobil/components/lanes.h>
 #include "assets/reduction/reduced_rows.h"
-#include "components/lanes.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// The block of bodies that are all this one.
@@ -124,4 +124,4 @@ void show_state(const ReducedBasis& basis, const ReducedBelly& belly, std::span<
   show(basis, rate[0], speed, velocity);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,15 +6,15 @@
 #include <cstdint>
 #include <span>
 
+#include <mobil/engine/error.h>
 #include "assets/reduction/reduced_basis.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
-/// A₀: the activation whose motions a tuned belly moves along, about that of the calf in who stands. A foundation leaves
-/// the frequencies of many motions nearly alike, and the least tension decides which these are. Along the motions of no
-/// tension, what tension couples cannot be left out (vibration across, against a nonlinear solution: 14 to 42 % off
-/// instead of 7 to 12).
+/// A₀: the activation whose motions a tuned belly moves along, about that of the calf in who stands. A foundation
+/// leaves the frequencies of many motions nearly alike, and the least tension decides which these are. Along the
+/// motions of no tension, what tension couples cannot be left out (vibration across, against a nonlinear solution: 14
+/// to 42 % off instead of 7 to 12).
 inline constexpr double tuned_activation = 0.05;
 /// At full activation ω² is at least that part of what it is at `tuned_activation`: tension stiffens.
 inline constexpr double least_taut_stiffness = 0.25;
@@ -68,4 +68,4 @@ void show_state(const ReducedBasis& basis, const ReducedBelly& belly, std::span<
                 std::span<const double> rate, std::span<const float> state, std::span<float> displacement,
                 std::span<float> velocity);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,7 +1,7 @@
 #include "assets/reduction/reduced_cholesky.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assets/reduction/reduced_cholesky.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "assets/reduction/double_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 // Every entry is one sum in the order of its terms, whatever the width of the vectors.
@@ -187,11 +187,11 @@ void solve_one(const double* entry, std::size_t size, std::size_t reach, std::si
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(factorise_all);
 HWY_EXPORT(solve_one);
@@ -215,5 +215,5 @@ void BandCholesky::solve(Eigen::Ref<Columns> columns) const {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -2,11 +2,12 @@
 // Cholesky factor of a banded matrix in double precision, of tens of thousands of rows with a thousand beside the
 // diagonal: in blocks, so that nearly all of it is products of small dense matrices.
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
-namespace mobil {
+#include "engine/eigen.h"
+
+namespace mobil::inline v0_3 {
 
 /// A few columns over the rows of a problem, a row's numbers side by side.
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -35,4 +36,4 @@ class BandCholesky {
   std::vector<double> entry_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t most = most_vectors;
@@ -130,4 +130,4 @@ bool solve_small(double (*matrix)[most_vectors], std::size_t size, SmallEigen& r
   return true;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

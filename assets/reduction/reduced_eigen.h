@@ -5,7 +5,7 @@
 
 #include "assets/reduction/reduced_basis.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct SmallEigen {
   double value[most_vectors];                 // ascending
@@ -17,4 +17,4 @@ struct SmallEigen {
 /// converge (numbers that are not finite).
 bool solve_small(double (*matrix)[most_vectors], std::size_t size, SmallEigen& result);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,13 +1,14 @@
 #include "assets/reduction/reduced_operators.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "assets/fem/kernel_arrays.h"
+#include "assets/reduction/dense.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -91,7 +92,7 @@ Eigen::MatrixXd inner(Eigen::Ref<const Columns> left, Eigen::Ref<const Columns> 
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(left.cols(), right.cols());
   for (Index row = 0; row < left.rows(); row += piece) {
     const Index rows = std::min(piece, left.rows() - row);
-    sum.noalias() += left.middleRows(row, rows).transpose() * right.middleRows(row, rows);
+    add_inner(left.middleRows(row, rows), right.middleRows(row, rows), sum);
   }
   return sum;
 }
@@ -190,4 +191,4 @@ Columns every_other(const Cells& cells, const Columns& fields) {
   return taken;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

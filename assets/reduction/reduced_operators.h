@@ -2,16 +2,16 @@
 // What a belly's stiffness and mass make of a few fields at once. Rows of Columns are all displacements of a mesh,
 // three a node, the faces' too; mass is half lumped, half consistent, whose errors in frequency are opposite in sign.
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/fem/critical_step.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/stiffness_terms.h"
 #include "assets/reduction/reduced_cholesky.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Σ of a, b and c times the terms A, B, C; M₁ in x and y, and in z: any part of a reduced problem.
 struct OperatorMix {
@@ -66,4 +66,4 @@ constexpr std::uint32_t nested_node(const Cells& cells, const Cells& coarse, std
   return node_index(cells, i * (cells[0] / coarse[0]), j * (cells[1] / coarse[1]), k * (cells[2] / coarse[2]));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

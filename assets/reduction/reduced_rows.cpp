@@ -1,7 +1,7 @@
 #include "assets/reduction/reduced_rows.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assets/reduction/reduced_rows.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <bit>
@@ -11,7 +11,7 @@
 #include "engine/exact_math.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// Sine and cosine of 0 ≤ x < 1e6 to some 1e-15: π/2 in three parts, Taylor's series.
@@ -125,11 +125,11 @@ void rest(const ReducedBasis& basis, const ReducedBellies& of, const Lanes<float
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 HWY_EXPORT(swings);
@@ -221,5 +221,5 @@ void place_at_rest(const ReducedBasis& basis, const ReducedBellies& bellies, con
   HWY_DYNAMIC_DISPATCH(rest)(basis, bellies, input, displacement);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -4,7 +4,7 @@
 
 #include "assets/reduction/reduced_bellies.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// `motion`: reduced_motion_width() words. Of tuned bellies neither damping nor tick is read: a tick makes both.
 void write_motions(const ReducedBellies& bellies, double damping_per_s, double tick_s, float* motion);
@@ -14,4 +14,4 @@ void write_shapes(const ReducedBellies& bellies, double damping_per_s, float* sh
 void place_at_rest(const ReducedBasis& basis, const ReducedBellies& bellies, const Lanes<float>& input,
                    float* displacement);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,9 +4,10 @@
 #include <cmath>
 
 #include "assets/fem/finite_element.h"
+#include "assets/reduction/dense.h"
 #include "assets/reduction/reduced_operators.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -55,4 +56,4 @@ Eigen::MatrixXd tension_stiffness(const HexahedralMesh& mesh, double shear_pa, c
   return sum;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,12 +2,11 @@
 // What fibres that pull add to a belly's stiffness: they hold what they run along as a taut string does, and the more
 // tightly the farther they are drawn out.
 
-#include <Eigen/Core>
-
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/reduction/reduced_cholesky.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// fieldsᵀ·G·fields of a mesh in its own size, N/m: G is the tangent at rest of the active stress of full activation
 /// (assets/fem/finite_tissue.h, its ratio to the shear modulus kept), along the mesh's lines,
@@ -15,4 +14,4 @@ namespace mobil {
 /// Rows of `fields` are displacements, three a node. The mesh's elements must not be inverted.
 Eigen::MatrixXd tension_stiffness(const HexahedralMesh& mesh, double shear_pa, const Columns& fields);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,13 +1,14 @@
 #include "assets/reduction/reduced_training.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "assets/reduction/dense.h"
 #include "assets/reduction/symmetric_eigen.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Eigen::Index;
@@ -81,7 +82,8 @@ Vibrations vibrations(const Training& training, const MovingOperator& inverse, c
   }
   const auto basis = space.leftCols(size);
   const SymmetricEigen eigen = symmetric_eigen(inner(basis, applied(terms, stiffness, basis)));
-  return {eigen.values, basis * eigen.vectors, mass_space.leftCols(size) * eigen.vectors};
+  return {eigen.values, columns_product(basis, eigen.vectors),
+          columns_product(mass_space.leftCols(size), eigen.vectors)};
 }
 
 /// E[y·yᵀ] of ÿ_j + α·ẏ_j + ω_j²·y_j = white noise of covariances `push`.
@@ -106,8 +108,8 @@ Columns orthonormalise(const StiffnessTerms& terms, const Eigen::Ref<const Colum
     VectorXd least = VectorXd::Zero(fields.cols());
     if (basis.cols() > 0) {
       const MatrixXd others = inner(mass_basis, fields);
-      fields.noalias() -= basis * others;
-      mass_fields.noalias() -= mass_basis * others;
+      subtract_product(fields, basis, others);
+      subtract_product(mass_fields, mass_basis, others);
       least = 1e-20 * others.colwise().squaredNorm().transpose();
     }
     const MatrixXd factor = gram_factor(inner(fields, mass_fields), least, kept);
@@ -162,15 +164,16 @@ Result<TrainedBody> train(const Training& training, double across, double along)
   const Vibrations v = vibrations(training, inverse, stiffness, rest);
   // A kick of an input's rate moves vibration j by so much: what is at rest under it, seen by the vibration.
   const MatrixXd kicked = inner(v.shape, mass_times(terms, rest)) * kick.asDiagonal() / std::sqrt(tick_s);
-  const MatrixXd gramian = position_gramian(v.omega2, std::max(o.damping_per_s, 1.0), kicked * kicked.transpose());
+  const MatrixXd gramian =
+      position_gramian(v.omega2, std::max(o.damping_per_s, 1.0), product(kicked, transposed(kicked)));
   const SymmetricEigen eigen = symmetric_eigen(gramian);
   const Index columns = std::min(training.most_columns, gramian.cols());
   const VectorXd large = eigen.values.tail(columns).cwiseMax(0.0).cwiseSqrt();
   TrainedBody body;
-  body.kicks = v.shape * (eigen.vectors.rightCols(columns) * large.asDiagonal());
+  body.kicks = columns_product(v.shape, eigen.vectors.rightCols(columns) * large.asDiagonal());
   body.lift = held ? Columns(rest.leftCols(1)) : Columns(rest.rows(), 0);
   body.statics = rest.rightCols(inputs - body.lift.cols()) * size.tail(inputs - body.lift.cols()).asDiagonal();
   return body;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

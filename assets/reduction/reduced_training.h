@@ -3,15 +3,15 @@
 // load times what the load is in walking, and the position controllability Gramian of its vibrations under kicks of
 // each load's rate, as a walk's polygonal inputs give once a tick.
 
-#include <Eigen/Core>
 #include <cstdint>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/fem/stiffness_terms.h"
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_operators.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What bodies are trained on.
 struct Training {
@@ -39,4 +39,4 @@ inline constexpr double walk_stretch_m = 0.0158;
 Columns orthonormalise(const StiffnessTerms& terms, const Eigen::Ref<const Columns>& basis,
                        const Eigen::Ref<const Columns>& mass_basis, Columns& fields);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

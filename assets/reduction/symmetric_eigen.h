@@ -1,9 +1,9 @@
 #pragma once
 // Eigenvalues and eigenvectors of a dense symmetric matrix of a few hundred rows: Eigen's solver, compiled once.
 
-#include <Eigen/Core>
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct SymmetricEigen {
   Eigen::VectorXd values;   // ascending
@@ -13,4 +13,4 @@ struct SymmetricEigen {
 /// Reads the lower half alone.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,10 +1,10 @@
-#include "assets/skin/body_form.h"
+#include <mobil/assets/skin/body_form.h>
 
 #include <array>
 #include <numbers>
 #include <vector>
 
-namespace mobil::form {
+namespace mobil::inline v0_3::form {
 namespace {
 
 // How widely head, legs and arms are rounded into the trunk.
@@ -96,4 +96,4 @@ Vec BodyForm::slope(const Vec& p) const {
   return {along({e, 0, 0}), along({0, e, 0}), along({0, 0, e})};
 }
 
-}  // namespace mobil::form
+}  // namespace mobil::inline v0_3::form

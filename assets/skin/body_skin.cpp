@@ -1,14 +1,14 @@
-#include "assets/skin/body_skin.h"
+#include <mobil/assets/skin/body_skin.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/skin/form_mesh.h"
 #include "assets/surfaces/coarser_surface.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -263,4 +263,4 @@ BodySkin make_body_skin(const Body& body, const TrunkFit& fit, SkinDetail detail
   return skin;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,10 +1,10 @@
-#include "assets/skin/clothes.h"
+#include <mobil/assets/skin/clothes.h>
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -169,4 +169,4 @@ std::vector<double> cloth_thickness(const BodyForm& form, const std::vector<Vec>
   return thickness;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

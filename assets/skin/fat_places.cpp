@@ -1,12 +1,12 @@
-#include "assets/skin/fat_places.h"
+#include <mobil/assets/skin/fat_places.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -46,4 +46,4 @@ FatPlace fat_place(const form::BodyForm& form, const Vec& rest, double arm) {
   return place;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

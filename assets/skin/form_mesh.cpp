@@ -13,7 +13,7 @@
 
 #include "engine/row_hash.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -296,4 +296,4 @@ void split_long_edges(const BodyForm& body, SurfaceMesh& mesh, double longest_m)
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

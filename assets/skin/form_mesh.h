@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "assets/skin/body_form.h"
-#include "components/surface.h"
+#include <mobil/assets/skin/body_form.h>
+#include <mobil/components/surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Triangles of the body's surface in the pose that is meshed (body_form.h), closed, wound outwards; vertices lie on
 /// the surface to 0.1 mm. Cells are 12 mm wide (of 1.75 m), half of that on head, hands and feet, a quarter on face and
@@ -27,4 +27,4 @@ std::vector<form::Vec> neighbour_means(std::span<const std::uint32_t> triangle, 
 /// Moves a place to the body's surface along its slope.
 form::Vec onto_surface(const form::BodyForm& body, form::Vec p, int steps);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

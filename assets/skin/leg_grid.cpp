@@ -1,11 +1,11 @@
-#include "assets/skin/leg_grid.h"
+#include <mobil/assets/skin/leg_grid.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "assets/skin/body_form.h"
+#include <mobil/assets/skin/body_form.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -64,4 +64,4 @@ LegPlace leg_place(const form::LegForm& leg, const Vec& rest, double share) {
           static_cast<float>(amount)};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

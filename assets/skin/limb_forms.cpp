@@ -1,11 +1,11 @@
-#include "assets/skin/limb_forms.h"
+#include <mobil/assets/skin/limb_forms.h>
 
 #include <array>
 
-#include "assets/body/anthropometry.h"
-#include "components/segments.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/segments.h>
 
-namespace mobil::form {
+namespace mobil::inline v0_3::form {
 namespace {
 
 using namespace geometry;
@@ -177,4 +177,4 @@ double ArmForm::distance(const Vec& p) const {
   return smooth_union(d, hand({shoulder_.x - p.x, along - length_m_, p.z - shoulder_.z}), 0.015);
 }
 
-}  // namespace mobil::form
+}  // namespace mobil::inline v0_3::form

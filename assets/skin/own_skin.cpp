@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <limits>
 
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/space_cells.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -249,4 +249,4 @@ OwnSkin bind_own_skin(const BodySkin& skin, std::span<const Vec3<float>> positio
   return own;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

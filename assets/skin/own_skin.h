@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "assets/skin/body_skin.h"
-#include "components/lanes.h"
-#include "components/surface.h"
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/components/lanes.h>
+#include <mobil/components/surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Where a vertex is beside a triangle of the body's skin: the corners and their weights (sum 1) of the point nearest
 /// to it, how far off it is, m, and its normal, both along the triangle's first edge, across it in the skin, and
@@ -38,4 +38,4 @@ struct OwnSkin {
 OwnSkin bind_own_skin(const BodySkin& skin, std::span<const Vec3<float>> position, std::span<const Vec3<float>> normal,
                       std::span<const SurfaceMesh> legs, bool shorts_stay = false);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

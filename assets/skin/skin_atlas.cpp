@@ -1,4 +1,4 @@
-#include "assets/skin/skin_atlas.h"
+#include <mobil/skin_atlas.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <numbers>
 #include <tuple>
 
-#include "assets/body/anthropometry.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -274,4 +274,4 @@ const SkinAtlas& skin_atlas(Sex sex, SkinDetail detail) {
   return men[d];
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

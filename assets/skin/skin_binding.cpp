@@ -1,4 +1,4 @@
-#include "assets/skin/skin_binding.h"
+#include <mobil/assets/skin/skin_binding.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -209,4 +209,4 @@ std::vector<Vec> skin_at_rest(const form::BodyForm& form, const std::vector<Vec>
   return rest;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

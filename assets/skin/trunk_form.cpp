@@ -1,13 +1,13 @@
-#include "assets/skin/trunk_form.h"
+#include <mobil/assets/skin/trunk_form.h>
 
 #include <algorithm>
 #include <array>
 #include <numbers>
 
-#include "assets/body/anthropometry.h"
-#include "components/segments.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/segments.h>
 
-namespace mobil::form {
+namespace mobil::inline v0_3::form {
 namespace {
 
 using namespace geometry;
@@ -191,4 +191,4 @@ double head_distance(const Vec& p, Sex sex) {
   return smooth_union(d, ear, 0.008);
 }
 
-}  // namespace mobil::form
+}  // namespace mobil::inline v0_3::form

@@ -3,11 +3,11 @@
 #include <numbers>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 
 using namespace geometry;
 
@@ -49,4 +49,4 @@ void add_pair(SurfaceMesh& mesh, const SurfaceMesh& part) {
   append(mesh, mirror_image(part));
 }
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

@@ -5,11 +5,11 @@
 #include <array>
 #include <initializer_list>
 
-#include "assets/muscles/leg_sections.h"
+#include <mobil/assets/muscles/leg_sections.h>
+#include <mobil/components/body.h>
 #include "assets/surfaces/tube.h"
-#include "components/body.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 
 /// A body's lengths in mm of the measured man, so that shapes can be drawn in his numbers.
 struct Proportions {
@@ -32,4 +32,4 @@ void add_ellipsoid(SurfaceMesh& mesh, const Vec3<double>& centre, const Vec3<dou
 /// Adds `part` and its mirror image.
 void add_pair(SurfaceMesh& mesh, const SurfaceMesh& part);
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

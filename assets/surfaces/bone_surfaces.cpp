@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
 #include "assets/surfaces/bone_surfaces_arm.h"
 #include "assets/surfaces/bone_surfaces_leg.h"
@@ -9,9 +10,8 @@
 #include "assets/surfaces/bone_surfaces_skull.h"
 #include "assets/surfaces/bone_surfaces_trunk.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using namespace geometry;
 
@@ -48,4 +48,4 @@ std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
   return all;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

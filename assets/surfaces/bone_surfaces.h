@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "components/body.h"
-#include "components/surface.h"
+#include <mobil/components/body.h>
+#include <mobil/components/surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One closed surface (of several parts) a segment, in the order of `Segment`, each in its segment's frame, m, wound
 /// outwards; the left ones are the right ones' mirror images. Joints lie where the body has them, what is between
@@ -15,4 +15,4 @@ namespace mobil {
 /// leg_sections.h), the others are drawn after anatomical plates.
 std::vector<BoneSurface> make_bone_surfaces(const Body& body);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

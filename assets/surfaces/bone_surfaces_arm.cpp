@@ -2,11 +2,11 @@
 
 #include <array>
 
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 namespace {
 
 using namespace geometry;
@@ -157,4 +157,4 @@ SurfaceMesh thumb(const Proportions& p) {
   return mesh;
 }
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

@@ -3,7 +3,7 @@
 
 #include "assets/surfaces/bone_shapes.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 
 SurfaceMesh clavicle_and_scapula(const Proportions& p);
 SurfaceMesh humerus(const Proportions& p);
@@ -12,4 +12,4 @@ SurfaceMesh hand(const Proportions& p);
 SurfaceMesh fingers(const Proportions& p);
 SurfaceMesh thumb(const Proportions& p);
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

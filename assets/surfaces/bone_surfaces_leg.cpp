@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
 #include "assets/surfaces/leg_station.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 namespace {
 
 using namespace geometry;
@@ -167,4 +167,4 @@ SurfaceMesh toes(const Proportions& p) {
   return mesh;
 }
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

@@ -3,7 +3,7 @@
 
 #include "assets/surfaces/bone_shapes.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 
 SurfaceMesh femur(const Proportions& p);
 SurfaceMesh patella();
@@ -11,4 +11,4 @@ SurfaceMesh tibia_and_fibula(const Proportions& p);
 SurfaceMesh foot(const Proportions& p);
 SurfaceMesh toes(const Proportions& p);
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

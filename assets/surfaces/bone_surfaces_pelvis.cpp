@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 using namespace geometry;
 
 SurfaceMesh pelvis() {
@@ -88,4 +88,4 @@ SurfaceMesh pelvis() {
   return mesh;
 }
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

@@ -1,10 +1,10 @@
 #pragma once
 // The pelvis, in mm of a man of reference_height_mm, in the frame of its segment.
 
-#include "components/surface.h"
+#include <mobil/components/surface.h>
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 
 SurfaceMesh pelvis();
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

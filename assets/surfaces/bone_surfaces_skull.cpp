@@ -1,9 +1,9 @@
 #include "assets/surfaces/bone_surfaces_skull.h"
 
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
-#include "engine/geometry.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 using namespace geometry;
 
 SurfaceMesh skull() {
@@ -63,4 +63,4 @@ SurfaceMesh skull() {
   return mesh;
 }
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

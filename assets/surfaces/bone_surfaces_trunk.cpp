@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
-#include "engine/geometry.h"
 
-namespace mobil::bones {
+namespace mobil::inline v0_3::bones {
 namespace {
 
 using namespace geometry;
@@ -168,4 +168,4 @@ SurfaceMesh vertebra(const Proportions& p, Segment segment) {
   return mesh;
 }
 
-}  // namespace mobil::bones
+}  // namespace mobil::inline v0_3::bones

@@ -9,7 +9,7 @@
 
 #include "assets/surfaces/surface_mesh.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 #if defined(MOBIL_PORTABLE)
 
@@ -46,4 +46,4 @@ SurfaceMesh coarser(const SurfaceMesh& mesh, double share) {
 
 #endif
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

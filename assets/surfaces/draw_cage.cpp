@@ -5,13 +5,13 @@
 #include <cmath>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/muscle_table.h>
 #include "assets/surfaces/muscle_surfaces.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -203,4 +203,4 @@ CageStations draw_cage(Muscle muscle) {
   return stations_of(stations);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,10 +3,10 @@
 
 #include "assets/surfaces/muscle_cage.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The sections that muscle_cage promises, found from the surfaces of the reference body: some ten milliseconds. To
 /// 1/128 mm the same on every machine.
 CageStations draw_cage(Muscle muscle);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 TubeStation leg_station(const LegFrame& leg, const LegSection& s) {
   return {leg_point(leg, static_cast<double>(s.level), static_cast<double>(s.lateral), static_cast<double>(s.anterior)),
@@ -10,4 +10,4 @@ TubeStation leg_station(const LegFrame& leg, const LegSection& s) {
           static_cast<double>(s.angle_deg) * std::numbers::pi / 180};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,12 +1,12 @@
 #pragma once
 // The leg's measured sections as stations of tubes.
 
-#include "assets/muscles/leg_sections.h"
+#include <mobil/assets/muscles/leg_sections.h>
 #include "assets/surfaces/tube.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Stations for `loft`, whose reference direction must be forward (+z) and normal down: metres, world axes.
 TubeStation leg_station(const LegFrame& leg, const LegSection& section);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

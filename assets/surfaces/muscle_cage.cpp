@@ -1,6 +1,6 @@
 #include "assets/surfaces/muscle_cage.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 // t, offset x and y, semi x and y, shear x and y, m.
@@ -173,4 +173,4 @@ const CageStations& muscle_cage(Muscle muscle) {
   return cages[static_cast<std::size_t>(muscle)];
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

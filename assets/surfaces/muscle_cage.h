@@ -4,10 +4,10 @@
 #include <array>
 #include <cstddef>
 
-#include "assets/fem/hexahedral_mesh.h"
-#include "components/muscle.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The mesh of a muscle's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. Its sections
 /// follow the surface that it would have alone (MuscleRoom). A single muscle's mesh has the muscle's volume; a group's
@@ -21,4 +21,4 @@ const CageStations& muscle_cage(Muscle muscle);
 /// How the elements of templates are graded: finer towards the ends, where bellies taper and are held.
 inline constexpr Grading belly_grading{.across = 1, .along = 1.5};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "assets/body/between.h"
-#include "assets/body/leg_profile.h"
-#include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/assets/body/between.h>
+#include <mobil/assets/body/leg_profile.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/muscle_table.h>
 #include "assets/surfaces/leg_station.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -408,4 +408,4 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, MuscleRoom room
   return all;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "assets/surfaces/surface_binding.h"
-#include "components/body.h"
-#include "components/muscle.h"
-#include "components/surface.h"
+#include <mobil/assets/surfaces/surface_binding.h>
+#include <mobil/components/body.h>
+#include <mobil/components/muscle.h>
+#include <mobil/components/surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A muscle surface with the meshes that can drive it: its own muscle's where that is simulated, else its group's
 /// (tendons and ligaments have no other). `tendon`: one a vertex, 0 in the belly to 1 in the tendon. A ligament follows
@@ -28,7 +28,7 @@ struct GroupSurface {
 std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, Muscle muscle);
 
 /// How muscles are drawn: as they would grow alone, away from the bone; or cut back to the muscle beneath and to the
-/// leg's skin, whose measures are mean people's (assets/body/leg_profile.h), growing until their volume is met.
+/// leg's skin, whose measures are mean people's (mobil/assets/body/leg_profile.h), growing until their volume is met.
 enum class MuscleRoom : std::uint8_t { alone, together };
 
 /// The members in the order of member_muscles(), then the calcaneal tendon and the patellar ligament; right side, world
@@ -40,4 +40,4 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, MuscleRoom room
 /// Volume of each member in this body, its physique included, m³, in the order of member_muscles().
 std::vector<double> member_volumes_m3(const Body& body);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

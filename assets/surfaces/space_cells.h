@@ -10,10 +10,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
 #include "engine/row_hash.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 class SpaceCells {
  public:
@@ -57,4 +57,4 @@ class SpaceCells {
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,12 +1,12 @@
-#include "assets/surfaces/surface_binding.h"
+#include <mobil/assets/surfaces/surface_binding.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -229,4 +229,4 @@ void bind_ligament(MuscleSurface& surface, const Vec3<float>& origin_m, const Ve
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

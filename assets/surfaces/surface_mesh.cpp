@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <utility>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using namespace geometry;
 
@@ -56,4 +56,4 @@ double enclosed_volume(const SurfaceMesh& mesh) {
   return sum / 6;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "components/surface.h"
+#include <mobil/components/surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Puts `part` beside what `mesh` holds already.
 void append(SurfaceMesh& mesh, const SurfaceMesh& part);
@@ -27,4 +27,4 @@ SurfaceMesh mirror_image(const SurfaceMesh& mesh);
 /// parts count twice.
 double enclosed_volume(const SurfaceMesh& mesh);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

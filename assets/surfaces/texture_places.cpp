@@ -1,15 +1,16 @@
-#include "assets/surfaces/texture_places.h"
+#include <mobil/assets/surfaces/texture_places.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <utility>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
+#include "assets/reduction/dense.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -54,14 +55,13 @@ struct MiddleLine {
 std::vector<Vec> middle_of(std::span<const Vec3<float>> position, const std::vector<double>& along) {
   const auto powers = [](double t) { return Eigen::RowVector4d(1, t, t * t, t * t * t); };
   const auto rows = static_cast<Eigen::Index>(position.size());
-  Eigen::Matrix<double, Eigen::Dynamic, 4> power(rows, 4);
-  Eigen::Matrix<double, Eigen::Dynamic, 3> place(rows, 3);
+  Eigen::MatrixXd power(rows, 4), place(rows, 3);
   for (std::size_t v = 0; v < position.size(); ++v) {
     const auto row = static_cast<Eigen::Index>(v);
     power.row(row) = powers(2 * along[v] - 1);
     place.row(row) << position[v].x, position[v].y, position[v].z;
   }
-  const Eigen::Matrix<double, 4, 3> cubic = power.colPivHouseholderQr().solve(place);
+  const Eigen::Matrix<double, 4, 3> cubic = least_squares(power, place);
   std::vector<Vec> middle;
   for (std::size_t i = 0; i <= steps; ++i) {
     const Eigen::RowVector3d at = powers(2 * static_cast<double>(i) / steps - 1) * cubic;
@@ -167,4 +167,4 @@ std::vector<AlongStencil> along_stencils(std::span<const std::uint32_t> triangle
   return stencil;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -174,4 +174,4 @@ SurfaceMesh ellipsoid(const Vec3<double>& centre, const Vec3<double>& semi, int 
   return mesh;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "components/surface.h"
+#include <mobil/components/surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One elliptical section: its centre, its two semi-axes, and the angle (rad) of the first from the tube's reference
 /// direction u towards v = normal × u. `bow` bends the section: its points move along its second axis by
@@ -48,4 +48,4 @@ SurfaceMesh loft(std::span<const TubeStation> stations, const TubeShape& shape =
 /// A closed ellipsoid with its axes along x, y and z.
 SurfaceMesh ellipsoid(const Vec3<double>& centre, const Vec3<double>& semi, int rings = 8, int segments = 10);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

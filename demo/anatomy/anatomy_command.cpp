@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/png.h>
 #include "demo/anatomy/anatomy_picture.h"
 #include "demo/anatomy/anatomy_table.h"
 #include "demo/program/commands.h"
-#include "systems/capture/png.h"
 
 namespace mobil {
 namespace {

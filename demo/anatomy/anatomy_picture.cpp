@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/geometry.h>
+#include <mobil/renderer.h>
+#include <mobil/systems/capture/matrix.h>
 #include "demo/pictures/contact_sheet.h"
-#include "engine/geometry.h"
-#include "systems/capture/matrix.h"
-#include "systems/capture/renderer.h"
 
 namespace mobil {
 namespace {

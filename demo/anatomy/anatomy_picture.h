@@ -1,9 +1,9 @@
 #pragma once
 // The meshes of an anatomy folder as a picture.
 
-#include "assets/import/anatomy_folder.h"
-#include "engine/error.h"
-#include "systems/capture/image.h"
+#include <mobil/assets/import/anatomy_folder.h>
+#include <mobil/engine/error.h>
+#include <mobil/systems/capture/image.h>
 
 namespace mobil {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "demo/program/json.h"
 
 namespace mobil {

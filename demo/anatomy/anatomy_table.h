@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "assets/import/anatomy_folder.h"
+#include <mobil/assets/import/anatomy_folder.h>
 
 namespace mobil {
 

@@ -11,13 +11,13 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 #include "demo/bake/baked_file.h"
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 #include "demo/program/units.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/error.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
+#include <mobil/engine/error.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 
 namespace mobil {
 

@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <vector>
 
+#include <mobil/components/relevance.h>
+#include <mobil/png.h>
+#include <mobil/schedule.h>
 #include "assets/files/output_file.h"
-#include "components/relevance.h"
 #include "demo/crowd/alive_scene.h"
 #include "demo/crowd/crowd_picture.h"
 #include "demo/crowd/crowd_report.h"
@@ -18,8 +20,6 @@
 #include "demo/program/commands.h"
 #include "demo/program/json.h"
 #include "demo/program/progress.h"
-#include "engine/schedule.h"
-#include "systems/capture/png.h"
 
 namespace mobil {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 // `mobil city`: very many people, most of them asleep, measured and drawn.
 
+#include <mobil/engine/error.h>
 #include "demo/crowd/crowd_options.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/body/anthropometry.h"
-#include "components/relevance.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/relevance.h>
+#include <mobil/shard_bytes.h>
+#include <mobil/systems/cluster/shard.h>
 #include "demo/bake/baked_file.h"
-#include "systems/cluster/shard.h"
-#include "systems/cluster/shard_bytes.h"
 
 namespace mobil {
 namespace {

@@ -10,12 +10,12 @@
 #include <span>
 #include <vector>
 
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 #include "demo/crowd/crowd_picture.h"
 #include "demo/crowd/crowd_scene.h"
-#include "engine/error.h"
-#include "engine/jobs.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 
@@ -80,7 +80,7 @@ class AliveScene {
   /// Whom the camera sees; near is who has muscles.
   std::vector<CrowdCamera::Drawn> seen() const;
 
-  /// All of it as bytes, and an empty one made of them (systems/cluster/shard.h).
+  /// All of it as bytes, and an empty one made of them (mobil/systems/cluster/shard.h).
   Result<std::vector<std::byte>> save() const;
   Result<void> restore(std::span<const std::byte> saved);
   /// Of a sleeper, in the simulation, as it was before anybody was awake; of a person, in the host's records; bytes.

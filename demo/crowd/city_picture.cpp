@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/png.h>
+#include <mobil/shard_bytes.h>
 #include "demo/crowd/crowd_legs.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
-#include "systems/capture/png.h"
-#include "systems/cluster/shard_bytes.h"
 
 namespace mobil {
 

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <optional>
 
+#include <mobil/systems/capture/camera.h>
+#include <mobil/systems/cluster/ranks.h>
 #include "demo/crowd/city_shard.h"
 #include "demo/crowd/crowd_picture.h"
-#include "systems/capture/camera.h"
-#include "systems/cluster/ranks.h"
 
 namespace mobil {
 

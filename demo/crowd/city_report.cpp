@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include <mobil/shard_bytes.h>
 #include "demo/crowd/crowd_report.h"
 #include "demo/measure/machine.h"
 #include "demo/program/json.h"
-#include "systems/cluster/shard_bytes.h"
 
 namespace mobil {
 namespace {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/schedule.h>
+#include <mobil/shard_bytes.h>
 #include "demo/bake/baked_file.h"
 #include "demo/crowd/alive_run.h"
 #include "demo/crowd/city_picture.h"
@@ -19,8 +21,6 @@
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
-#include "engine/schedule.h"
-#include "systems/cluster/shard_bytes.h"
 
 namespace mobil {
 namespace {

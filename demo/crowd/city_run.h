@@ -1,9 +1,9 @@
 #pragma once
 // `mobil crowd` on several ranks, or in several shards on one.
 
+#include <mobil/engine/error.h>
+#include <mobil/systems/cluster/ranks.h>
 #include "demo/crowd/crowd_options.h"
-#include "engine/error.h"
-#include "systems/cluster/ranks.h"
 
 namespace mobil {
 

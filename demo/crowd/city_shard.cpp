@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include <mobil/shard_bytes.h>
 #include "demo/measure/measure.h"
-#include "systems/cluster/shard_bytes.h"
 
 namespace mobil {
 namespace {

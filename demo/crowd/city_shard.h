@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
+#include <mobil/cluster.h>
+#include <mobil/relevance.h>
+#include <mobil/systems/cluster/shard.h>
 #include "demo/crowd/crowd_options.h"
 #include "demo/crowd/crowd_picture.h"
-#include "systems/cluster/cluster.h"
-#include "systems/cluster/shard.h"
-#include "systems/relevance/relevance.h"
 
 namespace mobil {
 

@@ -10,6 +10,9 @@
 #include <optional>
 #include <string>
 
+#include <mobil/local_transport.h>
+#include <mobil/mpi_transport.h>
+#include <mobil/png.h>
 #include "assets/files/output_file.h"
 #include "demo/crowd/alive_run.h"
 #include "demo/crowd/city_run.h"
@@ -21,9 +24,6 @@
 #include "demo/crowd/crowd_scene.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
-#include "systems/capture/png.h"
-#include "systems/cluster/local_transport.h"
-#include "systems/cluster/mpi_transport.h"
 
 namespace mobil {
 namespace {

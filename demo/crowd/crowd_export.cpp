@@ -7,12 +7,12 @@
 #include <map>
 #include <set>
 
-#include "assets/export/gltf_writer.h"
+#include <mobil/gltf_writer.h>
+#include <mobil/skin_writer.h>
+#include <mobil/usd_writer.h>
 #include "assets/export/recorded_skin.h"
-#include "assets/export/usd_writer.h"
 #include "demo/program/commands.h"
 #include "demo/walk/drawn_skin.h"
-#include "systems/surfaces/skin_writer.h"
 
 namespace mobil {
 namespace {

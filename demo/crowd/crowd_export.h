@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/engine/error.h>
 #include "demo/crowd/crowd_scene.h"
-#include "engine/error.h"
 
 namespace mobil {
 

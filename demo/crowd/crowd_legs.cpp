@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "systems/cluster/shard_bytes.h"
+#include <mobil/shard_bytes.h>
 
 namespace mobil {
 namespace {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/engine/error.h>
+#include <mobil/simulation.h>
 #include "demo/walk/figure.h"
-#include "engine/error.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <tuple>
 
+#include <mobil/mpi_transport.h>
 #include "demo/crowd/crowd_export.h"
 #include "demo/program/nearest_name.h"
 #include "demo/program/units.h"
-#include "systems/cluster/mpi_transport.h"
 
 namespace mobil {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include <mobil/cluster.h>
+#include <mobil/engine/error.h>
 #include "demo/crowd/alive_scene.h"
 #include "demo/crowd/crowd_scene.h"
 #include "demo/program/options.h"
-#include "engine/error.h"
-#include "systems/cluster/cluster.h"
 
 namespace mobil {
 

@@ -6,11 +6,11 @@
 #include <tuple>
 #include <vector>
 
+#include <mobil/renderer.h>
+#include <mobil/skin_writer.h>
 #include "demo/crowd/crowd_legs.h"
 #include "demo/walk/drawn_skin.h"
 #include "demo/walk/recorded_scene.h"
-#include "systems/capture/renderer.h"
-#include "systems/surfaces/skin_writer.h"
 
 namespace mobil {
 namespace {

@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/engine/error.h>
+#include <mobil/systems/capture/image.h>
+#include <mobil/systems/capture/scene.h>
 #include "demo/crowd/crowd_scene.h"
-#include "engine/error.h"
-#include "systems/capture/image.h"
-#include "systems/capture/scene.h"
 
 namespace mobil {
 

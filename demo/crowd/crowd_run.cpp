@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/fade.h"
+#include <mobil/components/fade.h>
+#include <mobil/schedule.h>
 #include "demo/crowd/heap_count.h"
 #include "demo/measure/measure.h"
-#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

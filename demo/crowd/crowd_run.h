@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/error.h>
+#include <mobil/systems/relevance/accuracy_table.h>
 #include "demo/crowd/crowd_scene.h"
-#include "engine/error.h"
-#include "systems/relevance/accuracy_table.h"
 
 namespace mobil {
 

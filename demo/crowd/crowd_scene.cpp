@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
+#include <mobil/shard_bytes.h>
+#include <mobil/systems/cluster/shard.h>
 #include "demo/bake/baked_file.h"
-#include "systems/cluster/shard.h"
-#include "systems/cluster/shard_bytes.h"
 
 namespace mobil {
 namespace {

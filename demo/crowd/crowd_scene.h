@@ -13,11 +13,11 @@
 #include <span>
 #include <vector>
 
+#include <mobil/avoidance.h>
+#include <mobil/engine/error.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 #include "demo/scene/crowd_people.h"
-#include "engine/error.h"
-#include "systems/avoidance/avoidance.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 
@@ -139,7 +139,7 @@ class CrowdScene {
   /// What the simulation holds in memory of its people: tables, registers, records.
   std::size_t bytes_of_people() const;
 
-  /// All of it as bytes, and an empty one made of them (systems/cluster/shard.h).
+  /// All of it as bytes, and an empty one made of them (mobil/systems/cluster/shard.h).
   Result<std::vector<std::byte>> save() const;
   Result<void> restore(std::span<const std::byte> saved);
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "systems/capture/image.h"
+#include <mobil/systems/capture/image.h>
 
 namespace mobil {
 

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "components/body.h"
+#include <mobil/components/body.h>
+#include <mobil/engine/error.h>
 #include "demo/program/options.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

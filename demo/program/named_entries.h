@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "demo/program/nearest_name.h"
 #include "demo/program/options.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <system_error>
 
+#include <mobil/engine/error.h>
 #include "demo/program/nearest_name.h"
-#include "engine/error.h"
 
 namespace mobil {
 namespace {

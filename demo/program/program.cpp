@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include <mobil/version.h>
+
 #include "demo/program/interruption.h"
 #include "demo/program/progress.h"
 #include "demo/program/subcommands.h"

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "demo/program/options.h"
-#include "engine/error.h"
 
 namespace mobil {
 

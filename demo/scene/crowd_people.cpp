@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "demo/scene/scatter.h"
 #include "systems/gait/gait.h"
 

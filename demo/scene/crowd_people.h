@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "engine/error.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include <mobil/simulation.h>
 #include "demo/program/commands.h"
 #include "demo/schedule/schedule_picture.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

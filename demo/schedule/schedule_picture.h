@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 
 namespace mobil {
 

@@ -172,10 +172,10 @@ def main():
     source, out = map(pathlib.Path, sys.argv[1:3])
     for file in sorted(source.rglob('*.h')):
         name = file.relative_to(source)
-        text = file.read_text()
         is_c = name.name == 'mobil.h' and len(name.parts) == 1
-        if not is_c and len(name.parts) == 1 and 'IWYU pragma: export' in text:
-            continue  # a door: its name alone
+        if name.parts[0] == 'c':
+            continue  # a part of mobil.h
+        text = re.sub(r'#include <mobil/(c/\w+\.h)>\n', lambda part: (source / part[1]).read_text(), file.read_text())
         to = out / ('c' if is_c else 'cpp') / 'mobil' / name
         to.parent.mkdir(parents=True, exist_ok=True)
         to.write_text(c(text) if is_c else cpp(text, name.stem))

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include <mobil/png.h>
+#include <mobil/video.h>
 #include "assets/files/output_file.h"
 #include "demo/program/commands.h"
 #include "demo/program/json.h"
@@ -16,8 +18,6 @@
 #include "demo/program/units.h"
 #include "demo/town/town_picture.h"
 #include "demo/town/town_scene.h"
-#include "systems/capture/png.h"
-#include "systems/capture/video.h"
 
 namespace mobil {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "components/lanes.h"
-#include "systems/avoidance/obstacles.h"
-#include "systems/capture/scene.h"
-#include "systems/terrain/terrain.h"
+#include <mobil/components/lanes.h>
+#include <mobil/systems/avoidance/obstacles.h>
+#include <mobil/systems/capture/scene.h>
+#include <mobil/terrain.h>
 
 namespace mobil {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/error.h"
-#include "systems/avoidance/obstacles.h"
+#include <mobil/engine/error.h>
+#include <mobil/systems/avoidance/obstacles.h>
 
 namespace mobil {
 

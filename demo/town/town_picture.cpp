@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
 namespace mobil {
 namespace {

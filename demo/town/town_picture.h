@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "demo/crowd/crowd_picture.h"
 #include "demo/town/town_map.h"
 #include "demo/town/town_scene.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "components/avoidance.h"
+#include <mobil/components/avoidance.h>
 #include "demo/measure/measure.h"
 #include "demo/scene/crowd_people.h"
 #include "demo/town/town_map.h"

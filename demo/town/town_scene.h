@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <vector>
 
+#include <mobil/avoidance.h>
+#include <mobil/engine/error.h>
+#include <mobil/simulation.h>
+#include <mobil/terrain.h>
 #include "demo/town/town_map.h"
 #include "demo/town/town_paths.h"
-#include "engine/error.h"
-#include "systems/avoidance/avoidance.h"
-#include "systems/simulation.h"
-#include "systems/terrain/terrain.h"
 
 namespace mobil {
 

@@ -9,13 +9,13 @@
 #include <numbers>
 #include <string>
 
+#include <mobil/png.h>
 #include "demo/program/body_options.h"
 #include "demo/program/commands.h"
 #include "demo/program/units.h"
 #include "demo/view/view_panel.h"
 #include "demo/view/view_scene.h"
 #include "demo/view/view_window.h"
-#include "systems/capture/png.h"
 
 namespace mobil {
 namespace {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "components/gait_style.h"
+#include <mobil/components/gait_style.h>
 #include "demo/program/body_options.h"
 
 namespace mobil {

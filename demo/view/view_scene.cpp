@@ -6,11 +6,11 @@
 #include <random>
 #include <span>
 
-#include "assets/muscles/muscle_table.h"
-#include "components/forces.h"
-#include "components/gait_style.h"
-#include "systems/relevance/accuracy_table.h"
-#include "systems/relevance/ladder.h"
+#include <mobil/components/gait_style.h>
+#include <mobil/forces.h>
+#include <mobil/muscle_table.h>
+#include <mobil/systems/relevance/accuracy_table.h>
+#include <mobil/systems/relevance/ladder.h>
 
 namespace mobil {
 namespace {

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "components/leg_muscles.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/error.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
+#include <mobil/systems/capture/camera.h>
 #include "demo/crowd/crowd_picture.h"
-#include "engine/error.h"
-#include "systems/capture/camera.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/error.h"
-#include "systems/capture/image.h"
+#include <mobil/engine/error.h>
+#include <mobil/systems/capture/image.h>
 
 namespace mobil {
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "assets/skin/body_skin.h"
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/components/pose.h>
+#include <mobil/systems/capture/scene.h>
 #include "assets/skin/own_skin.h"
-#include "components/pose.h"
-#include "systems/capture/scene.h"
 #include "systems/skinning/place_skin.h"
 
 namespace mobil {

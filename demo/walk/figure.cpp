@@ -2,10 +2,10 @@
 
 #include <array>
 
+#include <mobil/assets/surfaces/surface_binding.h>
+#include <mobil/fit_anatomy.h>
 #include "assets/fem/muscle_template.h"
-#include "assets/import/fit_anatomy.h"
 #include "assets/surfaces/muscle_surfaces.h"
-#include "assets/surfaces/surface_binding.h"
 #include "systems/skin/rest_surfaces.h"
 
 namespace mobil {

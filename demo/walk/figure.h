@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
-#include "systems/simulation.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 #include "systems/surfaces/surface_contacts.h"
-#include "systems/surfaces/surfaces.h"
 
 namespace mobil {
 

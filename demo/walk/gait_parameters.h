@@ -1,12 +1,12 @@
 #pragma once
-// The gait parameters (components/gait_style.h) as people list and set them.
+// The gait parameters (mobil/components/gait_style.h) as people list and set them.
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "components/gait_style.h"
-#include "engine/error.h"
+#include <mobil/components/gait_style.h>
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

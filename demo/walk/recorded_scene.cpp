@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
 namespace mobil {
 namespace {

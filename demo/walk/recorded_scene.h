@@ -7,9 +7,9 @@
 #include <deque>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/systems/capture/scene.h>
 #include "demo/walk/drawn_skin.h"
-#include "systems/capture/scene.h"
 
 namespace mobil {
 

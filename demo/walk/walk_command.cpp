@@ -11,10 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/body_composition.h"
+#include <mobil/body_composition.h>
+#include <mobil/components/fat.h>
+#include <mobil/schedule.h>
 #include "assets/export/recorded_skin.h"
 #include "assets/files/output_file.h"
-#include "components/fat.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 #include "demo/walk/drawn_skin.h"
@@ -26,7 +27,6 @@
 #include "demo/walk/walk_script.h"
 #include "demo/walk/walk_summary.h"
 #include "demo/walk/walk_tables.h"
-#include "engine/schedule.h"
 #include "systems/kinematics/fat_motion.h"
 
 namespace mobil {

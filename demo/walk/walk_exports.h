@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
-#include "engine/error.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "components/lanes.h"
-#include "engine/error.h"
-#include "systems/terrain/terrain.h"
+#include <mobil/components/lanes.h>
+#include <mobil/engine/error.h>
+#include <mobil/terrain.h>
 
 namespace mobil {
 

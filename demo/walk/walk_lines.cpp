@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <mobil/engine/geometry.h>
 #include "assets/fem/muscle_template.h"
-#include "engine/geometry.h"
 
 namespace mobil {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "components/lanes.h"
-#include "systems/simulation.h"
+#include <mobil/components/lanes.h>
+#include <mobil/simulation.h>
 
 namespace mobil {
 

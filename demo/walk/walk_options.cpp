@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "demo/program/choice.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"

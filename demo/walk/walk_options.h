@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "components/leg_muscles.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/error.h>
 #include "demo/program/body_options.h"
 #include "demo/program/options.h"
 #include "demo/walk/walk_exports.h"
 #include "demo/walk/walk_ground.h"
 #include "demo/walk/walk_script.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <optional>
 
+#include <mobil/engine/geometry.h>
+#include <mobil/png.h>
+#include <mobil/renderer.h>
+#include <mobil/video.h>
 #include "demo/walk/drawn_skin.h"
 #include "demo/walk/recorded_scene.h"
-#include "engine/geometry.h"
-#include "systems/capture/png.h"
-#include "systems/capture/renderer.h"
-#include "systems/capture/video.h"
 
 namespace mobil {
 namespace {

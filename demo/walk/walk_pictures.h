@@ -6,11 +6,11 @@
 #include <functional>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
-#include "components/body.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/components/body.h>
+#include <mobil/engine/error.h>
 #include "demo/walk/figure.h"
 #include "demo/walk/walk_options.h"
-#include "engine/error.h"
 #include "systems/skinning/place_skin.h"
 
 namespace mobil {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "engine/error.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "assets/body/body_composition.h"
+#include <mobil/body_composition.h>
+#include <mobil/muscle_table.h>
+#include <mobil/schedule.h>
 #include "assets/fem/muscle_template.h"
-#include "assets/muscles/muscle_table.h"
 #include "demo/program/json.h"
-#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "assets/export/gltf_writer.h"
+#include <mobil/gltf_writer.h>
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
 #include "demo/walk/walk_options.h"
-#include "engine/schedule.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

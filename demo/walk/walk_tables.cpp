@@ -6,7 +6,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 
 namespace mobil {
 namespace {

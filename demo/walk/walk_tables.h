@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-#include "components/activation.h"
-#include "components/forces.h"
-#include "components/leg_muscles.h"
-#include "components/muscle.h"
-#include "components/pose.h"
+#include <mobil/components/activation.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/components/muscle.h>
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
 
 namespace mobil {
 

@@ -1,14 +1,14 @@
 #include "systems/activation/excitation.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/activation/excitation.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "engine/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 void excite_all(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes<float>* member) {
   const Wide asked = load(clock.speed), zero = wide(0.0F);
@@ -46,11 +46,11 @@ void find_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>
   store(fma(load(plan.to.speed_m_s) - from, part, from) / sqrt(load(size.height_m) * leg_g), clock.speed);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(excite_all);
 HWY_EXPORT(find_clocks);
@@ -77,5 +77,5 @@ void set_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

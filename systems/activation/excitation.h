@@ -5,14 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <mobil/components/activation.h>
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/lanes.h>
+#include <mobil/components/leg_frames.h>
 #include "assets/muscles/excitation_curves.h"
-#include "components/activation.h"
-#include "components/body.h"
-#include "components/gait.h"
-#include "components/lanes.h"
-#include "components/leg_frames.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// How the members of a row are excited, in its order.
 struct RowExcitation {
@@ -29,4 +29,4 @@ void excite(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes
 void set_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, LegPost* posts);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -13,7 +13,7 @@
 #include "engine/wide_exp-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// A curve's value and slope.
 struct CurvePoint {
@@ -92,7 +92,7 @@ MOBIL_WIDE_INLINE Wide fibre_at(const Wide& height, const Wide& tendon, const Wi
   return min(max(sqrt(fma(along, along, height * height)), shortest_fibre(height)), wide(longest_fibre));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,17 +1,17 @@
 #include "systems/activation/moment_sharing.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/activation/moment_sharing.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "engine/wide_geometry-inl.h"
 #include "systems/activation/hill_curves-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-constexpr int rounds = 3, steps_from_nowhere = 32, steps_from_nearby = 12;
+constexpr int rounds = 3, steps_from_nowhere = 32, refining_steps = 12;
 constexpr float litre_of_force_and_length = 300;  // N · m, at 30 N/cm²
 /// size² / volume of the reserves, N² m² / l.
 constexpr float hip_yields = 80.0F * 80.0F / 0.67F, other_yields = 1;
@@ -143,7 +143,7 @@ void share_all(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m
       pull[i].per_y = pull[i].active * wide(litre_of_force_and_length) / (most * fibre);
       moments = fma_three(-passive[i], arm[i], moments);
     }
-    y = solve_dual(y, moments, pull, arm, round == 0 ? steps_from_nowhere : steps_from_nearby);
+    y = solve_dual(y, moments, pull, arm, round == 0 ? steps_from_nowhere : refining_steps);
     full = zero;
     for (std::size_t i = 0; i < leg_member_count; ++i) {
       const Wide wanted = pull[i].per_y * dot(arm[i], y);
@@ -165,11 +165,11 @@ void share_all(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m
   for (std::size_t lane = 0; lane < lane_count; ++lane) at_most[lane] = static_cast<std::uint32_t>(count[lane]);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(share_all);
 }  // namespace
@@ -180,5 +180,5 @@ void share_moments(const LegDesign<Lanes<float>>& design, const Lanes<float>* pa
   HWY_DYNAMIC_DISPATCH(share_all)(design, path_m, arm_m, moments_nm, of_most, reserve_nm, at_most);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -11,10 +11,10 @@
 // which has three unknowns and is convex, always. No step changes an activation by more than one; one that leads uphill
 // is taken back and shortened.
 
-#include "components/activation.h"
-#include "components/lanes.h"
+#include <mobil/components/activation.h>
+#include <mobil/components/lanes.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Moments or moment arms, in N m or m: hip and knee extending, ankle plantarflexing.
 template <class F>
@@ -28,4 +28,4 @@ void share_moments(const LegDesign<Lanes<float>>& design, const Lanes<float>* pa
                    const LegMoments<Lanes<float>>* arm_m, const LegMoments<Lanes<float>>& moments_nm,
                    Lanes<float>* of_most, LegMoments<Lanes<float>>& reserve_nm, Lanes<std::uint32_t>& at_most);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

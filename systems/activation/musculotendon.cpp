@@ -1,14 +1,14 @@
 #include "systems/activation/musculotendon.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/activation/musculotendon.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "engine/wide_geometry-inl.h"
 #include "systems/activation/hill_curves-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 constexpr float fastest_per_s = 10, fibre_damping = 0.1F;
@@ -168,11 +168,11 @@ void find_rests(std::size_t members, const Lanes<float>* length_m, MemberDesign<
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(contract_all);
 HWY_EXPORT(activate_for);
@@ -196,5 +196,5 @@ void find_rest_bellies(std::size_t members, const Lanes<float>* length_m, Member
   HWY_DYNAMIC_DISPATCH(find_rests)(members, length_m, design);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -13,12 +13,12 @@
 
 #include <cstddef>
 
-#include "components/activation.h"
-#include "components/lanes.h"
+#include <mobil/components/activation.h>
+#include <mobil/components/lanes.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
-/// Sixteen rows of a muscle's `members`, column after column as the fields of components/activation.h are.
+/// Sixteen rows of a muscle's `members`, column after column as the fields of mobil/components/activation.h are.
 struct MemberBlock {
   std::size_t members;
   const float* weight;  // by member: shares of the volume, 1 together
@@ -47,4 +47,4 @@ void ask_forces(const MemberBlock& of, const Lanes<float>* of_most, float tick_s
 /// activation.
 void find_rest_bellies(std::size_t members, const Lanes<float>* length_m, MemberDesign<Lanes<float>>* design);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

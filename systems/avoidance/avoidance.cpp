@@ -1,4 +1,4 @@
-#include "systems/avoidance/avoidance.h"
+#include <mobil/avoidance.h>
 
 #include <fmt/format.h>
 
@@ -9,21 +9,21 @@
 #include <span>
 #include <vector>
 
+#include <mobil/components/footing.h>
+#include <mobil/each.h>
+#include <mobil/engine/access.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/person.h>
 #include "assets/gait/slope_pace.h"
-#include "components/footing.h"
-#include "engine/access.h"
-#include "engine/each.h"
 #include "engine/row_hash.h"
-#include "engine/rows.h"
 #include "systems/avoidance/choice.h"
 #include "systems/avoidance/narrow.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
 #include "systems/people/by_table.h"
-#include "systems/people/person.h"
 #include "systems/simulation_world.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct Avoidance::Work {
   ClaimBook book;
@@ -284,4 +284,4 @@ AvoidanceReport Avoidance::update() {
   return report;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,14 +2,14 @@
 
 #include <cstdint>
 
-#include "components/avoidance.h"
-#include "components/gait.h"
-#include "components/pose.h"
-#include "engine/schedule.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/schedule.h>
 #include "engine/snapshot.h"
 #include "systems/kinematics/shoulders.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 bool within(float value, float low, float high) {
@@ -54,4 +54,4 @@ Module avoidance_module() {
           .check_rows = &check_rows};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,11 +1,11 @@
 #pragma once
 // What Avoidance keeps on people's rows, as a module: no system of its own; it chooses between ticks.
 
-#include "engine/module.h"
+#include <mobil/engine/module.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The module; Simulation has it among its own.
 Module avoidance_module();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

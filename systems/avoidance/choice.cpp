@@ -5,16 +5,16 @@
 #include <numbers>
 #include <optional>
 
+#include <mobil/components/avoidance.h>
+#include <mobil/components/footing.h>
+#include <mobil/each.h>
+#include <mobil/rows.h>
 #include "assets/gait/slope_pace.h"
-#include "components/avoidance.h"
-#include "components/footing.h"
-#include "engine/each.h"
-#include "engine/rows.h"
 #include "systems/avoidance/lane.h"
 #include "systems/avoidance/preference.h"
 #include "systems/gait/gait.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// How many people are foreseen, the nearest ones, and within what distance; where they are looked for at first, as
@@ -366,4 +366,4 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
   out.as_claimed = choice.gait(claimed, before.style);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <span>
 
-#include "components/gait.h"
+#include <mobil/components/gait.h>
+#include <mobil/systems/avoidance/obstacles.h>
 #include "systems/avoidance/claims.h"
-#include "systems/avoidance/obstacles.h"
 #include "systems/avoidance/trials.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What a choice looks at. Two may overlap by `overlap_m`: that much claims may come nearer than both radii.
 struct Surroundings {
@@ -38,4 +38,4 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
 /// Whether two ways come nearer than that.
 bool meet(const Chosen& a, const Chosen& b, float apart_m);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

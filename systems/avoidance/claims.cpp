@@ -4,12 +4,12 @@
 #include <bit>
 #include <cmath>
 
-#include "components/avoidance.h"
-#include "engine/access.h"
-#include "engine/each.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/each.h>
+#include <mobil/engine/access.h>
 #include "systems/gait/gait.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Where somebody goes who avoids nobody: on as the step that is under way leads.
@@ -149,4 +149,4 @@ void ClaimBook::sort() {
   for (const Nearby& one : unsorted_) sorted_[starts_[bucket(one.cell_x, one.cell_z) + 1]++] = one;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

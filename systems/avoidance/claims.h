@@ -9,13 +9,13 @@
 #include <span>
 #include <vector>
 
-#include "engine/entity.h"
-#include "engine/jobs.h"
+#include <mobil/engine/entity.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
 #include "engine/row_hash.h"
-#include "engine/world.h"
 #include "systems/avoidance/ways.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A rectangle of the ground, m.
 struct GroundBox {
@@ -161,4 +161,4 @@ class ClaimBook {
   std::vector<Nearby> sorted_, unsorted_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,7 +6,7 @@
 
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Lanes to either side, how far they are apart and how far to the side somebody belongs to one, m.
@@ -108,4 +108,4 @@ float lane_heading(const ClaimBook& book, std::span<const BoxedWall> walls, std:
   return course.heading_rad + off_straight(best);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

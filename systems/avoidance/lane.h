@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <span>
 
-#include "components/avoidance.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/systems/avoidance/obstacles.h>
 #include "systems/avoidance/claims.h"
-#include "systems/avoidance/obstacles.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The place of a wall that is nearest to `to`, m.
 GroundPoint nearest_of(const Wall& wall, GroundPoint to);
@@ -19,4 +19,4 @@ GroundPoint nearest_of(const Wall& wall, GroundPoint to);
 float lane_heading(const ClaimBook& book, std::span<const BoxedWall> walls, std::uint32_t me,
                    const Course<float>& course);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "components/avoidance.h"
-#include "engine/each.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/each.h>
 #include "engine/exact_math.h"
 #include "systems/kinematics/shoulders.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// How often everybody is looked at, ticks.
@@ -153,4 +153,4 @@ void narrow_shoulders(const ClaimBook& book, const Jobs& jobs, std::uint32_t tic
   });
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

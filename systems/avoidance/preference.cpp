@@ -1,12 +1,12 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/avoidance/preference.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "engine/wide-inl.h"
 #include "systems/avoidance/preference.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float of_facing = 0.3F;
 /// What a meeting one second from now costs; how far ahead anybody looks, s; how far off a meeting is that counts most.
@@ -44,11 +44,11 @@ void foresight_block(const Onward<Lanes<float>>& ways, const Passer& p, Lanes<fl
   store(load(cost) + select((nears > 0.0F) & ((apart < 0.0F) | (under > 0.0F)), meets, wide(0.0F)), cost);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(cost_block);
 HWY_EXPORT(velocity_block);
@@ -67,5 +67,5 @@ void add_foresight(const Onward<Lanes<float>>& ways, const Passer& passer, Lanes
   HWY_DYNAMIC_DISPATCH(foresight_block)(ways, passer, cost);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

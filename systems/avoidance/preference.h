@@ -3,7 +3,7 @@
 
 #include "systems/avoidance/ways.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Sixteen ways to go on: from where, after what time, how fast and toward where.
 template <class F>
@@ -27,4 +27,4 @@ void off_velocity(const Lanes<float>& speed_m_s, const Lanes<float>& heading_rad
 /// Adds what meeting somebody later costs: the inverse square of the time until then (Karamouzas, Skinner, Guy 2014).
 void add_foresight(const Onward<Lanes<float>>& ways, const Passer& passer, Lanes<float>& cost);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "systems/gait/step_limits.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace step_limits;
@@ -78,4 +78,4 @@ Trials make_trials(const StrikePlace<float>& at, const Course<float>& course) {
   return trials;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,10 +2,10 @@
 // The sixteen steps that a walker may choose from at a heel strike. The first is what the walker's claim has: to stop
 // as soon as may be, or to stay.
 
-#include "components/avoidance.h"
+#include <mobil/components/avoidance.h>
 #include "systems/avoidance/ways.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr std::size_t claimed = 0;
 
@@ -25,4 +25,4 @@ float wrapped(float angle_rad);
 /// either way, steps aside to either side and back.
 Trials make_trials(const StrikePlace<float>& at, const Course<float>& course);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

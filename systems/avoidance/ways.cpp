@@ -1,12 +1,12 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/avoidance/ways.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/gait/on_line-inl.h"
 #include "assets/gait/step_lookup.h"
 #include "engine/wide-inl.h"
@@ -15,7 +15,7 @@
 #include "systems/gait/next_foot-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float gravity = 9.81F;
 
@@ -74,9 +74,9 @@ struct StrikeAhead {
   Wide speed, pace, advance, hips, length;
 };
 
-/// Steps that are shorter than a walker's own are so down to a quarter of the leg, which is the least that a gait may ask
-/// for (and a little more, for rounding), and as long as no more than two a second are made: people in a dense file make
-/// 0.8 to 1.6 (Jelić et al. 2012).
+/// Steps that are shorter than a walker's own are so down to a quarter of the leg, which is the least that a gait may
+/// ask for (and a little more, for rounding), and as long as no more than two a second are made: people in a dense file
+/// make 0.8 to 1.6 (Jelić et al. 2012).
 constexpr float shortest_h = 0.2505F * static_cast<float>(fraction::thigh + fraction::shank), most_steps_hz = 2;
 
 HWY_NOINLINE StrikeAhead strike_at(const StrikePlace<Lanes<float>>& at, const Wide& speed, const Wide& length_part) {
@@ -269,11 +269,11 @@ void wall_block(const WaySamples<Lanes<float>>& ways, float a_x, float a_z, floa
   store(least, least_m2);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 float usual_hips(float speed) {
   constexpr float every = 0.02F;
@@ -364,5 +364,5 @@ void nearest_to_wall(const WaySamples<Lanes<float>>& ways, float a_x_m, float a_
   HWY_DYNAMIC_DISPATCH(wall_block)(ways, a_x_m, a_z_m, b_x_m, b_z_m, least_m2);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

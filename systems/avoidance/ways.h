@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "systems/avoidance/obstacles.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/systems/avoidance/obstacles.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Instants at which a way is known: so many of them in a row, about a tenth of a second apart. At the last one
 /// everybody stands, but for walks of less than one step a second.
@@ -83,4 +83,4 @@ void nearest_approach(const WaySamples<Lanes<float>>& ways, const float* x_m, co
 void nearest_to_wall(const WaySamples<Lanes<float>>& ways, float a_x_m, float a_z_m, float b_x_m, float b_z_m,
                      Lanes<float>& least_m2);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,9 +1,9 @@
 #include "systems/c/c_call.h"
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "systems/simulation_world.h"
 
-namespace mobil::c {
+namespace mobil::inline v0_3::c {
 namespace {
 
 void put_text(char* to, std::size_t room, std::size_t& at, std::string_view text) noexcept {
@@ -314,7 +314,7 @@ mobil_limits usual() {
   return limits;
 }
 
-}  // namespace mobil::c
+}  // namespace mobil::inline v0_3::c
 
 const mobil::Jobs& mobil_sim::jobs_of() const {
   return mobil::SimulationWorld::jobs(*simulation);

@@ -19,18 +19,18 @@
 #include <type_traits>
 #include <vector>
 
-#include "systems/avoidance/avoidance.h"
-#include "systems/c/mobil.h"
+#include <mobil/avoidance.h>
+#include <mobil/mobil.h>
+#include <mobil/pose_writer.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
+#include <mobil/skin_tables.h>
+#include <mobil/skin_writer.h>
+#include <mobil/surfaces.h>
+#include <mobil/terrain.h>
 #include "systems/people/pose_axes.h"
-#include "systems/people/pose_writer.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
-#include "systems/skin/skin_tables.h"
-#include "systems/surfaces/skin_writer.h"
-#include "systems/surfaces/surfaces.h"
-#include "systems/terrain/terrain.h"
 
-namespace mobil::c {
+namespace mobil::inline v0_3::c {
 
 /// The host's memory.
 class HostMemory final : public std::pmr::memory_resource {
@@ -241,7 +241,7 @@ int muscle_set(Line& line, unsigned int bits, MuscleSet& out);
 int muscle_number(Line& line, int muscle, Muscle& out);
 int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& out);
 
-}  // namespace mobil::c
+}  // namespace mobil::inline v0_3::c
 
 /// What a mobil_sim* points to.
 struct mobil_sim {
@@ -271,7 +271,7 @@ struct mobil_sim {
   int name_people(const mobil_id* ids, std::size_t count);
 };
 
-namespace mobil::c {
+namespace mobil::inline v0_3::c {
 
 /// Runs a call, f(sim), which returns its code.
 template <class F>
@@ -288,4 +288,4 @@ int call(const mobil_sim* asked, const char* name, F f) noexcept {
   }
 }
 
-}  // namespace mobil::c
+}  // namespace mobil::inline v0_3::c

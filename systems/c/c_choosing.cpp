@@ -1,7 +1,7 @@
 // Methods chosen by what a scene calls for.
 
+#include <mobil/systems/relevance/ladder.h>
 #include "systems/c/c_call.h"
-#include "systems/relevance/ladder.h"
 
 namespace {
 

@@ -1,15 +1,15 @@
 // Leg muscles: chosen, changed, excited, prepared.
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/anthropometry.h>
+#include <mobil/muscle_table.h>
+#include <mobil/systems/people/person.h>
 #include "systems/c/c_call.h"
 #include "systems/muscles/belly_library.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/leg_muscles.h"
-#include "systems/people/person.h"
 #include "systems/simulation_world.h"
 
-namespace mobil::c {
+namespace mobil::inline v0_3::c {
 namespace {
 
 /// What mobil_method and mobil_muscles both say of a method.
@@ -100,7 +100,7 @@ int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& to) {
   return MOBIL_OK;
 }
 
-}  // namespace mobil::c
+}  // namespace mobil::inline v0_3::c
 
 using namespace mobil;
 using namespace mobil::c;

@@ -4,12 +4,12 @@
 
 #include <vector>
 
+#include <mobil/engine/geometry.h>
+#include <mobil/systems/people/person.h>
 #include "assets/skin/own_skin.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 #include "systems/c/c_skin.h"
 #include "systems/c/c_surfaces.h"
-#include "systems/people/person.h"
 #include "systems/skin/rest_surfaces.h"
 #include "systems/skinning/follow_skin.h"
 #include "systems/skinning/place_skin.h"

@@ -2,18 +2,18 @@
 
 #include <cmath>
 
-#include "components/avoidance.h"
-#include "components/compact.h"
-#include "components/footing.h"
-#include "components/forces.h"
-#include "components/relevance.h"
-#include "components/sleep.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/compact.h>
+#include <mobil/components/footing.h>
+#include <mobil/components/relevance.h>
+#include <mobil/components/sleep.h>
+#include <mobil/forces.h>
+#include <mobil/systems/people/person.h>
 #include "systems/c/c_call.h"
 #include "systems/muscles/sleep.h"
 #include "systems/people/by_table.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
-#include "systems/people/person.h"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include <mobil/systems/people/limit_watch.h>
+#include <mobil/systems/people/person.h>
 #include "systems/c/c_call.h"
-#include "systems/people/limit_watch.h"
-#include "systems/people/person.h"
 
 namespace {
 

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "assets/muscles/muscle_table.h"
-#include "components/activation.h"
-#include "components/forces.h"
+#include <mobil/components/activation.h>
+#include <mobil/forces.h>
+#include <mobil/muscle_table.h>
 #include "systems/c/c_call.h"
 
 namespace {

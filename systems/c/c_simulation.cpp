@@ -2,7 +2,7 @@
 
 #include <mobil/version.h>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 #include "systems/c/c_call.h"
 
 namespace {

@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
+#include <mobil/skin_writer.h>
 #include "systems/c/c_call.h"
-#include "systems/surfaces/skin_writer.h"
 
-namespace mobil::c {
+namespace mobil::inline v0_3::c {
 
 /// A person's pose, and muscles' vertices in our axes, from the world's origin.
 struct PosedSkin {
@@ -20,4 +20,4 @@ struct PosedSkin {
 int skin_person(mobil_sim& s, const mobil_skin_target& as, int sex, PosedSkin& posed, SkinRequest& to);
 int skin_streams(mobil_sim& s, const mobil_skin_target& as, VertexStream& positions, VertexStream& normals);
 
-}  // namespace mobil::c
+}  // namespace mobil::inline v0_3::c

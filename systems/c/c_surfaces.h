@@ -1,8 +1,8 @@
 #pragma once
 // What a mobil_surfaces* points to.
 
+#include <mobil/systems/surfaces/body_surfaces.h>
 #include "systems/c/c_call.h"
-#include "systems/surfaces/body_surfaces.h"
 
 struct mobil_surfaces {
   mobil::BodySurfaces bound;

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "components/avoidance.h"
-#include "components/footing.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/footing.h>
+#include <mobil/systems/people/person.h>
 #include "systems/c/c_call.h"
 #include "systems/people/by_table.h"
-#include "systems/people/person.h"
 #include "systems/simulation_world.h"
 
 namespace {

@@ -1,10 +1,10 @@
-#include "systems/capture/camera.h"
+#include <mobil/systems/capture/camera.h>
 
 #include <cmath>
 
-#include "systems/capture/matrix.h"
+#include <mobil/systems/capture/matrix.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 using namespace capture_math;
 using namespace geometry;
 
@@ -39,4 +39,4 @@ Vec3<float> project(const Camera& camera, int width, int height, Vec3<float> poi
           0.5F * static_cast<float>(height) - pixels * dot(d, axes.up) / depth, depth};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstring>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 template <class Function>
@@ -104,4 +104,4 @@ CurrentContext::~CurrentContext() {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

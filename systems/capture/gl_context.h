@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Owns one context; every OpenGL object made in it goes with it. The display is shared by the whole process and stays
 /// initialised, since EGL does not count its users.
@@ -52,4 +52,4 @@ class CurrentContext {
   bool current_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

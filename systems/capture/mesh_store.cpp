@@ -8,7 +8,7 @@
 
 #include "systems/capture/vertex_normals.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 template <class T>
@@ -129,4 +129,4 @@ void MeshStore::forget(std::uint64_t key) {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,11 +6,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/error.h"
-#include "systems/capture/matrix.h"
-#include "systems/capture/scene.h"
+#include <mobil/engine/error.h>
+#include <mobil/systems/capture/matrix.h>
+#include <mobil/systems/capture/scene.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Where a mesh lies: byte offsets into its buffers. Wireframes are three vertices a triangle, without indices.
 struct StoredMesh {
@@ -56,4 +56,4 @@ class MeshStore {
   const Vec3<float>* last_normals_ = nullptr;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

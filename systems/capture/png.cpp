@@ -1,4 +1,4 @@
-#include "systems/capture/png.h"
+#include <mobil/png.h>
 
 #include <fmt/format.h>
 #include <png.h>
@@ -10,7 +10,7 @@
 
 #include "assets/files/output_file.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 bool opaque(const Image& image) {
@@ -72,4 +72,4 @@ Result<void> write_png(const std::string& path, const Image& image, PngEffort ef
   return refused("write");
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

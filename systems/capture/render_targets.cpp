@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 GLuint renderbuffer(GLenum format, int samples, int width, int height, GLenum attachment) {
@@ -66,4 +66,4 @@ Result<RenderTargets> make_render_targets(int width, int height) {
   return targets;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

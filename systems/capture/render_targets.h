@@ -1,9 +1,9 @@
 #pragma once
 // What is drawn into: the multisampled picture, the plain one it is resolved into, and the shadow map.
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr int shadow_map_size = 2048;
 
@@ -15,4 +15,4 @@ struct RenderTargets {
 /// In the current context. Error: the driver cannot hold a picture of that size.
 Result<RenderTargets> make_render_targets(int width, int height);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

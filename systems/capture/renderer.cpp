@@ -1,4 +1,4 @@
-#include "systems/capture/renderer.h"
+#include <mobil/renderer.h>
 
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
@@ -8,14 +8,14 @@
 #include <cmath>
 #include <vector>
 
+#include <mobil/systems/capture/shaders.h>
+#include <mobil/view.h>
 #include "systems/capture/gl_context.h"
 #include "systems/capture/mesh_store.h"
 #include "systems/capture/render_targets.h"
 #include "systems/capture/shader_program.h"
-#include "systems/capture/shaders.h"
-#include "systems/capture/view.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 using namespace capture_math;
 using namespace geometry;
 namespace {
@@ -357,4 +357,4 @@ const char* Renderer::driver() const {
   return device_->driver.c_str();
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 tl::unexpected<Error> refused(const char* name, const char* step, const char* log) {
@@ -66,4 +66,4 @@ Result<ShaderProgram> make_program(const char* name, const std::string& vertex_s
   return program;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct ShaderProgram {
   unsigned id = 0;
@@ -17,4 +17,4 @@ struct ShaderProgram {
 Result<ShaderProgram> make_program(const char* name, const std::string& vertex_source,
                                    const std::string& fragment_source);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

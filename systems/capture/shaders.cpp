@@ -1,6 +1,10 @@
-#include "systems/capture/shaders.h"
+#include <mobil/systems/capture/shaders.h>
 
-namespace mobil {
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace mobil::inline v0_3 {
 namespace {
 
 const char* const head = R"(#version 300 es
@@ -67,6 +71,12 @@ vec3 room() {
 }
 )";
 
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string whole;
+  for (const std::string_view part : parts) whole += part;
+  return whole;
+}
+
 std::string samples(int count) {
   return "#define SAMPLES " + std::to_string(count) + "\n";
 }
@@ -74,7 +84,7 @@ std::string samples(int count) {
 }  // namespace
 
 std::string mesh_vertex_source() {
-  return std::string(head) + R"(
+  return joined({head, R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in mat4x3 placement;
@@ -91,11 +101,11 @@ void main() {
   corner = vec3(i == 0, i == 1, i == 2);
   gl_Position = clip_from_world * vec4(world, 1.0);
 }
-)";
+)"});
 }
 
 std::string mesh_fragment_source() {
-  return head + samples(4) + shadow + shade + R"(
+  return joined({head, samples(4), shadow, shade, R"(
 uniform vec4 albedo;
 uniform float opacity;
 in vec3 world;
@@ -106,11 +116,11 @@ void main() {
   float key = lit(world + n * (1.6 * light.w), 1.6, dot(n, light.xyz) > -0.12);
   colour = vec4(shade(albedo.rgb, albedo.w, n, world, key), opacity);
 }
-)";
+)"});
 }
 
 std::string wireframe_fragment_source() {
-  return std::string(head) + shade + R"(
+  return joined({head, shade, R"(
 uniform vec4 albedo;
 in vec3 world;
 in vec3 world_normal;
@@ -125,12 +135,12 @@ void main() {
   bool front = dot(n, eye.xyz - world) > 0.0;
   colour = vec4(shade(albedo.rgb, 0.0, front ? n : -n, world, 1.0), cover * (front ? 1.0 : 0.45));
 }
-)";
+)"});
 }
 
 // A line is a strip with the outline of a stadium: half a disc at either end.
 std::string line_vertex_source() {
-  return std::string(head) + R"(
+  return joined({head, R"(
 layout(location = 6) in vec3 from;
 layout(location = 7) in vec3 to;
 uniform vec2 width;
@@ -155,11 +165,11 @@ void main() {
   along = d;
   gl_Position = clip_from_world * vec4(world, 1.0);
 }
-)";
+)"});
 }
 
 std::string line_fragment_source() {
-  return std::string(head) + shade + R"(
+  return joined({head, shade, R"(
 uniform vec4 albedo;
 in vec3 world;
 in vec2 across;
@@ -172,12 +182,12 @@ void main() {
   vec3 n = normalize(across.x * d + across.y * s + rise * cross(s, d));
   colour = vec4(shade(albedo.rgb, 0.2, n, world, 1.0), 1.0);
 }
-)";
+)"});
 }
 
 // A ball is the disc where its silhouette lies, for whoever looks from `facing`; inside it a ray finds the sphere.
 std::string point_vertex_source() {
-  return head + ("#define POINT_VERTICES " + std::to_string(point_vertices)) + R"(
+  return joined({head, "#define POINT_VERTICES ", std::to_string(point_vertices), R"(
 layout(location = 8) in vec3 centre;
 uniform float radius;
 out vec3 world;
@@ -194,11 +204,11 @@ void main() {
   middle = centre;
   gl_Position = clip_from_world * vec4(world, 1.0);
 }
-)";
+)"});
 }
 
 std::string point_fragment_source() {
-  return std::string(head) + shade + R"(
+  return joined({head, shade, R"(
 uniform vec4 albedo;
 uniform float radius;
 in vec3 world;
@@ -214,28 +224,28 @@ void main() {
   gl_FragDepth = clamp(0.5 * clip.z / clip.w + 0.5, 0.0, 1.0);
   colour = vec4(shade(albedo.rgb, 0.35, normalize(p - middle), p, 1.0), 1.0);
 }
-)";
+)"});
 }
 
 std::string depth_fragment_source() {
-  return std::string(head) + "void main() {}\n";
+  return joined({head, "void main() {}\n"});
 }
 
 std::string ground_vertex_source() {
-  return std::string(head) + R"(
+  return joined({head, R"(
 out vec3 world;
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   world = vec3(eye.x + corner.x * eye.w, 0.0, eye.z + corner.y * eye.w);
   gl_Position = clip_from_world * vec4(world, 1.0);
 }
-)";
+)"});
 }
 
 // How much of a pixel's footprint the grid's lines cover is the difference of their running integral at its two ends,
 // so far lines fade into an even tone instead of shimmering.
 std::string ground_fragment_source() {
-  return head + samples(8) + shadow + room + R"(
+  return joined({head, samples(8), shadow, room, R"(
 in vec3 world;
 out vec4 colour;
 float grid(vec2 p, vec2 footprint, float spacing, float width) {
@@ -259,22 +269,22 @@ void main() {
   vec3 far = room();
   colour = vec4(pow(mix(floor_colour, far, smoothstep(0.25, 0.95, away / eye.w)), vec3(1.0 / 2.2)), 1.0);
 }
-)";
+)"});
 }
 
 std::string background_vertex_source() {
-  return std::string(head) + R"(
+  return joined({head, R"(
 void main() {
   gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 1.0, 1.0);
 }
-)";
+)"});
 }
 
 std::string background_fragment_source() {
-  return std::string(head) + room + R"(
+  return joined({head, room, R"(
 out vec4 colour;
 void main() { colour = vec4(pow(room(), vec3(1.0 / 2.2)), 1.0); }
-)";
+)"});
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "systems/capture/matrix.h"
+#include <mobil/systems/capture/matrix.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 using namespace capture_math;
 using namespace geometry;
 
@@ -22,4 +22,4 @@ void vertex_normals(std::span<const Vec3<float>> position, std::span<const std::
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

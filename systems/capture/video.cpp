@@ -1,4 +1,4 @@
-#include "systems/capture/video.h"
+#include <mobil/video.h>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -22,7 +22,7 @@
 
 extern char** environ;
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// A file descriptor that closes itself.
@@ -232,4 +232,4 @@ Result<void> VideoWriter::close() {
   return done;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/capture/view.h"
+#include <mobil/view.h>
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "systems/capture/render_targets.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 using namespace capture_math;
 using namespace geometry;
 namespace {
@@ -119,4 +119,4 @@ Result<FrameBlocks> frame_blocks(const Scene& scene, int width, int height, cons
   return blocks;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

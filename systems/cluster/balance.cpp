@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t most_moves = 4;
@@ -48,4 +48,4 @@ std::vector<ShardMove> plan_moves(std::span<const int> owner, std::span<const st
   return moves;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

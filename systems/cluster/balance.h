@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct ShardMove {
   std::uint32_t shard = 0;
@@ -18,4 +18,4 @@ std::vector<int> first_owners(std::uint32_t shards, int ranks);
 /// falls by a twentieth of the mean; at most four. The same for the same numbers.
 std::vector<ShardMove> plan_moves(std::span<const int> owner, std::span<const std::uint64_t> cost, int ranks);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

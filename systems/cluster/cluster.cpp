@@ -1,4 +1,4 @@
-#include "systems/cluster/cluster.h"
+#include <mobil/cluster.h>
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "engine/state_hash.h"
 #include "systems/cluster/balance.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 class Stopwatch {
@@ -253,4 +253,4 @@ ClusterReport Cluster::report() const {
   return report;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/cluster/local_transport.h"
+#include <mobil/local_transport.h>
 
 #include <deque>
 #include <map>
@@ -8,7 +8,7 @@
 
 #include "engine/row_hash.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What is on its way.
 struct LocalRanks::Post {
@@ -78,4 +78,4 @@ Transport& LocalRanks::operator[](int rank) {
   return *ends_.at(static_cast<std::size_t>(rank));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

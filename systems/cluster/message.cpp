@@ -1,4 +1,4 @@
-#include "systems/cluster/message.h"
+#include <mobil/systems/cluster/message.h>
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "engine/row_hash.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint64_t magic = 0x6d6f62696c2d3031;  // "mobil-01"
@@ -63,4 +63,4 @@ Result<Message> open_message(std::span<const std::byte> in, MessageKind kind) {
   return message;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/cluster/mpi_transport.h"
+#include <mobil/mpi_transport.h>
 
 #include <cstdlib>
 #include <string_view>
@@ -13,7 +13,7 @@
 #include <list>
 #endif
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 bool started_as_rank() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"})
@@ -151,4 +151,4 @@ Result<std::unique_ptr<Transport>> mpi_transport() {
 }
 #endif
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,13 +1,13 @@
-#include "systems/cluster/people_shard.h"
+#include <mobil/people_shard.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include <mobil/shard_bytes.h>
 #include "engine/row_hash.h"
-#include "systems/cluster/shard_bytes.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 struct Numbered {
@@ -204,4 +204,4 @@ Result<void> PeopleShard::restore(std::span<const std::byte> saved) {
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/cluster/ranks.h"
+#include <mobil/systems/cluster/ranks.h>
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Steady = std::chrono::steady_clock;
@@ -224,4 +224,4 @@ void Ranks::look_for_silence(double waiting_s, int from) {
                     waiting_s));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/cluster/saved_run.h"
+#include <mobil/systems/cluster/saved_run.h>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,9 +14,9 @@
 #include <system_error>
 #include <utility>
 
-#include "systems/cluster/message.h"
+#include <mobil/systems/cluster/message.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -257,4 +257,4 @@ Result<void> CommandLog::add(std::uint32_t tick, std::span<const std::byte> comm
                           std::strerror(errno)));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

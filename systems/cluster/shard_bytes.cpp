@@ -1,9 +1,9 @@
-#include "systems/cluster/shard_bytes.h"
+#include <mobil/shard_bytes.h>
 
 #include <array>
 #include <cstdint>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Result<std::vector<std::byte>> pack_shard(const Simulation& simulation, const Relevance* relevance,
                                           std::span<const std::byte> host) {
@@ -41,4 +41,4 @@ Result<std::vector<std::byte>> unpack_shard(std::span<const std::byte> bytes, Si
   return host;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -13,7 +13,7 @@
 #include "systems/deformation/elastic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 HWY_INLINE Vector load_vector(const float* p) {
   return {hn::Load(d, p), hn::Load(d, p + lane_count), hn::Load(d, p + 2 * lane_count)};
@@ -130,7 +130,7 @@ HWY_INLINE void solve_backward(const BandFactor& factor, float* y, Take&& take) 
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

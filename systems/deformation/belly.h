@@ -5,16 +5,16 @@
 #include <memory>
 #include <vector>
 
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/leg_muscles.h>
 #include "assets/fem/axial_stiffness.h"
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/finite/finite_shape.h"
-#include "assets/muscles/muscle_plan.h"
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_belly.h"
-#include "components/leg_muscles.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct MuscleLines;  // systems/lines/muscle_lines.h
 
@@ -48,4 +48,4 @@ struct Belly : SharedBelly {
   std::vector<float> motion, rest_shape;        // and its rows, ReducedMotion and ReducedShape
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/fade.h"
-#include "engine/rows.h"
+#include <mobil/components/fade.h>
+#include <mobil/rows.h>
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/fade.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 struct alignas(64) Words {
@@ -138,4 +138,4 @@ std::vector<float> fade_between(const BellyMotion& before, const BellyMotion& af
   return fade;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
+#include <mobil/components/muscle.h>
+#include <mobil/engine/world.h>
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_belly.h"
-#include "components/muscle.h"
-#include "engine/world.h"
 #include "systems/deformation/belly.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Three numbers a control point, in the muscle's frame: m and m/s.
 struct BellyMotion {
@@ -72,9 +72,9 @@ BellyMotion stretched(const Belly& belly, const LineOfAction<float>& line, const
 void settle_belly(const Belly& belly, const BellySolver& solver, const BellyLoad& load, int solutions,
                   BellyMotion& motion, bool moves);
 
-/// Adds to `motion` what still fades of a muscle's earlier one (components/fade.h).
+/// Adds to `motion` what still fades of a muscle's earlier one (mobil/components/fade.h).
 void add_fade(const World& world, Entity muscle, float tick_s, BellyMotion& motion);
 /// What the new method leaves of what was shown: displacement, then velocity. Empty where it is less than 0.01 mm.
 std::vector<float> fade_between(const BellyMotion& before, const BellyMotion& after);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

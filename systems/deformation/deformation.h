@@ -12,11 +12,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
 #include "assets/fem/muscle_template.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct BellySolver;  // assets/fem/belly_solver.h
 
@@ -70,4 +70,4 @@ void deform_explicit(const BellyBlock& block, const FarFaceDrive& end, std::uint
 void deform_implicit(const BellyBlock& block, const BellySolver& solver, const FarFaceDrive& end,
                      std::uint32_t substeps, float tick_s, float* scratch);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -15,7 +15,7 @@
 #include "systems/deformation/deformation.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 // The kernels work through one register of lanes at a time, a whole tick long: nine sums, three displacements and a
 // coefficient then fit the sixteen registers of AVX2.
@@ -181,7 +181,7 @@ HWY_INLINE FrameField frame_field(const FrameLoad<Lanes<float>>& load, const Bel
           row(g0.z, g1.z)};
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

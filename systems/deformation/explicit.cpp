@@ -1,7 +1,7 @@
 #include "systems/deformation/deformation.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/deformation/explicit.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <numbers>
@@ -12,11 +12,11 @@
 #include "systems/deformation/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// One register of lanes of a block during one tick.
-struct Bellies {
+struct ExplicitBellies {
   const KernelArrays& kernel;
   const Cells& cells;
   float *u, *v;
@@ -29,7 +29,7 @@ struct Bellies {
 /// free, no load). With `energy`, adds uₙᵀ·K·uₙ₊₁ of these nodes to `work`. `end` is the traction's total, or, of a
 /// held face, its next displacement along z.
 template <Stiffness stiffness, FarEnd way, bool loaded, bool energy>
-HWY_NOINLINE void advance_velocity(const Bellies& belly, std::uint32_t first, std::uint32_t last, const Vector& end,
+HWY_NOINLINE void advance_velocity(const ExplicitBellies& belly, std::uint32_t first, std::uint32_t last, const Vector& end,
                                    V& work) {
   const Cells cells = belly.cells;
   const Factors factor = belly.factor;
@@ -72,7 +72,7 @@ HWY_NOINLINE void advance_velocity(const Bellies& belly, std::uint32_t first, st
 
 /// One substep. `end`: traction at its start; of a held face, the displacement at its end.
 template <Stiffness stiffness, FarEnd far_end, bool energy>
-HWY_INLINE void substep(const Bellies& belly, const Vector& end, V& work) {
+HWY_INLINE void substep(const ExplicitBellies& belly, const Vector& end, V& work) {
   const Cells& cells = belly.cells;
   advance_velocity<stiffness, FarEnd::free, false, energy>(belly, 1, cells[2] - 1, end, work);
   V unused = work;
@@ -91,7 +91,7 @@ HWY_INLINE void substep(const Bellies& belly, const Vector& end, V& work) {
 
 /// Holds the far face sideways, and a held one at the tick's start and speed along z.
 template <FarEnd far_end>
-HWY_INLINE void hold_far_face(const Bellies& belly, V from_z, V speed_z) {
+HWY_INLINE void hold_far_face(const ExplicitBellies& belly, V from_z, V speed_z) {
   const std::size_t past = node_stride * node_count(belly.cells);
   for (std::size_t at = node_stride * first_insertion_node(belly.cells); at < past; at += node_stride) {
     for (std::size_t c = 0; c < 2 * lane_count; c += lane_count) {
@@ -108,7 +108,7 @@ HWY_INLINE void hold_far_face(const Bellies& belly, V from_z, V speed_z) {
 /// Velocities after the damping, the frame's field and the sideways foundation of one substep: v ← keep·v +
 /// push·(field − ω²·u), push = Δt/(1 + αΔt/2). What is left is the elastic part.
 template <FarEnd far_end>
-HWY_NOINLINE void push_masses(const Bellies& belly, const FrameField& field, V push, V foundation) {
+HWY_NOINLINE void push_masses(const ExplicitBellies& belly, const FrameField& field, V push, V foundation) {
   const Cells& cells = belly.cells;
   const std::uint32_t far = first_insertion_node(cells);
   const std::uint32_t past = far_end == FarEnd::held ? far : node_count(cells);
@@ -128,7 +128,7 @@ HWY_NOINLINE void push_masses(const Bellies& belly, const FrameField& field, V p
 }
 
 /// scratch ← u + β·v.
-HWY_INLINE void add_rates(const Bellies& belly, V beta, float* scratch) {
+HWY_INLINE void add_rates(const ExplicitBellies& belly, V beta, float* scratch) {
   for (std::size_t at = 0; at < node_stride * node_count(belly.cells); at += lane_count) {
     hn::Store(mul_add(beta, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, scratch + at);
   }
@@ -143,7 +143,7 @@ void tick_of_lanes(const BellyBlock& block, const FarFaceDrive& end, std::uint32
   const float half_damping = 0.5F * static_cast<float>(options.damping_per_s) * dt;
   const V keep = hn::Set(d, (1.0F - half_damping) / (1.0F + half_damping));
   const V push = hn::Set(d, dt / (1.0F + half_damping));
-  Bellies belly{block.muscle.kernel,
+  ExplicitBellies belly{block.muscle.kernel,
                 block.muscle.mesh.cells,
                 block.displacement + first_lane,
                 block.velocity + first_lane,
@@ -233,11 +233,11 @@ void explicit_tick(const BellyBlock& block, const FarFaceDrive& end, std::uint32
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(explicit_tick);
 }  // namespace
@@ -247,5 +247,5 @@ void deform_explicit(const BellyBlock& block, const FarFaceDrive& end, std::uint
   HWY_DYNAMIC_DISPATCH(explicit_tick)(block, end, substeps, tick_s, scratch);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

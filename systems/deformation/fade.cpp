@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 FadeShare fade_share(float elapsed_s) {
   const float x = std::min(elapsed_s / fade_s, 1.0F), left = 1.0F - x;
@@ -27,4 +27,4 @@ void fade_out(const float* displacement, const float* start, std::uint32_t words
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "components/fade.h"
+#include <mobil/components/fade.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One tick of a block: `shown` = `displacement` + d·(1 + 2x)·(1 − x)² + v·T·x·(1 − x)², the cubic from displacement d
 /// and velocity v at the change (`start`: 2·`words` floats × 16) to rest at nothing a time T = fade_s later, x =
@@ -19,4 +19,4 @@ struct FadeShare {
 };
 FadeShare fade_share(float elapsed_s);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

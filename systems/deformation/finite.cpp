@@ -1,7 +1,7 @@
 #include "systems/deformation/finite.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/deformation/finite.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 #include "systems/deformation/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// A plane of nodes: where its forces are summed, its mean displacement sideways, and what acts on that mean.
@@ -343,11 +343,11 @@ void finite_tick(const BellyBlock& block, const FarFaceDrive& end, const Lanes<f
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(finite_tick);
 }  // namespace
@@ -357,5 +357,5 @@ void deform_finite(const BellyBlock& block, const FarFaceDrive& end, const Lanes
   HWY_DYNAMIC_DISPATCH(finite_tick)(block, end, activation, substeps, tick_s, scratch);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

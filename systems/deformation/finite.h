@@ -8,10 +8,10 @@
 
 #include <cstdint>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
 #include "systems/deformation/deformation.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One tick of a block in `substeps` equal steps, each within `muscle.critical_steps` of a template of Strain::finite.
 /// `activation` (0–1) may be null: relaxed, and damped as the template says; with it damping is that of tuned bellies
@@ -19,9 +19,9 @@ namespace mobil {
 /// the belly has at the tick's end (held), or had at its start.
 ///
 /// Report: strain energy is that of tissue and hourglass stiffness, and what fibres would give back at this activation,
-/// all at the tick's end, 0 at rest but for rounding; kinetic energy is half a step back; reaction is the elastic force at the tick's
-/// end. A lane's NaN stays in its lane. No heap. `scratch`: scratch_floats(muscle, Method::finite).
+/// all at the tick's end, 0 at rest but for rounding; kinetic energy is half a step back; reaction is the elastic force
+/// at the tick's end. A lane's NaN stays in its lane. No heap. `scratch`: scratch_floats(muscle, Method::finite).
 void deform_finite(const BellyBlock& block, const FarFaceDrive& end, const Lanes<float>* activation,
                    std::uint32_t substeps, float tick_s, float* scratch);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -13,7 +13,7 @@
 #include "systems/deformation/elastic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// What elements of a register of lanes have in common during one tick.
 struct FiniteLaw {
@@ -300,7 +300,7 @@ HWY_INLINE CornerSums force_sums(const FiniteKernelElement& element, const Eleme
           on_pattern[3]};
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -16,7 +16,7 @@
 #include "systems/deformation/finite_element-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// `u`: displacements of the nodes from the lower plane's first on.
 HWY_NOINLINE inline void gather_element(const FiniteKernelElement& element, const float* u, ElementState& state) {
@@ -118,7 +118,7 @@ HWY_NOINLINE inline void scatter_small_layer(const FiniteKernelElement* element,
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,7 +1,7 @@
 #include "systems/deformation/finite_shape.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/deformation/finite_shape.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "systems/deformation/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// 0 to 1 as the activation is (activation_root).
@@ -96,11 +96,11 @@ void find_volume(const MuscleTemplate& control, const BellyScale<Lanes<float>>& 
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(blend_all);
 HWY_EXPORT(add_all);
@@ -123,5 +123,5 @@ void report_volume(const MuscleTemplate& control, const BellyScale<Lanes<float>>
   HWY_DYNAMIC_DISPATCH(find_volume)(control, scale, shown, volume_ratio);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

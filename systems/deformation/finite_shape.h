@@ -2,13 +2,13 @@
 // The shape of a belly at finite strain in place of the linear static one, on top of what a method computes: it keeps
 // its volume, and where it pulls it is short and thick. Vibration passes through.
 
+#include <mobil/components/activation.h>
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
 #include "assets/fem/muscle_template.h"
 #include "assets/finite/finite_shape.h"
-#include "components/activation.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What sixteen bellies are to look like at a tick's end. `activation` may be null: relaxed.
 struct ShapeBlock {
@@ -35,4 +35,4 @@ void add_shape(const ShapeBlock& block, const ShapeBlend& blend, bool in_place_o
 void report_volume(const MuscleTemplate& control, const BellyScale<Lanes<float>>& scale, const float* shown,
                    Lanes<float>& volume_ratio);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

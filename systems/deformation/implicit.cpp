@@ -1,7 +1,7 @@
 #include "systems/deformation/deformation.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/deformation/implicit.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <numbers>
@@ -15,7 +15,7 @@
 #include "systems/deformation/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// One step of a tick in numbers and its far face.
@@ -296,11 +296,11 @@ void implicit_tick(const BellyBlock& block, const BellySolver& solver, const Far
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(implicit_tick);
 }  // namespace
@@ -320,5 +320,5 @@ void deform_implicit(const BellyBlock& block, const BellySolver& solver, const F
   HWY_DYNAMIC_DISPATCH(implicit_tick)(block, solver, end, substeps, tick_s, scratch);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -7,7 +7,7 @@
 #include "systems/deformation/method_static.h"
 #include "systems/deformation/method_stepped.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::span<const DeformationMethod> deformation_methods() {
   static const std::array all = {explicit_method, implicit_method, newmark_method,
@@ -45,4 +45,4 @@ BellyMotion stretched_at_rest(const NextBelly& next) {
   return motion;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

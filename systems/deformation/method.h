@@ -8,15 +8,15 @@
 #include <span>
 #include <vector>
 
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/module.h>
+#include <mobil/engine/world.h>
+#include <mobil/schedule.h>
 #include "assets/finite/finite_shape.h"
-#include "components/leg_muscles.h"
-#include "engine/module.h"
-#include "engine/schedule.h"
-#include "engine/world.h"
 #include "systems/deformation/belly.h"
 #include "systems/deformation/belly_motion.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What a muscle's parts follow from. Muscles of one kind share a table.
 struct MuscleKind {
@@ -54,7 +54,7 @@ struct PastBelly {
 };
 
 /// What a belly begins with: displacement and velocity of its control points, the state of a reduced one, and what
-/// fades (components/fade.h). Empty where there is no such thing, or where it stays as it is.
+/// fades (mobil/components/fade.h). Empty where there is no such thing, or where it stays as it is.
 struct Beginning {
   std::vector<float> displacement, velocity, state, fade;
 };
@@ -91,4 +91,4 @@ std::span<const DeformationMethod> deformation_methods();
 /// Null for Method::none.
 const DeformationMethod* deformation_method(Method method);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "components/activation.h"
-#include "engine/rows.h"
+#include <mobil/components/activation.h>
+#include <mobil/rows.h>
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/finite.h"
 #include "systems/deformation/finite_shape.h"
 #include "systems/deformation/restart.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_finite {
 
@@ -139,4 +139,4 @@ constinit const DeformationMethod finite_method = {Method::finite,        &of_fi
                                                    &of_finite::recognise, &nodal_motion,      &of_finite::begin,
                                                    &of_finite::at_rest,   &go_on_as_nodes};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,7 +3,7 @@
 
 #include "systems/deformation/method.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 extern const DeformationMethod finite_method;
 
@@ -12,4 +12,4 @@ extern const DeformationMethod finite_method;
 /// volume), less the linear static answer.
 BellyMotion finite_less_linear(const NextBelly& next);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

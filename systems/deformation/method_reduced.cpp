@@ -6,12 +6,12 @@
 #include <span>
 #include <utility>
 
+#include <mobil/each.h>
 #include "assets/reduction/reduced_bellies.h"
-#include "engine/each.h"
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/restart.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_reduced {
 
@@ -306,4 +306,4 @@ constinit const DeformationMethod reduced_method = {
     Method::reduced,       &of_reduced::reduced_module, &of_reduced::reduced_parts, &of_reduced::recognise,
     &of_reduced::computed, &of_reduced::begin,          &of_reduced::at_rest,       &of_reduced::go_on};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

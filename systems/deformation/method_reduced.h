@@ -4,7 +4,7 @@
 
 #include "systems/deformation/method.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 extern const DeformationMethod reduced_method;
 
@@ -12,4 +12,4 @@ extern const DeformationMethod reduced_method;
 /// begun or changed, and of those in its block, whose bits stay. Nothing for other muscles. Takes no memory.
 void place_now(World& world, Entity muscle);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

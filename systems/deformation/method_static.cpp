@@ -5,7 +5,7 @@
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/restart.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_static {
 
@@ -76,4 +76,4 @@ constinit const DeformationMethod static_method = {
     Method::statics,      &of_static::static_module, &of_static::static_parts, &of_static::recognise,
     &of_static::computed, &of_static::begin,         &stretched_at_rest,       &of_static::go_on};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

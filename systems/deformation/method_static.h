@@ -3,8 +3,8 @@
 
 #include "systems/deformation/method.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 extern const DeformationMethod static_method;
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,7 +5,7 @@
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/restart.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_stepped {
 
@@ -91,4 +91,4 @@ constinit const DeformationMethod newmark_method = {Method::caa,
                                                     &stretched_at_rest,
                                                     &go_on_as_nodes};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

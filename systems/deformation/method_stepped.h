@@ -4,8 +4,8 @@
 
 #include "systems/deformation/method.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 extern const DeformationMethod explicit_method, implicit_method, newmark_method;
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -16,7 +16,7 @@
 #include "systems/deformation/elastic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// One register of lanes of a block during one tick.
@@ -207,7 +207,7 @@ HWY_NOINLINE void solve(const Bellies& belly, const Operator& what, bool exact, 
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -14,7 +14,7 @@
 #include "systems/deformation/reduced.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 inline constexpr std::size_t most_inputs = 3 + frame_inputs;
 
@@ -107,7 +107,7 @@ HWY_INLINE ReducedTail reduced_tail(const float* shape, std::size_t vectors, std
   return {omega, participation, reaction, reaction + inputs * lane_count};
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

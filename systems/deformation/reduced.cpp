@@ -1,7 +1,7 @@
 #include "systems/deformation/reduced.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/deformation/reduced.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <hwy/cache_control.h>
@@ -14,7 +14,7 @@
 #include "systems/deformation/reduced-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// X² + W²: not finite where one of them is not, or is beyond 1.8e19.
@@ -281,11 +281,11 @@ void place_at_rest(const ReducedBlock& block, const ControlPoints& points, const
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(deform_tick);
 HWY_EXPORT(swing_all);
@@ -316,5 +316,5 @@ void place_static(const ReducedBlock& block, const ControlPoints& points, const 
   HWY_DYNAMIC_DISPATCH(place_at_rest)(block, points, end);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -16,13 +16,13 @@
 // Appl. Physiol. 90, 2001: frequency and damping of vibrations rise with force. 16 gives 7 Hz a share of critical
 // damping of 0.18, 16 + 60 gives 15 Hz 0.4; no source measures them.)
 
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_belly.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
 #include "systems/deformation/deformation.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Sixteen bellies of one basis; every field holds that many floats × 16, sixteen lanes at each, aligned to 64 bytes.
 ///
@@ -94,4 +94,4 @@ void place_static(const ReducedBlock& block, const ControlPoints& points, const 
 void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
                     const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

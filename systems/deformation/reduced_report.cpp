@@ -1,7 +1,7 @@
 #include "systems/deformation/reduced.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/deformation/reduced_report.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "engine/fused-inl.h"
@@ -10,7 +10,7 @@
 #include "systems/deformation/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// Elongation of a far face that is not held.
@@ -105,11 +105,11 @@ void report_block(const ReducedBlock& block, const MuscleTemplate& control, cons
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(report_block);
 }  // namespace
@@ -123,5 +123,5 @@ void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, co
   (block, control, points, end, tick_s, report, static_cast<float>(lift_mass));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include "engine/eigen.h"
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cmath>
@@ -12,7 +13,7 @@
 
 #include "assets/fem/kernel_arrays.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -318,4 +319,4 @@ bool ReferenceBelly::finite() const {
   return state_->u.allFinite();
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

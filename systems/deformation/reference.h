@@ -6,14 +6,14 @@
 #include <memory>
 #include <span>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/critical_step.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/stiffness_terms.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
-#include "engine/error.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// One belly and how it is stepped: C = α·M + β·K, foundation K_f = ω_f²·M in x and y alone.
 struct ReferenceOptions {
@@ -80,4 +80,4 @@ class ReferenceBelly {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

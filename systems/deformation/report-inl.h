@@ -11,7 +11,7 @@
 #include "systems/deformation/elastic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Volume inside the deformed boundary, m³: each bilinear patch sweeps the mean of its two triangulations.
 HWY_INLINE V enclosed_volume(const KernelArrays& kernel, V across, V along, const float* u) {
@@ -99,7 +99,7 @@ HWY_NOINLINE void report_strain_energy(const BellyBlock& block, const Factors& f
   hn::Store(hn::Mul(hn::Set(d, 0.5F), sum), d, block.report.strain_energy_j.lane + first_lane);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

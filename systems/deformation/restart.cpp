@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Which lanes' reports are not finite, as bits: sums over all displacements and velocities.
@@ -65,4 +65,4 @@ std::uint32_t count_rows(std::uint32_t lanes, const Rows& rows) {
   return static_cast<std::uint32_t>(std::popcount(lanes & ((1U << rows.live) - 1U)));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,12 +4,12 @@
 
 #include <cstdint>
 
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/access.h>
 #include "assets/fem/muscle_template.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
-#include "engine/access.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// After a block's tick: lanes whose report is not finite are drawn out evenly from their origin to the held end, as it
 /// is and moves at the tick's end; to rest where the end slides or is not finite itself. They report that elongation,
@@ -21,4 +21,4 @@ std::uint32_t restart_bellies(const MuscleTemplate& shape, const Rows& rows, con
 /// How many of those lanes, as bits, are rows.
 std::uint32_t count_rows(std::uint32_t lanes, const Rows& rows);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,8 +1,8 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/forces/forces.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/gait/leg_model.h"
 #include "assets/gait/sole-inl.h"
 #include "assets/gait/uneven-inl.h"
@@ -10,7 +10,7 @@
 #include "systems/forces/forces.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 namespace contact {
 /// So high over the ground a point of a sole bears nothing.
@@ -368,11 +368,11 @@ void posed_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<floa
   put_moments(size, motion, ground, moments);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(forces_block);
 HWY_EXPORT(posed_block);
@@ -390,5 +390,5 @@ void posed_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<flo
   HWY_DYNAMIC_DISPATCH(posed_block)(size, motion, before, now, after, apart_s, reaction, moments);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

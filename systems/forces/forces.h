@@ -1,13 +1,13 @@
 #pragma once
 // From the motion of the skeleton to the reaction of the ground and the moments at the joints (paper, section 4.3).
 
-#include "components/body.h"
-#include "components/footing.h"
-#include "components/forces.h"
-#include "components/gait.h"
-#include "components/pose.h"
+#include <mobil/components/body.h>
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Ground reaction of each foot and sagittal moments at hip, knee and ankle, by free-body diagrams from the foot up, at
 /// the instant that `motion` is of.
@@ -37,4 +37,4 @@ void posed_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<flo
                   const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now, const Pose<Lanes<float>>& after,
                   float apart_s, GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/gait/asleep.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <array>
@@ -8,13 +8,13 @@
 #include <memory>
 #include <utility>
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
 #include "engine/wide-inl.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/heading-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// The point of the line `chords` straight steps from the anchor; as advance_gait has it, to the bit.
 void line_block(const SteadyWalk<Lanes<float>>& walk, const Lanes<float>& chords, Lanes<float>& x_m,
@@ -34,11 +34,11 @@ void heads_block(const GaitState<Lanes<float>>& state, const Gait<Lanes<float>>&
   store(select(heads_there, wide(1.0F), wide(0.0F)), heads);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(line_block);
 HWY_EXPORT(heads_block);
@@ -353,5 +353,5 @@ void settle(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>
     if ((left >> l & 1U) != 0) until[l] = never_settles;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "components/sleep.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/sleep.h>
 #include "systems/gait/gait.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A style in bytes; nothing where it is not on the grid (`snapped`).
 std::optional<SleepingStyle<float>> packed_style(const GaitStyle& style);
@@ -56,4 +56,4 @@ void settle(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>
             const Lanes<std::uint32_t>& asked, float tick_s, WalkingBlock& block, SteadyWalk<Lanes<float>>& after,
             Lanes<std::uint32_t>& until);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

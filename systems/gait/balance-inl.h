@@ -14,7 +14,7 @@
 #include "systems/gait/strike-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Equal parts of a step's time at whose ends it is looked at.
 constexpr std::size_t step_parts = 20;
@@ -240,7 +240,7 @@ HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one,
   return max(choose(ahead, plan.ahead_m, 1.0F), choose(aside, plan.aside_m, -1.0F));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

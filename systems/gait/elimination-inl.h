@@ -10,7 +10,7 @@
 #include "engine/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// N linear equations per lane, by elimination with pivoting within each lane; lanes whose matrix is singular get 0.
 template <std::size_t N>
@@ -81,7 +81,7 @@ struct LeastSquares {
   }
 };
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr auto leaving = index(FootholdOf::leaving);
@@ -37,4 +37,4 @@ void follow_feet(const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& fo
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

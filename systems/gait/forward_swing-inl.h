@@ -13,7 +13,7 @@
 #include "systems/gait/swing_leg-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Steps of Runge and Kutta's fourth order from toe-off to heel strike, evenly in time; a swing is looked at halfway
 /// through them too.
@@ -326,7 +326,7 @@ HWY_NOINLINE inline void integrate_swing(const Wide& height, const Wide& share, 
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string_view>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/gait/step_lookup.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double lowest_speed = 0.3;  // m/s, for a leg of 0.90 m, in proportion to its root
@@ -138,4 +138,4 @@ Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, 
   return gait;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "engine/error.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/engine/error.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Completes and checks a request for a body. Fails on speeds other than 0 outside 0.3–2.3 m/s (at a leg of 0.90 m; in
 /// proportion to √leg), step lengths outside 0.25–1.25 leg lengths, step frequencies outside 0.5–3 Hz (at that leg; in
@@ -81,4 +81,4 @@ std::uint32_t lanes_to_plan(const StepPlan<Lanes<float>>& plan, const Gait<Lanes
 void turn_gait(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
                GaitState<Lanes<float>>& state, float tick_s);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

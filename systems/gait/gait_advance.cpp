@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/gait/gait_advance.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "systems/gait/next_foot-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Who has come to stand does so beside the line, as far as the feet are: the line goes there.
 HWY_INLINE void come_to_rest(const StepPlan<Lanes<float>>& plan, const WideMask& done, GaitState<Lanes<float>>& state) {
@@ -159,11 +159,11 @@ void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   begin(select(steps, next.shift, load(state.shift_before_m)), state.shift_next_m);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 ClockUnits clock_units(float tick_s) {
   constexpr int most = 15;
@@ -192,5 +192,5 @@ void turn_gait(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>&
   HWY_DYNAMIC_DISPATCH(turn_block)(size, plan, wanted, state, tick_s);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

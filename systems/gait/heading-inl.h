@@ -10,7 +10,7 @@
 #include "assets/gait/step_curves-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float pi_f = 3.14159265F;
 
@@ -48,7 +48,7 @@ HWY_INLINE WideMask steps_on_spot(const StepPlan<Lanes<float>>& plan) {
   return stands_still(plan) & (load(plan.landing) > 0.0F);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

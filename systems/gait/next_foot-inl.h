@@ -12,7 +12,7 @@
 #include "systems/gait/step_limits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// How far beside the place where its turn asks for it a foot may press the ground, of the height.
 constexpr float within_sole = 0.012F;
@@ -59,7 +59,7 @@ HWY_INLINE NextFoot next_foot(const StepBegun& step, const Wide& way) {
   return {select(walks, kept, shift), select(walks, bend, wide(0.0F))};
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

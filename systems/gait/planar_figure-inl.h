@@ -12,7 +12,7 @@
 #include "assets/gait/step_feet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Of the body above the hips, in body heights: how high its centre of mass is above them and how far ahead; how far it
 /// goes ahead per radian of the trunk's lean, of the pelvis' tilt and of both arms' swing together; and the square of
@@ -162,7 +162,7 @@ HWY_NOINLINE inline PlanarMotion planar_motion(const PlanarFigure& a, const Plan
   return m;
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/gait/step_events.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "systems/gait/step_events.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// A place to the left of and ahead of the stance foothold, and a foot's heading there, in the world.
 HWY_INLINE void put_foothold(const GaitState<Lanes<float>>& state, FootholdOf which, const Wide& left,
@@ -53,11 +53,11 @@ void landing_times_block(const StepPlan<Lanes<float>>& plan, Lanes<float>& secon
   store(time_of_phase(plan, load(plan.landing)) * load(plan.duration_s), seconds);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(footholds_block);
 HWY_EXPORT(landing_times_block);
@@ -187,5 +187,5 @@ void end_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<f
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -3,12 +3,12 @@
 
 #include <cstdint>
 
-#include "components/footing.h"
-#include "components/gait.h"
-#include "components/lanes.h"
-#include "components/step_events.h"
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/lanes.h>
+#include <mobil/components/step_events.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Places of the ground under the ankles of feet that lie flat, and where the feet point (rad about +Y, 0 toward +Z,
 /// positive to the left): of the other foot before it leaves the ground, of the stance foot, of the other foot once it
@@ -28,4 +28,4 @@ void begin_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes
 void end_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s,
                      StepEvents* rows);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -2,7 +2,7 @@
 // What one step may change of a walk (systems/gait/README.md, "Turning"): what one step cannot do, several do. Speeds
 // are of a leg of 0.90 m, in proportion to the root of the leg.
 
-namespace mobil::step_limits {
+namespace mobil::inline v0_3::step_limits {
 
 inline constexpr float leg_m = 0.90F;
 /// How far speed may change from step to step, and what a walk starts with and stops from, m/s.
@@ -19,4 +19,4 @@ inline constexpr float aside_m = 0.25F, ahead_m = 0.20F, aside_leg_m = 0.85F;
 /// A turn a step, rad, and its acceleration sideways, m/s².
 inline constexpr float most_turn = 30.0F * 3.14159265F / 180.0F, most_sideways = 1.1F;
 
-}  // namespace mobil::step_limits
+}  // namespace mobil::inline v0_3::step_limits

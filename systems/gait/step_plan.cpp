@@ -1,7 +1,7 @@
 // From one heel strike to the next: sixteen steps solved side by side.
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/gait/step_plan.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "systems/gait/step_limits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 using namespace step_limits;
 
@@ -368,11 +368,11 @@ void time_next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>
   follow_step(size, wanted, state, Solve::times, plan);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(first_block);
 HWY_EXPORT(time_first_block);
@@ -399,5 +399,5 @@ void time_next_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>
   HWY_DYNAMIC_DISPATCH(time_next_block)(size, wanted, state, plan);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

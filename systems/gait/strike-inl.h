@@ -11,15 +11,15 @@
 #include <array>
 #include <iterator>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
 #include "assets/gait/step_lookup.h"
-#include "components/body.h"
-#include "components/gait.h"
 #include "engine/wide_curve-inl.h"
 #include "systems/gait/heading-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float degree_f = pi_f / 180.0F;
 constexpr float gravity_f = 9.81F;
@@ -238,7 +238,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   store(most, m.leg_forward);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -11,7 +11,7 @@
 #include "systems/gait/planar_figure-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Angles of thigh and shank from the downward vertical, forward positive (the paper's θ₃, θ₄), and their rates.
 struct SwingState {
@@ -132,7 +132,7 @@ struct AnkleBelow {
   Wide s3_, c3_, s4_, c4_;
 };
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,6 +2,7 @@
 // names of functions, so that nothing is declared twice.
 // Usage: node read_header.mjs mobil.h interface.js EXPORTS
 import { readFileSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 
 const sizes = { 'size_t': 4, 'int': 4, 'unsigned int': 4, float: 4, double: 8, pointer: 4 };
 
@@ -57,7 +58,9 @@ export function readHeader(text) {
 
 const [, , header, out, exportsFile] = process.argv;
 if (out) {
-  const read = readHeader(readFileSync(header, 'utf8'));
+  const whole = readFileSync(header, 'utf8')
+    .replace(/#include <mobil\/(c\/\w+\.h)>/g, (_, part) => readFileSync(join(dirname(header), part), 'utf8'));
+  const read = readHeader(whole);
   writeFileSync(out, '// Made from mobil.h by read_header.mjs.\n' +
     Object.entries(read).map(([name, value]) => `export const ${name} = ${JSON.stringify(value)};\n`).join(''));
   if (exportsFile) writeFileSync(exportsFile, read.functions.map((name) => `-Wl,--export-if-defined=${name}\n`).join(''));

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/kinematics/body_motion.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "assets/body/fat_distribution.h"
@@ -10,7 +10,7 @@
 #include "systems/kinematics/kinematics.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float gravity_m_s2 = 9.81F;
 /// Of a foot with its toes, the toes' part of the mass.
@@ -18,13 +18,13 @@ constexpr auto toes_of_foot = static_cast<float>(
     unit_body.mass_fraction[index(Segment::toes_right)] /
     (unit_body.mass_fraction[index(Segment::toes_right)] + unit_body.mass_fraction[index(Segment::foot_right)]));
 
-HWY_INLINE WideVec scaled(const Vec3<double>& v, const Wide& by) {
+HWY_INLINE WideVec scaled_exactly(const Vec3<double>& v, const Wide& by) {
   return {static_cast<float>(v.x) * by, static_cast<float>(v.y) * by, static_cast<float>(v.z) * by};
 }
 
 HWY_INLINE WideVec centre_of(const Wide& height, const Pose<Lanes<float>>& pose, std::size_t segment) {
   return load(pose.position_m[segment]) +
-         rotate(load(pose.rotation[segment]), scaled(unit_body.centre_of_mass[segment], height));
+         rotate(load(pose.rotation[segment]), scaled_exactly(unit_body.centre_of_mass[segment], height));
 }
 
 /// How fast a segment turned from one attitude to another, in its own axes.
@@ -57,7 +57,7 @@ void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
     const WideQuat q0 = load(before.rotation[s]), q1 = load(now.rotation[s]), q2 = load(after.rotation[s]);
     const WideVec first = turning(q0, q1, per_half), second = turning(q1, q2, per_half);
     const Vec3<double>& unit = unit_inertia[s];
-    const WideVec inertia = scaled(unit, of_usual * height * height);
+    const WideVec inertia = scaled_exactly(unit, of_usual * height * height);
     const WideVec spin = {0.5F * (first.x + second.x), 0.5F * (first.y + second.y), 0.5F * (first.z + second.z)};
     const WideVec whirl = cross(spin, WideVec{inertia.x * spin.x, inertia.y * spin.y, inertia.z * spin.z});
     const WideVec own = {fma(inertia.x, (second.x - first.x) * per, whirl.x),
@@ -106,11 +106,11 @@ void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(motion_block);
 
@@ -162,5 +162,5 @@ void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<floa
   motion_of_poses(size, pose[0], pose[1], pose[2], motion_difference_s, motion);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

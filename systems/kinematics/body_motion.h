@@ -1,13 +1,13 @@
 #pragma once
 // From the solved step to how all 48 segments accelerate.
 
-#include "components/body.h"
-#include "components/footing.h"
-#include "components/forces.h"
-#include "components/gait.h"
-#include "components/pose.h"
+#include <mobil/components/body.h>
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The motion of bodies of which three poses are known, `apart_s` seconds apart, in a frame of their own: central
 /// differences of places, Euler's equations of each segment in its own axes (inertias: assets/body/segment_inertia.h).
@@ -21,4 +21,4 @@ void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<floa
                    const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing,
                    BodyMotion<Lanes<float>>& motion);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

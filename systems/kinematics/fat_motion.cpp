@@ -1,7 +1,7 @@
 #include "systems/kinematics/fat_motion.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/kinematics/fat_motion.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "engine/wide_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// What a tick makes of a damped spring's place and speed.
@@ -69,11 +69,11 @@ void fat_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pos
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(fat_block);
 }
@@ -105,5 +105,5 @@ std::array<Vec3<float>, fat_regions> shown_fat(const BodySize<float>& size, cons
   return shown;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -3,13 +3,13 @@
 
 #include <array>
 
+#include <mobil/components/body.h>
+#include <mobil/components/fat.h>
+#include <mobil/components/pose.h>
+#include <mobil/components/segments.h>
 #include "assets/body/fat_distribution.h"
-#include "components/body.h"
-#include "components/fat.h"
-#include "components/pose.h"
-#include "components/segments.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Fat of 10 mm swings at 10 Hz, thicker fat slower by the root of its thickness, with a quarter of critical damping.
 /// For legs and arms of usual people that is within what is measured of thighs and calves (10 to 25 Hz and 0.1 to 0.4
@@ -21,7 +21,7 @@ inline constexpr float fat_fastest_m_s = 30;
 inline constexpr float fat_reach = 0.3F;
 
 /// A region is carried by a point between the origins of two segments, `part` of the way, and its fat is so thick in a
-/// man of 75 kg and 1.75 m: our choice, legs as assets/skin/leg_grid.h has them.
+/// man of 75 kg and 1.75 m: our choice, legs as mobil/assets/skin/leg_grid.h has them.
 struct FatPoint {
   Segment from, to;
   float part, thickness_m;
@@ -55,4 +55,4 @@ void fat_motion(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& po
 /// no further than `fat_reach` of the thickness.
 std::array<Vec3<float>, fat_regions> shown_fat(const BodySize<float>& size, const FatWobble<float>& fat);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/kinematics/kinematics.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "assets/body/column.h"
@@ -10,7 +10,7 @@
 // Functions here are kept apart where a compiler would otherwise put all of a skeleton into one.
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// The pose under construction.
 struct Skeleton {
@@ -221,11 +221,11 @@ void centre_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
   store(sum, centre.position_m);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(pose_block);
 HWY_EXPORT(centre_block);
@@ -241,5 +241,5 @@ void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>
   HWY_DYNAMIC_DISPATCH(centre_block)(size, pose, centre);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

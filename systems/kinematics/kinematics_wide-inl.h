@@ -11,7 +11,7 @@
 #include "engine/wide_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 HWY_INLINE WideVec scaled(const Vec3<float>& v, const Wide& by) {
   return {v.x * by, v.y * by, v.z * by};
@@ -57,7 +57,7 @@ MOBIL_WIDE_INLINE WideQuat turn_yzx(const Wide& y, const Wide& z, const Wide& x)
   return turn_y(y) * (turn_z(z) * turn_x(x));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

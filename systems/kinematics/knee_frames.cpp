@@ -1,12 +1,12 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/kinematics/knee_frames.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "systems/kinematics/knee_frames.h"
 #include "systems/kinematics/step_now-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 struct SineCosine {
@@ -104,11 +104,11 @@ void both_knees(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 namespace {
 
@@ -146,5 +146,5 @@ void knee_frames(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>
   HWY_DYNAMIC_DISPATCH(both_knees)(size, plan, state, leg, ahead);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -4,12 +4,12 @@
 #include <array>
 #include <cstddef>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "components/leg_frames.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/leg_frames.h>
 #include "engine/fetch_ahead.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A plan that will be needed soon, without what legs do not read of it: how the trunk leans, what the feet press, how
 /// arms swing.
@@ -33,4 +33,4 @@ class LegPlanAhead {
 void knee_frames(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                  const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2], LegPlanAhead& ahead);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/kinematics/root_place.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "assets/gait/on_line-inl.h"
@@ -7,7 +7,7 @@
 #include "systems/kinematics/root_place.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 void root_block(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                 RootPlace<Lanes<float>>& out) {
@@ -25,11 +25,11 @@ void root_block(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>
   store(heading + on.heading, out.heading_rad);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(root_block);
 
@@ -38,5 +38,5 @@ void root_place(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>
   HWY_DYNAMIC_DISPATCH(root_block)(plan, state, out);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

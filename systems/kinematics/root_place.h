@@ -1,10 +1,10 @@
 #pragma once
 // The root of a walker: the point of the ground that goes along with the body, without its sway.
 
-#include "components/gait.h"
-#include "components/lanes.h"
+#include <mobil/components/gait.h>
+#include <mobil/components/lanes.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Beside the point of the walking line at the stance foothold (GaitState::line_x_m, line_z_m), in the world's axes,
 /// and the heading there (rad about +Y, 0 toward +Z, positive to the left).
@@ -18,4 +18,4 @@ struct RootPlace {
 /// to step too.
 void root_place(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, RootPlace<Lanes<float>>& out);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

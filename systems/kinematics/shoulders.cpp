@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/kinematics/shoulders.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "systems/kinematics/shoulders.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr std::size_t lowest = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
 
@@ -80,11 +80,11 @@ void ease_block(Course<Lanes<float>>& course, float tick_s, float decay) {
   store(select(there, wide(0.0F), next_speed), course.turn_rad_s);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(shoulders_block);
 HWY_EXPORT(ease_block);
@@ -100,5 +100,5 @@ void ease_shoulders(Course<Lanes<float>>& course, float tick_s) {
   HWY_DYNAMIC_DISPATCH(ease_block)(course, tick_s, 1 / growth);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -1,10 +1,10 @@
 #pragma once
 // Shoulders that turn, so that somebody fits through a gap.
 
-#include "components/avoidance.h"
-#include "components/pose.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/pose.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// How far shoulders turn either way beside the pelvis, rad: half of what a thoracic column can (White and Panjabi
 /// 1990).
@@ -20,4 +20,4 @@ void ease_shoulders(Course<Lanes<float>>& course, float tick_s);
 /// of the column take parts of it as they can turn; the arms go with the shoulders; the head looks where it did.
 void turn_shoulders(const Lanes<float>& turn_rad, Pose<Lanes<float>>& pose);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,13 +1,13 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/kinematics/step_bounds.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
+#include <mobil/systems/kinematics/step_bounds.h>
 #include "assets/body/column.h"
-#include "systems/kinematics/step_bounds.h"
 #include "systems/kinematics/step_now-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// Values go into their places where they are more than what is there.
@@ -102,11 +102,11 @@ void bounds_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 HWY_EXPORT(bounds_block);
 
@@ -115,5 +115,5 @@ void step_bounds(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>
   HWY_DYNAMIC_DISPATCH(bounds_block)(size, plan, state, bounds);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -13,7 +13,7 @@
 #include "systems/kinematics/unit_skeleton.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// What the pelvis does now, seen from the right side; its turn and the hips' places from their middle, in its heading.
 struct PelvisMotion {
@@ -251,7 +251,7 @@ HWY_INLINE Wide held_pitch(const FootMotion& foot, const Wide& shank) {
   return foot.pitch - smooth(4.0F * foot.in_the_air) * (ankle - lower_of(ankle, wide(most), wide(width)));
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

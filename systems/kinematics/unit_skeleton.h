@@ -3,11 +3,11 @@
 
 #include <cstddef>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/segments.h>
 #include "assets/body/fat_distribution.h"
-#include "components/segments.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The body of height 1 m in single precision.
 struct UnitSkeleton {
@@ -31,4 +31,4 @@ constexpr UnitSkeleton make_unit_skeleton() {
 
 inline constexpr UnitSkeleton unit_skeleton = make_unit_skeleton();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

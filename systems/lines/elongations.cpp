@@ -1,14 +1,14 @@
 #include "systems/lines/elongations.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/lines/elongations.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "engine/wide_geometry-inl.h"
 
 #ifndef MOBIL_SYSTEMS_LINES_ELONGATIONS_CPP_
 #define MOBIL_SYSTEMS_LINES_ELONGATIONS_CPP_
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Whether the way to a member's point never changes; the point past the last is the kneecap's end.
@@ -19,11 +19,11 @@ bool is_constant(const MuscleLines::Member& member, std::size_t to) {
 }
 
 }  // namespace
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 constexpr float knots_a_radian = 57.2957795F / static_cast<float>(knee_knot_deg);
@@ -125,14 +125,14 @@ void elongate(std::span<const ElongatedLine> muscles, const LegScale<Lanes<float
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include <array>
 #include <cmath>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(elongate);
 }  // namespace
@@ -170,5 +170,5 @@ void elongations(std::span<const ElongatedLine> muscles, const LegScale<Lanes<fl
   HWY_DYNAMIC_DISPATCH(elongate)(muscles, scale, leg);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <span>
 
-#include "components/leg_frames.h"
-#include "components/muscle.h"
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/muscle.h>
 #include "systems/lines/muscle_lines.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The lines of each of the table's muscles: the same for everybody, made once.
 const MuscleLines& lines_of(Muscle muscle);
@@ -26,4 +26,4 @@ struct ElongatedLine {
 void elongations(std::span<const ElongatedLine> muscles, const LegScale<Lanes<float>>& scale,
                  const KneeFrame<Lanes<float>>& leg);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,13 +1,13 @@
 #include "systems/lines/frame_motion.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/lines/frame_motion.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "engine/wide_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 HWY_INLINE WideQuat conjugate(const WideQuat& q) {
@@ -16,11 +16,6 @@ HWY_INLINE WideQuat conjugate(const WideQuat& q) {
 
 HWY_INLINE WideVec scale(const Wide& s, const WideVec& a) {
   return {s * a.x, s * a.y, s * a.z};
-}
-
-HWY_INLINE WideVec select(const WideMask& m, const WideVec& yes, const WideVec& no) {
-  return {mobil::HWY_NAMESPACE::select(m, yes.x, no.x), mobil::HWY_NAMESPACE::select(m, yes.y, no.y),
-          mobil::HWY_NAMESPACE::select(m, yes.z, no.z)};
 }
 
 /// The rotation vector (rad) of a turn, the shorter way round.
@@ -83,11 +78,11 @@ void feel_frame(const LineOfAction<Lanes<float>>& line, FrameHistory<Lanes<float
   for (std::uint32_t& known : history.known.lane) known = known == 0 ? 1 : 2;
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(feel_frame);
 }  // namespace
@@ -97,5 +92,5 @@ void frame_motion(const LineOfAction<Lanes<float>>& line, FrameHistory<Lanes<flo
   HWY_DYNAMIC_DISPATCH(feel_frame)(line, history, load, tick_s);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -1,9 +1,9 @@
 #pragma once
 // What a belly feels of gravity and of the motion of its frame, from where that frame was.
 
-#include "components/muscle.h"
+#include <mobil/components/muscle.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr float gravity_m_s2 = 9.81F;
 
@@ -18,4 +18,4 @@ inline constexpr float gravity_m_s2 = 9.81F;
 void frame_motion(const LineOfAction<Lanes<float>>& line, FrameHistory<Lanes<float>>& history,
                   FrameLoad<Lanes<float>>& load, float tick_s);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

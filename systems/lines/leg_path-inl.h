@@ -7,12 +7,12 @@
 #define MOBIL_SYSTEMS_LINES_LEG_PATH_INL_H_
 #endif
 
-#include "components/leg_frames.h"
+#include <mobil/components/leg_frames.h>
 #include "engine/wide_geometry-inl.h"
 #include "systems/lines/muscle_lines.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Angle about x of the shank's rotation in the thigh's frame.
 MOBIL_WIDE_INLINE Wide knee_flexion(const WideQuat& thigh, const WideQuat& shank) {
@@ -93,10 +93,6 @@ HWY_INLINE LegBone end_bone(const MuscleLines::Member& member) {
   return member.on_kneecap ? LegBone::shank : member.path.back().bone;
 }
 
-HWY_INLINE WideVec select(const WideMask& m, const WideVec& yes, const WideVec& no) {
-  return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
-}
-
 /// Where the shortest path from `from` to `to` over the edge through p touches it, and in which lanes it does.
 struct Touch {
   WideMask touched;
@@ -137,7 +133,7 @@ HWY_INLINE void along_path(const Leg& leg, const MuscleLines::Member& member, co
   segment(at, end, end_bone(member), nullptr);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,13 +1,13 @@
 #include "systems/lines/line_motion.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/lines/line_motion.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "systems/lines/leg_path-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 enum Joint : std::size_t { hip, knee, ankle, joint_count };
@@ -109,11 +109,11 @@ void move_lines(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, c
   store(mean.of[ankle], motion.ankle_dorsiflexion_arm_m);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(move_lines);
 }  // namespace
@@ -123,5 +123,5 @@ void line_motion(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, 
   HWY_DYNAMIC_DISPATCH(move_lines)(lines, scale, legs, line, motion, tick_s);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

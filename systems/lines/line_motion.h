@@ -1,11 +1,11 @@
 #pragma once
 // How fast lines of action lengthen, and by which moment arms they turn the joints.
 
-#include "components/leg_frames.h"
-#include "components/muscle.h"
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/muscle.h>
 #include "systems/lines/muscle_lines.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Speed (line.length_m − motion.length_m) / tick_s, 0 where motion.length_m is 0, and moment arms about the flexion
 /// axes (the x axes of pelvis, thigh and shank, through hip, knee and ankle), of the leg and the length of this tick.
@@ -19,4 +19,4 @@ namespace mobil {
 void line_motion(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
                  const LineOfAction<Lanes<float>>& line, LineMotion<Lanes<float>>& motion, float tick_s);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

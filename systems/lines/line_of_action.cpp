@@ -1,7 +1,7 @@
 #include "systems/lines/line_of_action.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/lines/line_of_action.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "systems/lines/leg_path-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 HWY_INLINE Wide path_length(const Leg& leg, const MuscleLines::Member& member, const WideVec& end) {
@@ -135,14 +135,14 @@ void put_rows(const LegFrames<Lanes<float>>& legs, Side side, LegPost* posts) {
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "components/segments.h"
+#include <mobil/components/segments.h>
 #include "engine/fetch_ahead.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 HWY_EXPORT(act_on_end);
@@ -222,5 +222,5 @@ void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& sca
   HWY_DYNAMIC_DISPATCH(act_on_end)(lines, scale, legs, far_end, line, end, member_m, ahead);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

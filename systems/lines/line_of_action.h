@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <span>
 
-#include "components/leg_frames.h"
-#include "components/muscle.h"
-#include "components/pose.h"
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/muscle.h>
+#include <mobil/components/pose.h>
 #include "engine/fetch_ahead.h"
 #include "systems/lines/muscle_lines.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Copies one leg of one human into a lane: joint centres and rotations of thigh, shank and foot, and the pelvis'
 /// rotation; a left leg as its mirror image. `pose`: the human's lane of a block of Pose, that is its first word, the
@@ -40,4 +40,4 @@ void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& sca
                      FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end,
                      Lanes<float>* member_m = nullptr, std::span<FetchAhead> ahead = {});
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

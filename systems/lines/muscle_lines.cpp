@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "assets/muscles/muscle_path.h"
-#include "engine/geometry.h"
+#include <mobil/assets/muscles/muscle_path.h>
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using geometry::to_float;
@@ -49,4 +49,4 @@ MuscleLines make_muscle_lines(Muscle muscle) {
   return lines;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

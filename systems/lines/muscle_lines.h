@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The paths of a muscle's members: the table's rows in single precision, at the published leg's size. Immutable, the
-/// same for everybody. How they run: assets/muscles/muscle_table.h.
+/// same for everybody. How they run: mobil/muscle_table.h.
 struct MuscleLines {
   struct Point {
     LegBone bone;
@@ -38,4 +38,4 @@ struct MuscleLines {
 /// A muscle's lines: its length is the volume-weighted mean of its members'.
 MuscleLines make_muscle_lines(Muscle muscle);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,16 +4,16 @@
 #include <array>
 #include <vector>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "engine/rows.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/rows.h>
 #include "systems/activation/excitation.h"
 #include "systems/activation/musculotendon.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/member_design.h"
 #include "systems/muscles/owner_legs.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_activation {
 
@@ -181,4 +181,4 @@ void begin(const EffectStart& start, RowValues& values) {
 constinit const MuscleEffect activation_effect = {&of_activation::module, &of_activation::wanted, &of_activation::begin,
                                                   &of_activation::parts};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,8 +3,8 @@
 
 #include "systems/muscles/muscle_effect.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 extern const MuscleEffect activation_effect;
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -10,7 +10,7 @@
 
 #include "engine/snapshot_bytes.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Appends.
 class BakeWriter {
@@ -78,4 +78,4 @@ class BakeReader {
   bool sound_ = true;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

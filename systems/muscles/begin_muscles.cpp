@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
+#include <mobil/components/fade.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/access.h>
+#include <mobil/rows.h>
 #include "assets/reduction/reduced_rows.h"
-#include "components/fade.h"
-#include "components/pose.h"
-#include "engine/access.h"
-#include "engine/rows.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/method_reduced.h"
 #include "systems/lines/line_of_action.h"
@@ -17,7 +17,7 @@
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// First values of one part, in blocks of sixteen rows.
@@ -331,4 +331,4 @@ tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, c
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

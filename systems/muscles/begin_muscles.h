@@ -7,16 +7,16 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "components/leg_frames.h"
-#include "components/muscle.h"
-#include "engine/error.h"
-#include "engine/jobs.h"
-#include "engine/world.h"
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/people/spawn.h>
 #include "systems/muscles/belly_library.h"
 #include "systems/muscles/muscle_size.h"
-#include "systems/people/spawn.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The present tick, and what muscles share.
 struct MuscleTime {
@@ -33,4 +33,4 @@ tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, c
                                           const MuscleTime& time, const Jobs& jobs, std::span<const Entity> people,
                                           std::span<const MuscleSize> size, std::vector<Entity>& made);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -12,7 +12,7 @@
 #include "systems/deformation/deformation.h"
 #include "systems/lines/line_of_action.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
@@ -314,4 +314,4 @@ Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choi
   return belly;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

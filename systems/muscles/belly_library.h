@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/muscle_table.h>
 #include "assets/fem/belly_solver.h"
-#include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_table.h"
 #include "assets/reduction/reduced_basis.h"
-#include "components/leg_muscles.h"
-#include "engine/error.h"
-#include "engine/jobs.h"
 #include "systems/deformation/belly.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Steps of a method that a tick may take.
 inline constexpr std::uint32_t most_steps = 1'000'000;
@@ -141,4 +141,4 @@ bool same_tissue(const LegMuscles& a, const LegMuscles& b);
 /// multiplication alone: the same on every machine.
 double middle_of_range(double value, double width);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -12,7 +12,7 @@
 #include "systems/muscles/belly_library.h"
 #include "systems/muscles/choice_words.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint64_t magic = 0x346b626c69626f6d;  // "mobilbk4", little-endian
@@ -314,4 +314,4 @@ Result<void> BellyLibrary::load(std::span<const std::byte> baked) {
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -8,7 +8,7 @@
 #include "assets/surfaces/muscle_cage.h"
 #include "systems/muscles/belly_library.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double ratio_step = 1.1;    // between the middles of ranges of slenderness: twelve vectors serve such a range
@@ -127,4 +127,4 @@ Result<std::shared_ptr<const ReducedBasis>> BellyLibrary::basis(Muscle muscle, c
   return cut(bases_.back(), choice.reduced.vectors);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

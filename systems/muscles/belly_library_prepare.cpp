@@ -10,7 +10,7 @@
 
 #include "systems/muscles/belly_library.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// A part that jobs make, of that muscle: it, or why not.
@@ -99,4 +99,4 @@ void BellyLibrary::prepare_solvers(Muscle muscle, const LegMuscles& choice, doub
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/fade.h"
+#include <mobil/components/fade.h>
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/method_finite.h"
 #include "systems/deformation/method_reduced.h"
@@ -13,7 +13,7 @@
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// One muscle of one leg.
@@ -249,4 +249,4 @@ void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "engine/world.h"
+#include <mobil/engine/world.h>
+#include <mobil/systems/muscles/own_muscle.h>
 #include "systems/deformation/belly_motion.h"
 #include "systems/muscles/begin_muscles.h"
-#include "systems/muscles/own_muscle.h"
 #include "systems/muscles/recent_poses.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What changes keep from one to the next to save work: nothing of it is state.
 struct MuscleWork {
@@ -41,4 +41,4 @@ std::uint32_t fade_ticks(float tick_s);
 void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const MuscleChange& change,
                     std::span<const Belly> bellies, std::span<const OwnMuscle> own);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,7 +6,7 @@
 
 #include "engine/row_hash.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Calls f with each field. A field that is not named here is a compile error.
@@ -120,4 +120,4 @@ std::uint64_t hash_of(const LegMuscles& choice) {
   return hash;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "components/leg_muscles.h"
+#include <mobil/components/leg_muscles.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr std::size_t choice_word_count = 31;
 using ChoiceWords = std::array<std::uint64_t, choice_word_count>;
@@ -20,4 +20,4 @@ std::optional<LegMuscles> choice_of(const ChoiceWords& words);
 /// Equal for equal choices.
 std::uint64_t hash_of(const LegMuscles& choice);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,18 +4,18 @@
 #include <array>
 #include <tuple>
 
-#include "components/compact.h"
-#include "components/footing.h"
-#include "components/forces.h"
-#include "components/gait.h"
-#include "components/pose.h"
-#include "engine/rows.h"
+#include <mobil/components/compact.h>
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
+#include <mobil/rows.h>
 #include "systems/lines/elongations.h"
 #include "systems/muscles/compact_codes.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/whole.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint8_t not_compact = 0xFF;
@@ -310,4 +310,4 @@ MuscleMethod compact_method(const World& world, Entity person, Muscle muscle) {
   return method_of(code_at(*codes, place), choice->reduced);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// Walkers become compact and whole again (components/compact.h).
+// Walkers become compact and whole again (mobil/components/compact.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
-#include "components/leg_muscles.h"
-#include "engine/error.h"
-#include "engine/world.h"
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/error.h>
+#include <mobil/engine/world.h>
 #include "systems/muscles/leg_muscles.h"
 #include "systems/people/whole.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Memory that becoming compact and whole works in, kept from one time to the next; nothing of it is state.
 struct CompactWork {
@@ -56,4 +56,4 @@ Result<void> expand_people(const MuscleScene& scene, std::span<const Entity> peo
 /// What the muscles of somebody compact are; Method::none where there is no such one.
 MuscleMethod compact_method(const World& world, Entity person, Muscle muscle);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,13 +1,13 @@
 #pragma once
-// How a compact row's tag and fields are read (components/compact.h).
+// How a compact row's tag and fields are read (mobil/components/compact.h).
 
 #include <cstddef>
 #include <cstdint>
 
-#include "components/compact.h"
-#include "components/leg_frames.h"
+#include <mobil/components/compact.h>
+#include <mobil/components/leg_frames.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr std::uint32_t code_bits = 5, most_compact = 64 / code_bits;
 
@@ -35,4 +35,4 @@ inline CompactLayout compact_width(std::uint64_t codes) {
   return all;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 
-#include "components/body.h"
-#include "components/compact.h"
-#include "components/gait.h"
-#include "components/leg_muscles.h"
-#include "components/muscle.h"
-#include "components/pose.h"
+#include <mobil/components/body.h>
+#include <mobil/components/compact.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/components/muscle.h>
+#include <mobil/components/pose.h>
+#include <mobil/schedule.h>
 #include "engine/fetch_ahead.h"
-#include "engine/schedule.h"
 #include "engine/snapshot.h"
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/restart.h"
@@ -18,7 +18,7 @@
 #include "systems/lines/elongations.h"
 #include "systems/muscles/compact_codes.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// All of a person's muscles that move, right and left, over a tick.
@@ -106,4 +106,4 @@ Module compact_module() {
           .check_key = &check_compact_key};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

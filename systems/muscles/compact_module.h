@@ -1,10 +1,10 @@
 #pragma once
 // Muscles of compact people as a module: what their rows have of them, and how they go on.
 
-#include "engine/module.h"
+#include <mobil/engine/module.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Module compact_module();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

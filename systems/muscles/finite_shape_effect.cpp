@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "components/activation.h"
-#include "components/fade.h"
-#include "engine/rows.h"
+#include <mobil/components/activation.h>
+#include <mobil/components/fade.h>
+#include <mobil/rows.h>
 #include "systems/deformation/finite_shape.h"
 #include "systems/deformation/reduced.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_finite_shape {
 
@@ -117,4 +117,4 @@ BellyMotion shape_offset(const NextBelly& next, float activation) {
 constinit const MuscleEffect finite_shape_effect = {&of_finite_shape::module, &of_finite_shape::wanted,
                                                     &of_finite_shape::begin, &of_finite_shape::parts};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,7 +4,7 @@
 #include "systems/deformation/belly_motion.h"
 #include "systems/muscles/muscle_effect.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 extern const MuscleEffect finite_shape_effect;
 
@@ -17,4 +17,4 @@ bool shows_apart(const TableKey& key);
 /// changes as long as activation stays.
 BellyMotion shape_offset(const NextBelly& next, float activation);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,9 +1,9 @@
 #include "systems/muscles/inertia_effect.h"
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
 #include "systems/lines/frame_motion.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_inertia {
 
@@ -42,4 +42,4 @@ void begin(const EffectStart& start, RowValues& values) {
 constinit const MuscleEffect inertia_effect = {&of_inertia::module, &of_inertia::wanted, &of_inertia::begin,
                                                &of_inertia::parts};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,11 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "components/activation.h"
-#include "components/forces.h"
-#include "components/pose.h"
-#include "engine/rows.h"
-#include "engine/schedule.h"
+#include <mobil/components/activation.h>
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
+#include <mobil/rows.h>
+#include <mobil/schedule.h>
 #include "engine/snapshot.h"
 #include "systems/activation/moment_sharing.h"
 #include "systems/lines/line_motion.h"
@@ -15,7 +15,7 @@
 #include "systems/muscles/member_design.h"
 #include "systems/people/ground_forces.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_leg_moments {
 
@@ -116,4 +116,4 @@ void forget_leg_moments(World& world, Entity person) {
     world.remove_parts(person, {type_id<LegDesign<float>>(), type_id<MomentReserve<float>>(), type_id<AskedForces>()});
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

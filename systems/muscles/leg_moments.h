@@ -2,13 +2,13 @@
 // The moments at a person's joints, shared among the muscles of each leg: what muscles with ExcitationSource::moments
 // follow. Parts of the person's row; who has no such muscles has none of them.
 
-#include "components/body.h"
-#include "components/leg_muscles.h"
-#include "engine/error.h"
-#include "engine/module.h"
-#include "engine/world.h"
+#include <mobil/components/body.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/error.h>
+#include <mobil/engine/module.h>
+#include <mobil/engine/world.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Module leg_moments_module();
 
@@ -22,4 +22,4 @@ void set_leg_moments(World& world, Entity person, const Body& body, const LegMus
 /// The row loses these parts, if it has them.
 void forget_leg_moments(World& world, Entity person);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,19 +5,19 @@
 #include <string>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
-#include "components/fade.h"
-#include "engine/each.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/fade.h>
+#include <mobil/each.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/systems/people/person.h>
 #include "engine/exact_math.h"
-#include "engine/geometry.h"
 #include "systems/muscles/choice_words.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
-#include "systems/people/person.h"
 #include "systems/people/waking.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// What a scene has made so far is undone unless it is `done`.
@@ -461,4 +461,4 @@ void end_fades(World& world, float tick_s, MuscleWork& work) {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

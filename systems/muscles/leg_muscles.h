@@ -8,17 +8,17 @@
 #include <span>
 #include <vector>
 
-#include "components/leg_muscles.h"
-#include "engine/error.h"
-#include "engine/jobs.h"
-#include "engine/world.h"
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/sleepers.h>
+#include <mobil/systems/people/spawn.h>
 #include "systems/muscles/belly_library.h"
 #include "systems/muscles/change_muscles.h"
-#include "systems/people/person.h"
-#include "systems/people/sleepers.h"
-#include "systems/people/spawn.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What is needed to make and change muscles.
 struct MuscleScene {
@@ -53,7 +53,7 @@ Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> pe
 /// add_leg_muscles; where there is one, or memory runs out, none has any.
 Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice);
 
-/// As the members of Simulation of these names (systems/simulation.h); messages without that name.
+/// As the members of Simulation of these names (mobil/simulation.h); messages without that name.
 Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
 /// Whether a person, awake or not, may have these muscles: whatever they would be refused for.
 Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double tick_s, Entity person,
@@ -75,4 +75,4 @@ void shift_muscles(World& world, float x_m, float z_m);
 /// Fades that are over leave their rows. After a tick.
 void end_fades(World& world, float tick_s, MuscleWork& work);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

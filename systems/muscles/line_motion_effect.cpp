@@ -1,11 +1,11 @@
 #include "systems/muscles/line_motion_effect.h"
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
 #include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/owner_legs.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 namespace of_line_motion {
 
@@ -44,4 +44,4 @@ void begin(const EffectStart& start, RowValues& values) {
 constinit const MuscleEffect line_motion_effect = {&of_line_motion::module, &of_line_motion::wanted,
                                                    &of_line_motion::begin, &of_line_motion::parts};
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,7 +6,7 @@
 
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 MemberDesign<float> member_design(const MemberMuscle& member, const MemberPlan& plan) {
   constexpr double specific_force_pa = 30e4;
@@ -21,4 +21,4 @@ std::size_t leg_member_number(const MemberMuscle& member) {
   return static_cast<std::size_t>(std::ranges::find(all, member.name, &MemberMuscle::name) - all.begin());
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,10 +3,10 @@
 
 #include <cstddef>
 
-#include "assets/muscles/muscle_plan.h"
-#include "components/activation.h"
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/activation.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A member at rest in the anatomical position, but for `rest_belly_m`. Pennation is that of the model that the fibre's
 /// length is of, of who is not in it the measured one; force 30 N/cm² of fibres (Zajac: Muscle and tendon, Crit. Rev.
@@ -17,4 +17,4 @@ MemberDesign<float> member_design(const MemberMuscle& member, const MemberPlan& 
 /// Its number among `member_muscles()`.
 std::size_t leg_member_number(const MemberMuscle& member);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

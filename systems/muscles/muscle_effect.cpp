@@ -9,7 +9,7 @@
 #include "systems/muscles/inertia_effect.h"
 #include "systems/muscles/line_motion_effect.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 void RowValues::set(std::uint64_t part, const void* words, std::size_t count) {
   values_.push_back({part, words_.size(), count});
@@ -27,4 +27,4 @@ std::span<const MuscleEffect> muscle_effects() {
   return all;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -8,17 +8,17 @@
 #include <span>
 #include <vector>
 
-#include "components/leg_frames.h"
-#include "components/leg_muscles.h"
-#include "components/pose.h"
-#include "engine/module.h"
-#include "engine/schedule.h"
-#include "engine/world.h"
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/module.h>
+#include <mobil/engine/world.h>
+#include <mobil/schedule.h>
 #include "systems/deformation/method.h"
 #include "systems/muscles/muscle_size.h"
 #include "systems/muscles/recent_poses.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Values that rows begin with, by part: whole rows of components and fields. Of a part set twice the last holds.
 class RowValues {
@@ -79,4 +79,4 @@ struct MuscleEffect {
 
 std::span<const MuscleEffect> muscle_effects();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,10 +4,10 @@
 #include <array>
 #include <string>
 
-#include "components/fade.h"
-#include "components/sleep.h"
+#include <mobil/components/fade.h>
+#include <mobil/components/sleep.h>
+#include <mobil/schedule.h>
 #include "engine/fetch_ahead.h"
-#include "engine/schedule.h"
 #include "engine/snapshot.h"
 #include "systems/deformation/fade.h"
 #include "systems/lines/line_of_action.h"
@@ -16,7 +16,7 @@
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/owner_legs.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
@@ -238,4 +238,4 @@ std::span<const std::uint64_t> muscle_part_ids() {
   return ids;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

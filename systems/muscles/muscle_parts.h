@@ -7,16 +7,16 @@
 #include <span>
 #include <vector>
 
-#include "engine/module.h"
-#include "engine/world.h"
+#include <mobil/engine/module.h>
+#include <mobil/engine/world.h>
 #include "systems/deformation/method.h"
 #include "systems/muscles/belly_library.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Lines of action: what every muscle has, and what those with control points or a belly have whatever their method.
 Module muscles_module();
-/// What a change of method left over (components/fade.h).
+/// What a change of method left over (mobil/components/fade.h).
 Module fade_module();
 /// All of muscles' modules in the order of their data: these two, effects and methods.
 std::vector<Module> muscle_modules();
@@ -36,4 +36,4 @@ MuscleMethod muscle_method(const World& world, Entity muscle);
 /// Ids of all parts that muscles of whatever kind have, sorted: what a change of a muscle decides.
 std::span<const std::uint64_t> muscle_part_ids();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

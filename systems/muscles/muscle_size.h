@@ -3,11 +3,11 @@
 
 #include <array>
 
-#include "assets/muscles/muscle_plan.h"
-#include "components/leg_frames.h"
-#include "components/muscle.h"
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/muscle.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct MuscleSize {
   BellyScale<float> scale{};
@@ -19,4 +19,4 @@ inline MuscleSize size_of(const MusclePlan& plan) {
   return {plan.scale, plan.leg_scale, static_cast<float>(plan.rest_length_m), plan.member};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

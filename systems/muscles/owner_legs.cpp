@@ -1,10 +1,10 @@
 #include "systems/muscles/owner_legs.h"
 
+#include <mobil/rows.h>
 #include "engine/fetch_ahead.h"
-#include "engine/rows.h"
 #include "systems/lines/line_of_action.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr LegPost::Leg nobodys_leg{
@@ -51,4 +51,4 @@ LegClock<Lanes<float>> clocks_of(const LegsOfOwners& posts, const MuscleOwner<La
   return clocks;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

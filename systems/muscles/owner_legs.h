@@ -1,11 +1,11 @@
 #pragma once
 // The one gather of a tick: each muscle's row looks up the leg that its person published.
 
-#include "components/leg_frames.h"
-#include "components/muscle.h"
-#include "engine/access.h"
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/access.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using LegsOfOwners = LookupPublished<LegPost>;
 
@@ -16,4 +16,4 @@ LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lan
 /// Where these legs are in their walk.
 LegClock<Lanes<float>> clocks_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

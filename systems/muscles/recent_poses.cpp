@@ -2,13 +2,13 @@
 
 #include <cstddef>
 
-#include "engine/rows.h"
-#include "engine/world.h"
+#include <mobil/engine/world.h>
+#include <mobil/rows.h>
 #include "systems/kinematics/kinematics.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/people/walker_past.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 LegFrames<Lanes<float>> leg_of(const Pose<float>& pose, Side side) {
   LegFrames<Lanes<float>> leg;
@@ -65,4 +65,4 @@ void look_back(const World& world, Entity human, std::uint32_t tick, float tick_
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "components/leg_frames.h"
-#include "components/muscle.h"
-#include "components/pose.h"
-#include "engine/entity.h"
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/muscle.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/entity.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct MuscleLines;  // systems/lines/muscle_lines.h
 class World;
@@ -35,4 +35,4 @@ struct RecentPoses {
 };
 void look_back(const World& world, Entity human, std::uint32_t tick, float tick_s, RecentPoses& recent);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

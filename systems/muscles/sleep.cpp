@@ -5,16 +5,16 @@
 #include <cmath>
 #include <tuple>
 
-#include "components/compact.h"
-#include "components/fat.h"
+#include <mobil/components/compact.h>
+#include <mobil/components/fat.h>
+#include <mobil/systems/people/step_watch.h>
 #include "engine/row_hash.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
-#include "systems/people/step_watch.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 SleepTime sleep_time(const MuscleScene& scene) {
@@ -207,4 +207,4 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

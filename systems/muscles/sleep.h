@@ -7,15 +7,15 @@
 #include <span>
 #include <vector>
 
-#include "components/muscle.h"
-#include "engine/error.h"
-#include "engine/world.h"
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/people/sleepers.h>
+#include <mobil/systems/people/style_limits.h>
 #include "systems/muscles/leg_muscles.h"
-#include "systems/people/sleepers.h"
-#include "systems/people/style_limits.h"
 #include "systems/people/waking.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 class WarmingRoom;  // systems/muscles/warm_muscles.h
 
@@ -71,8 +71,8 @@ void find_asked(const World& world, const Jobs& jobs, std::span<const WalkChange
 std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange> changes, const SleepTime& now,
                       SleepWork& work);
 
-/// Walkers, named once each, fall asleep who may (systems/people/sleepers.h); who has muscles of several methods may
-/// not, unless `managed`: they then begin again with the first one's. Of their parts that are among `owned` (ids,
+/// Walkers, named once each, fall asleep who may (mobil/systems/people/sleepers.h); who has muscles of several methods
+/// may not, unless `managed`: they then begin again with the first one's. Of their parts that are among `owned` (ids,
 /// sorted) they keep those of `keeps` alone. Returns how many fell asleep. Where memory runs out, nobody did, and what
 /// `first` has done is undone, too. Errors: those of `first`.
 Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
@@ -97,4 +97,4 @@ std::optional<LegMuscles> kept_choice(const World& world, Entity person);
 /// Whether a person has muscles, compact ones and those to come included.
 bool has_any_muscles(const World& world, Entity person);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

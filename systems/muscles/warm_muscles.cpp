@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/sleep.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Everything that a muscle remembers.
@@ -86,4 +86,4 @@ void WarmingRoom::warm_people(const MuscleScene& scene, const LegMuscles& choice
   scene.work.recent = {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

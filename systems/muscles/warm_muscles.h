@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "engine/module.h"
-#include "engine/schedule.h"
-#include "engine/world.h"
+#include <mobil/engine/module.h>
+#include <mobil/engine/world.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/people/sleepers.h>
 #include "systems/muscles/leg_muscles.h"
-#include "systems/people/sleepers.h"
 #include "systems/people/waking.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Ticks to run through so that control points are within that of where they would be; 0 where rest is near enough.
 /// Measured on 24 people of a crowd, 8/s of damping (Sleep.MusclesWarmUpToWhatIsAsked holds it): at rest 12 mm, after
@@ -41,4 +41,4 @@ class WarmingRoom {
   WakingWork work_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/world.h"
+#include <mobil/engine/world.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Each of them once, in the order of their indices.
 inline void drop_repeated(std::vector<Entity>& entities) {
@@ -33,4 +33,4 @@ void by_table(const World& world, std::span<const Entity> entities, const F& f) 
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,19 +3,19 @@
 #include <array>
 #include <vector>
 
-#include "components/body.h"
-#include "components/fat.h"
-#include "components/pose.h"
-#include "components/sleep.h"
-#include "engine/access.h"
-#include "engine/error.h"
+#include <mobil/components/body.h>
+#include <mobil/components/fat.h>
+#include <mobil/components/pose.h>
+#include <mobil/components/sleep.h>
+#include <mobil/engine/access.h>
+#include <mobil/engine/error.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/people/sleepers.h>
 #include "engine/exact_math.h"
-#include "engine/schedule.h"
 #include "systems/kinematics/fat_motion.h"
 #include "systems/people/by_table.h"
-#include "systems/people/sleepers.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// People have fat, awake or asleep.
@@ -82,4 +82,4 @@ void place_fat(World& world, Entity person, const Placing& way) {
   world.set(person, *fat);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

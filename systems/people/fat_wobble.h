@@ -1,15 +1,15 @@
 #pragma once
-// The effect of fat that wobbles (components/fat.h) on people: for skin in close view.
+// The effect of fat that wobbles (mobil/components/fat.h) on people: for skin in close view.
 
 #include <span>
 
-#include "engine/jobs.h"
-#include "engine/module.h"
-#include "engine/status.h"
-#include "engine/world.h"
-#include "systems/people/person.h"
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/module.h>
+#include <mobil/engine/status.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/people/person.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Module fat_module();
 
@@ -23,4 +23,4 @@ void settle_fat(World& world, Entity person);
 /// A walker was put elsewhere on the ground plane: it goes along, as if the world had been moved under it.
 void place_fat(World& world, Entity person, const Placing& way);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,15 +4,15 @@
 #include <array>
 #include <vector>
 
-#include "components/activation.h"
-#include "components/sleep.h"
-#include "engine/rows.h"
+#include <mobil/components/activation.h>
+#include <mobil/components/sleep.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/person.h>
 #include "systems/forces/forces.h"
 #include "systems/kinematics/body_motion.h"
 #include "systems/people/by_table.h"
-#include "systems/people/person.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// What people of one table have of forces from the first on, sixteen together.
@@ -162,4 +162,4 @@ void forget_past(World& world, Entity person) {
   if (world.has<PosedPast>(person)) world.set(person, PosedPast<float>{});
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

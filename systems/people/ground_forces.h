@@ -1,15 +1,15 @@
 #pragma once
-// The effect of ground reaction and joint moments (components/forces.h) on one person.
+// The effect of ground reaction and joint moments (mobil/forces.h) on one person.
 
 #include <span>
 
-#include "components/body.h"
-#include "components/forces.h"
-#include "components/pose.h"
-#include "engine/jobs.h"
-#include "engine/world.h"
+#include <mobil/components/body.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
+#include <mobil/forces.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Or will have, on waking.
 bool has_forces(const World& world, Entity person);
@@ -25,4 +25,4 @@ void press_posed(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& p
                  PosedPast<Lanes<float>>& past, float tick_s, GroundReaction<Lanes<float>>& ground,
                  JointMoments<Lanes<float>>& moments);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/people/limit_watch.h"
+#include <mobil/systems/people/limit_watch.h>
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <string_view>
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
+#include <mobil/systems/people/walk_limits.h>
 #include "systems/gait/step_limits.h"
 #include "systems/people/style_estimate.h"
-#include "systems/people/walk_limits.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr auto shaken = static_cast<std::size_t>(WalkBound::pelvis_shaken);
@@ -111,4 +111,4 @@ std::vector<BrokenLimit> broken_limits(const World& world, Entity person) {
   return broken;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,17 +1,18 @@
 #include "systems/people/people_modules.h"
+#include <mobil/schedule.h>
 #include "engine/fetch_ahead.h"
-#include "engine/schedule.h"
 
 #include <algorithm>
 #include <bit>
 #include <initializer_list>
 
-#include "assets/body/anthropometry.h"
-#include "components/body.h"
-#include "components/forces.h"
-#include "components/gait.h"
-#include "components/leg_frames.h"
-#include "components/pose.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
+#include <mobil/systems/people/limit_watch.h>
 #include "engine/snapshot.h"
 #include "systems/activation/excitation.h"
 #include "systems/forces/forces.h"
@@ -21,10 +22,9 @@
 #include "systems/kinematics/kinematics.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/people/ground_forces.h"
-#include "systems/people/limit_watch.h"
 #include "systems/people/pose_measures.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Of a block three further on, what every tick asks for: otherwise there is too little work to hide memory's latency.
@@ -177,4 +177,4 @@ Module skeleton_module() {
           .check_rows = &check_rows};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,27 +1,27 @@
-#include "systems/people/person.h"
+#include <mobil/systems/people/person.h>
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <tuple>
 
-#include "assets/body/anthropometry.h"
-#include "assets/body/body_composition.h"
+#include <mobil/anthropometry.h>
+#include <mobil/body_composition.h>
+#include <mobil/components/avoidance.h>
+#include <mobil/components/fat.h>
+#include <mobil/components/footing.h>
+#include <mobil/each.h>
+#include <mobil/forces.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/sleepers.h>
 #include "assets/gait/slope_pace.h"
-#include "components/avoidance.h"
-#include "components/fat.h"
-#include "components/footing.h"
-#include "components/forces.h"
-#include "engine/each.h"
-#include "engine/rows.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/pose_measures.h"
-#include "systems/people/sleepers.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 bool is_rotation(const Quat<float>& q) {
   constexpr float rounding = 0.01F;
@@ -302,4 +302,4 @@ Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
   return result_of("set_pose", world.set(person, pose));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

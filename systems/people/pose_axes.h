@@ -4,10 +4,10 @@
 #include <array>
 #include <cstddef>
 
-#include "components/lanes.h"
-#include "systems/people/pose_writer.h"
+#include <mobil/components/lanes.h>
+#include <mobil/pose_writer.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct AxisMap {
   std::array<std::size_t, 3> ours;
@@ -18,12 +18,11 @@ struct AxisMap {
 };
 
 /// By PoseAxes.
-inline constexpr AxisMap axes_of[] = {
-    {{0, 1, 2}, {1, 1, 1}},
-    {{0, 1, 2}, {-1, 1, 1}},
-    {{2, 0, 1}, {1, 1, 1}},
-    {{2, 0, 1}, {1, -1, 1}},
-    {{0, 1, 2}, {-1, 1, -1}}};
+inline constexpr AxisMap axes_of[] = {{{0, 1, 2}, {1, 1, 1}},
+                                      {{0, 1, 2}, {-1, 1, 1}},
+                                      {{2, 0, 1}, {1, 1, 1}},
+                                      {{2, 0, 1}, {1, -1, 1}},
+                                      {{0, 1, 2}, {-1, 1, -1}}};
 
 /// A host's place in our axes, m.
 constexpr Vec3<double> place_from(PoseAxes axes, float units_per_m, const Vec3<float>& theirs) {
@@ -46,4 +45,4 @@ constexpr Quat<double> rotation_from(PoseAxes axes, const Quat<float>& theirs) {
   return {to[0], to[1], to[2], static_cast<double>(theirs.w)};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/geometry.h>
 #include "assets/body/fat_distribution.h"
-#include "components/muscle.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using namespace geometry;
 
@@ -86,4 +86,4 @@ Feet<float> sole_points(float height_m, const Pose<float>& pose) {
   return feet;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/people/pose_writer.h"
+#include <mobil/pose_writer.h>
 
 #include <fmt/format.h>
 
@@ -8,20 +8,20 @@
 #include <cstring>
 #include <tuple>
 
-#include "components/avoidance.h"
-#include "components/body.h"
-#include "components/gait.h"
-#include "components/pose.h"
-#include "engine/each.h"
-#include "engine/geometry.h"
-#include "engine/rows.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/each.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/sleepers.h>
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/shoulders.h"
 #include "systems/people/pose_axes.h"
-#include "systems/people/sleepers.h"
 #include "systems/people/walk_ahead.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::array<std::size_t, 3> form_floats = {7, 12, 8};
@@ -265,4 +265,4 @@ Result<void> PoseWriter::write(const World& world, std::span<const Entity> peopl
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/people/retarget.h"
+#include <mobil/retarget.h>
 
 #include <fmt/format.h>
 
@@ -7,14 +7,14 @@
 #include <string_view>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/systems/people/person.h>
 #include "systems/kinematics/kinematics.h"
-#include "systems/people/person.h"
 #include "systems/people/pose_axes.h"
 #include "systems/people/pose_measures.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -287,4 +287,4 @@ Result<Pose<float>> Retarget::pose(std::span<const BonePlace> bones) const {
   return pose;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

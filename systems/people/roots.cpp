@@ -1,4 +1,4 @@
-#include "systems/people/roots.h"
+#include <mobil/systems/people/roots.h>
 
 #include <fmt/format.h>
 
@@ -6,19 +6,19 @@
 #include <memory>
 #include <numbers>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "components/pose.h"
-#include "engine/access.h"
-#include "engine/each.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/each.h>
+#include <mobil/engine/access.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/person.h>
 #include "engine/exact_math.h"
-#include "engine/rows.h"
 #include "systems/kinematics/root_place.h"
-#include "systems/people/person.h"
 #include "systems/people/waking.h"
 #include "systems/people/walk_ahead.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Sixteen walkers' roots.
@@ -130,4 +130,4 @@ Result<void> read_roots(const World& world, std::span<const Entity> people, cons
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

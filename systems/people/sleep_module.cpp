@@ -2,15 +2,15 @@
 
 #include <cstring>
 
-#include "assets/body/anthropometry.h"
-#include "engine/rows.h"
-#include "engine/schedule.h"
+#include <mobil/anthropometry.h>
+#include <mobil/rows.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/sleepers.h>
 #include "engine/snapshot.h"
 #include "systems/gait/asleep.h"
-#include "systems/people/person.h"
-#include "systems/people/sleepers.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 void work_out(Asleep<Lanes<float>>& asleep, Unsettled<Lanes<float>>& since, const GaitStyleOf<Lanes<float>>& style,
@@ -107,4 +107,4 @@ Module sleep_module() {
           .check_rows = &check_sleepers};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,10 +1,10 @@
 #pragma once
 // What sleepers consist of, and where what they are asked leads.
 
-#include "engine/module.h"
+#include <mobil/engine/module.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Module sleep_module();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,18 +1,18 @@
-#include "systems/people/sleepers.h"
+#include <mobil/systems/people/sleepers.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
 
-#include "components/avoidance.h"
-#include "engine/each.h"
-#include "engine/rows.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/each.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/person.h>
 #include "engine/state_hash.h"
 #include "systems/gait/asleep.h"
-#include "systems/people/person.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Sixteen walkers who may be steady.
@@ -266,4 +266,4 @@ void shift_sleepers(World& world, const SleepTime& time, float x_m, float z_m) {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/people/spawn.h"
+#include <mobil/systems/people/spawn.h>
 
 #include <fmt/format.h>
 
@@ -8,17 +8,17 @@
 #include <memory>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "components/leg_frames.h"
-#include "components/pose.h"
-#include "engine/rows.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/pose.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/style_limits.h>
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
-#include "systems/people/person.h"
 #include "systems/people/pose_measures.h"
-#include "systems/people/style_limits.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 Result<void> check_place(const SpawnRequest& request) {
@@ -144,4 +144,4 @@ Result<Entity> spawn_posed(World& world, const BodyRequest& request) {
                       sole_points(size.height_m, pose), first_lane(centre), Publishes<LegPost>{});
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

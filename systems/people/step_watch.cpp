@@ -1,4 +1,4 @@
-#include "systems/people/step_watch.h"
+#include <mobil/systems/people/step_watch.h>
 
 #include <algorithm>
 #include <array>
@@ -6,19 +6,19 @@
 #include <cmath>
 #include <tuple>
 
-#include "components/footing.h"
-#include "components/gait.h"
-#include "components/sleep.h"
-#include "engine/access.h"
-#include "engine/each.h"
-#include "engine/schedule.h"
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/sleep.h>
+#include <mobil/each.h>
+#include <mobil/engine/access.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/sleepers.h>
 #include "systems/gait/gait.h"
 #include "systems/gait/step_events.h"
 #include "systems/people/by_table.h"
-#include "systems/people/person.h"
-#include "systems/people/sleepers.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Before the clocks go on.
@@ -135,4 +135,4 @@ void StepLog::take(const World& world, std::uint32_t tick, float tick_s) {
             [&](const StepEvent& a, const StepEvent& b) { return order(a) < order(b); });
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

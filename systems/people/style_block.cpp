@@ -3,10 +3,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
 #include "systems/gait/gait.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr int halvings = 8;
@@ -299,4 +299,4 @@ void StyleBlock::halve(Of of, Set set) {
     if (of(walkers_[w])) set(walkers_[w], now[w].kept);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

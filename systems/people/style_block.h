@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "components/body.h"
-#include "components/gait.h"
-#include "systems/people/style_limits.h"
-#include "systems/people/walk_limits.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/systems/people/style_limits.h>
+#include <mobil/systems/people/walk_limits.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Walkers on the way from the usual style to that asked for: sixteen lanes, `lanes_each` to a walker. With several
 /// lanes several of the next answers are foreseen in one look; what is found is the same.
@@ -23,7 +23,8 @@ class StyleBlock {
              std::span<const std::size_t> people, Looking looking, std::size_t lanes_each = 1);
   /// Who breaks a limit with what was asked, or comes near one where walks are looked at roughly.
   std::array<bool, lane_count> broken();
-  /// Moves step lengths and styles as far as limits ask, as keep_walk_limits says (systems/people/style_limits.h).
+  /// Moves step lengths and styles as far as limits ask, as keep_walk_limits says
+  /// (mobil/systems/people/style_limits.h).
   void draw_nearer();
   /// What draw_nearer came to, walker by walker: whether anything was moved; the style and the step length; what was
   /// moved, the step length before the numbers of the style.
@@ -105,4 +106,4 @@ class StyleBlock {
   std::array<bool, lane_count> asked_broken_{};  // walkers
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

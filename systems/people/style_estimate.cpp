@@ -5,12 +5,12 @@
 #include <cmath>
 #include <memory>
 
+#include <mobil/rows.h>
+#include <mobil/systems/people/walk_limits.h>
 #include "assets/gait/step_table.h"
-#include "engine/rows.h"
 #include "systems/gait/gait.h"
-#include "systems/people/walk_limits.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::array<float, 3> node_heights_m = {1.45F, 1.75F, 2.05F};
@@ -153,4 +153,4 @@ bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait) {
   return keeps(of_height[v], gait.style) && keeps(of_height[v + 1], gait.style);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/people/style_limits.h"
+#include <mobil/systems/people/style_limits.h>
 
 #include <fmt/format.h>
 
@@ -6,13 +6,13 @@
 #include <iterator>
 #include <string_view>
 
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/walk_limits.h>
 #include "systems/gait/gait.h"
-#include "systems/people/person.h"
 #include "systems/people/style_block.h"
 #include "systems/people/style_estimate.h"
-#include "systems/people/walk_limits.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t parameter_count = gait_parameters.size();
@@ -161,4 +161,4 @@ std::vector<StyleChange> keep_walk_limits(const BodySize<float>& size, Gait<floa
   return moved;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

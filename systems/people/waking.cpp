@@ -7,17 +7,17 @@
 #include <new>
 #include <type_traits>
 
-#include "components/footing.h"
-#include "components/leg_frames.h"
-#include "components/pose.h"
+#include <mobil/components/footing.h>
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/scratch.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/person.h>
 #include "engine/exact_math.h"
-#include "engine/rows.h"
-#include "engine/scratch.h"
 #include "systems/gait/asleep.h"
 #include "systems/kinematics/kinematics.h"
-#include "systems/people/person.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Sleepers side by side who are walkers again.
@@ -279,4 +279,4 @@ void place_sleeper(World& world, Entity person, const SleepTime& time, const Pla
   world.set(person, asleep);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

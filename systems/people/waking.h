@@ -5,12 +5,12 @@
 #include <memory>
 #include <span>
 
-#include "engine/jobs.h"
-#include "engine/world.h"
-#include "systems/people/person.h"
-#include "systems/people/sleepers.h"
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/sleepers.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Memory that waking works in, kept from one time to the next.
 struct WakingWork {
@@ -19,7 +19,7 @@ struct WakingWork {
   struct Blocks;
   std::unique_ptr<Blocks> blocks;
 };
-/// As which they wake: with a pose, or without (components/compact.h).
+/// As which they wake: with a pose, or without (mobil/components/compact.h).
 enum class Woken : std::uint8_t { whole, compact };
 /// Sleepers become walkers where they are at that tick, with `more` parts: of zeros, where they did not keep them. Each
 /// is alive, asleep, and named once.
@@ -40,4 +40,4 @@ void place_sleeper(World& world, Entity person, const SleepTime& time, const Pla
 /// is asleep.
 Status read_asleep(const World& world, Entity person, const SleepTime& time, std::uint64_t part, void* row);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,10 +1,10 @@
 #include "systems/people/walk_ahead.h"
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
 #include "systems/gait/footing.h"
 #include "systems/gait/gait.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait,
                      const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
@@ -27,4 +27,4 @@ WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>
   if (uneven_) follow_feet(state_, footing_);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

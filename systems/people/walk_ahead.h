@@ -3,11 +3,11 @@
 
 #include <cstddef>
 
-#include "components/body.h"
-#include "components/footing.h"
-#include "components/gait.h"
+#include <mobil/components/body.h>
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// How far ahead may be asked for, s: less than any step takes, so that one at most begins on the way.
 inline constexpr double furthest_ahead_s = 0.2;
@@ -34,4 +34,4 @@ class WalkAhead {
   Footing<Lanes<float>> footing_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/people/walk_limits.h"
+#include <mobil/systems/people/walk_limits.h>
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "assets/body/joint_limits.h"
 #include "systems/gait/gait.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double limit_degree = 3.14159265358979324 / 180;
@@ -283,4 +283,4 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   if (looking == Looking::at_changes || looking == Looking::at_changes_too) from_either_foot(1, note_changes);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

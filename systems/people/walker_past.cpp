@@ -4,7 +4,7 @@
 
 #include "engine/exact_math.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<float>& plan, float seconds) {
   state.time_s -= seconds;
@@ -22,4 +22,4 @@ std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<f
   return state;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "components/gait.h"
+#include <mobil/components/gait.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Where a walker was some seconds before, as far as the present step and one like it before that tell.
 std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<float>& plan, float seconds);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

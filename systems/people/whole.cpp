@@ -5,19 +5,19 @@
 #include <cstring>
 #include <vector>
 
-#include "components/avoidance.h"
-#include "components/body.h"
-#include "components/fat.h"
-#include "components/gait.h"
-#include "components/leg_frames.h"
-#include "components/pose.h"
-#include "engine/access.h"
-#include "engine/rows.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/body.h>
+#include <mobil/components/fat.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/access.h>
+#include <mobil/rows.h>
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/shoulders.h"
 #include "systems/people/fat_wobble.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 struct PosedBlock {
@@ -122,4 +122,4 @@ void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, 
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,15 +1,15 @@
 #pragma once
-// Walkers without a pose of their own, who are compact (components/compact.h): what their pose would be, and how they
-// get it back.
+// Walkers without a pose of their own, who are compact (mobil/components/compact.h): what their pose would be, and how
+// they get it back.
 
 #include <cstdint>
 #include <memory>
 #include <span>
 
-#include "engine/jobs.h"
-#include "engine/world.h"
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A walker who is awake and has no pose; false for a stale handle.
 bool is_compact(const World& world, Entity person);
@@ -32,4 +32,4 @@ struct WholeWork {
 void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, std::span<const std::uint64_t> gone,
                 WholeWork& work);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

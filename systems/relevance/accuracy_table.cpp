@@ -1,10 +1,10 @@
-#include "systems/relevance/accuracy_table.h"
+#include <mobil/systems/relevance/accuracy_table.h>
 
 #include <algorithm>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 // Written by: mobil fit-accuracy
@@ -164,4 +164,4 @@ const AccuracyRow* AccuracyTable::find(Muscle muscle, SpeedClass speed, bool ine
   return own != nullptr ? own : row_of(members_of(muscle).front().group);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -6,7 +6,7 @@
 
 #include "systems/muscles/choice_words.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 void BasisOrders::Work::make() {
   int waits = 0;
@@ -76,4 +76,4 @@ void BasisOrders::take_in(BellyLibrary& library, Muscle muscle, const LegMuscles
   works_.erase(at);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

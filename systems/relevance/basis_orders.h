@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
+#include <mobil/systems/relevance/background.h>
 #include "systems/muscles/belly_library.h"
-#include "systems/relevance/background.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 class BasisOrders {
  public:
@@ -48,4 +48,4 @@ class BasisOrders {
   std::vector<std::shared_ptr<Work>> works_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,12 +1,12 @@
-#include "systems/relevance/ladder.h"
+#include <mobil/systems/relevance/ladder.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr float reference_height_m = static_cast<float>(reference_body_height_m);
@@ -154,4 +154,4 @@ double MachineFactor::pessimistic() const {
   return std::max(mean_, (mean_ + deviations * deviation_) / 1.1);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

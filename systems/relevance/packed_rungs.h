@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "components/leg_muscles.h"
-#include "components/relevance.h"
-#include "systems/relevance/ladder.h"
+#include <mobil/components/leg_muscles.h>
+#include <mobil/components/relevance.h>
+#include <mobil/systems/relevance/ladder.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 inline constexpr float default_tolerance_m = 0.001F;
 
@@ -48,4 +48,4 @@ inline void set_bit(std::uint32_t& bits, std::uint32_t muscle, bool on) {
   bits = (bits & ~(1U << muscle)) | (on ? 1U : 0U) << muscle;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

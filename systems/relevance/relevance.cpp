@@ -1,15 +1,15 @@
 // Who is seen, what their muscles need, and which method each gets.
-#include "systems/relevance/relevance.h"
+#include <mobil/relevance.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
 
-#include "components/footing.h"
-#include "components/sleep.h"
+#include <mobil/components/footing.h>
+#include <mobil/components/sleep.h>
+#include <mobil/rows.h>
 #include "engine/exact_math.h"
-#include "engine/rows.h"
 #include "engine/state_hash.h"
 #include "systems/gait/asleep.h"
 #include "systems/relevance/basis_orders.h"
@@ -17,7 +17,7 @@
 #include "systems/relevance/sight.h"
 #include "systems/simulation_world.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr float closest_m = 0.3F;
@@ -333,4 +333,4 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
   out.idle.push_back(human);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

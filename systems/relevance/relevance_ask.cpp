@@ -10,21 +10,21 @@
 #include <string>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
-#include "components/compact.h"
-#include "engine/each.h"
-#include "engine/jobs.h"
-#include "engine/rows.h"
+#include <mobil/components/compact.h>
+#include <mobil/each.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/muscle_table.h>
+#include <mobil/relevance.h>
+#include <mobil/rows.h>
+#include <mobil/systems/relevance/relevance_module.h>
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
 #include "systems/people/by_table.h"
 #include "systems/relevance/packed_rungs.h"
-#include "systems/relevance/relevance.h"
-#include "systems/relevance/relevance_module.h"
 #include "systems/simulation_world.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 std::string explain(const Choice& choice, View view, const std::string& goal) {
@@ -379,4 +379,4 @@ std::array<std::size_t, rung_count + 1> Relevance::muscles_by_rung(bool living) 
   return count;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

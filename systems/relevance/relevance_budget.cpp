@@ -1,17 +1,17 @@
 // What is afforded, and whose method changes now.
 #include <algorithm>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/relevance.h>
+#include <mobil/systems/people/person.h>
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
-#include "systems/people/person.h"
 #include "systems/relevance/basis_orders.h"
 #include "systems/relevance/packed_rungs.h"
-#include "systems/relevance/relevance.h"
 #include "systems/simulation_world.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr float easing = 0.97F;  // how fast tolerances come back when there is time again, an update
@@ -146,4 +146,4 @@ bool Relevance::change(const Switch& one, RelevanceReport& report) {
   return true;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

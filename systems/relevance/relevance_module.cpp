@@ -1,14 +1,14 @@
-#include "systems/relevance/relevance_module.h"
+#include <mobil/systems/relevance/relevance_module.h>
 
 #include <array>
 #include <cstdint>
 
-#include "components/relevance.h"
+#include <mobil/components/relevance.h>
+#include <mobil/systems/relevance/ladder.h>
 #include "engine/snapshot.h"
-#include "systems/relevance/ladder.h"
 #include "systems/relevance/packed_rungs.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Whether every rung, view and speed is one that there is.
@@ -36,4 +36,4 @@ Module relevance_module() {
   return {.name = "relevance", .parts = {component_part<Needs>(), component_part<Tiers>()}, .check_rows = &check_rows};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

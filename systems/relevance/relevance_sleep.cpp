@@ -4,11 +4,12 @@
 #include <bit>
 #include <cmath>
 
-#include "components/footing.h"
-#include "components/sleep.h"
-#include "engine/each.h"
+#include <mobil/components/footing.h>
+#include <mobil/components/sleep.h>
+#include <mobil/each.h>
+#include <mobil/relevance.h>
+#include <mobil/rows.h>
 #include "engine/exact_math.h"
-#include "engine/rows.h"
 #include "systems/gait/asleep.h"
 #include "systems/muscles/belly_library.h"
 #include "systems/muscles/leg_moments.h"
@@ -16,11 +17,10 @@
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
 #include "systems/relevance/packed_rungs.h"
-#include "systems/relevance/relevance.h"
 #include "systems/relevance/sight.h"
 #include "systems/simulation_world.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr float fastest_m_s = 2.6F;  // of walkers
@@ -357,4 +357,4 @@ void Relevance::put_to_sleep(RelevanceReport& report) {
                  SimulationWorld::sleep(simulation_, std::span(now_.drowsy).subspan(without), needy);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

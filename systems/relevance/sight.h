@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/lanes.h"
-#include "systems/relevance/relevance.h"
+#include <mobil/components/lanes.h>
+#include <mobil/relevance.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// People count as balls of this radius round the pelvis, m.
 inline constexpr float person_radius_m = 1;
@@ -51,4 +51,4 @@ class Gap {
   Vec3<float> forward_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

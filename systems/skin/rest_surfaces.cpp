@@ -1,9 +1,9 @@
 #include "systems/skin/rest_surfaces.h"
 
-#include "systems/simulation.h"
-#include "systems/surfaces/surfaces.h"
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Result<RestSurfaces> surfaces_at_rest(const BodySurfaces& surfaces, const Body& body, const LegMuscles& choice) {
   Simulation still;
@@ -49,4 +49,4 @@ std::vector<Vec3<float>> muscle_vertices(const BodySurfaces& surfaces, std::span
   return of_side;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,15 +4,15 @@
 #include <span>
 #include <vector>
 
-#include "components/body.h"
-#include "components/lanes.h"
-#include "components/leg_muscles.h"
-#include "components/muscle.h"
-#include "engine/error.h"
-#include "systems/surfaces/body_surfaces.h"
+#include <mobil/components/body.h>
+#include <mobil/components/lanes.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
+#include <mobil/systems/surfaces/body_surfaces.h>
 #include "systems/surfaces/surface_contacts.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Of all vertices of some surfaces, in the anatomical position at the origin, m.
 struct RestSurfaces {
@@ -20,8 +20,8 @@ struct RestSurfaces {
 };
 
 /// Of surfaces that were bound to that body, or to one like it. `choice`: the muscles and cells that drive them; what
-/// else it says does not matter. Some tens of milliseconds. Errors: as make_body and Simulation::add_leg_muscles; surfaces with
-/// a driver that is not among the muscles.
+/// else it says does not matter. Some tens of milliseconds. Errors: as make_body and Simulation::add_leg_muscles;
+/// surfaces with a driver that is not among the muscles.
 Result<RestSurfaces> surfaces_at_rest(const BodySurfaces& surfaces, const Body& body, const LegMuscles& choice);
 
 /// Who may touch whom in them (find_contacts). Errors: as surfaces_at_rest.
@@ -31,4 +31,4 @@ Result<SurfaceContacts> find_contacts(const BodySurfaces& surfaces, const Body& 
 std::vector<Vec3<float>> muscle_vertices(const BodySurfaces& surfaces, std::span<const Vec3<float>> position,
                                          Side side);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

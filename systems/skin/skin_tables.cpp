@@ -1,7 +1,5 @@
-#include "systems/skin/skin_tables.h"
+#include <mobil/skin_tables.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,15 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
+#include <mobil/systems/skinning/cover_muscles.h>
 #include "assets/body/bent_legs.h"
-#include "assets/skin/body_skin.h"
+#include "assets/reduction/dense.h"
+#include "assets/reduction/symmetric_eigen.h"
 #include "assets/surfaces/coarser_surface.h"
-#include "systems/simulation.h"
-#include "systems/skinning/cover_muscles.h"
-#include "systems/surfaces/surfaces.h"
+#include "engine/eigen.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Places spread evenly over a line, a plane, a space (Halton 1960): the n-th of a prime base, 0 to 1.
@@ -47,7 +48,7 @@ float degrees(float rad) {
 
 /// One person's right leg: what its muscles lift the skin by, pose after pose, as lines of a least-squares fit.
 class Fit {
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Matrix = Eigen::MatrixXd;
 
  public:
   Fit(BodySurfaces bound, BodySkin skin)
@@ -70,26 +71,26 @@ class Fit {
     const auto value = skin_term_values(leg_angles_of(pose, Side::right));
     const Eigen::Map<const Eigen::Matrix<float, 1, skin_terms>> terms(value.data());
     const Eigen::Map<const Eigen::Matrix<float, 1, leg_grid_points>> lifts(lift.data());
-    const Eigen::Matrix<double, skin_terms, 1> weighted = weight * terms.cast<double>().transpose();
-    square_ += weighted * terms.cast<double>();
-    right_ += weighted * lifts.cast<double>();
+    const Eigen::VectorXd of_terms = terms.cast<double>().transpose(), of_lifts = lifts.cast<double>().transpose();
+    add_outer(square_, weight, of_terms, of_terms);
+    add_outer(right_, weight, of_terms, of_lifts);
     return {};
   }
 
   std::unique_ptr<SkinTable> table() const {
-    const Matrix fitted = square_.ldlt().solve(right_);
+    const Matrix fitted = solved(square_, right_);
     // The modes that leave least out over all that was added: the fit, in units in which terms weigh alike and are
     // apart, cut to its greatest singular values.
-    const Eigen::SelfAdjointEigenSolver<Matrix> terms(square_);
-    const Eigen::VectorXd root = terms.eigenvalues().cwiseMax(0).cwiseSqrt();
+    const SymmetricEigen terms = symmetric_eigen(square_);
+    const Eigen::VectorXd root = terms.values.cwiseMax(0).cwiseSqrt();
     // What no pose has is left alone: its inverse is nothing.
     const double least = 1e-9 * root.maxCoeff();
     const Eigen::VectorXd inverse = (root.array() > least).select(root.cwiseInverse(), 0.0);
-    const Matrix alike = root.asDiagonal() * terms.eigenvectors().transpose() * fitted;
-    const Eigen::SelfAdjointEigenSolver<Matrix> shapes(alike * alike.transpose());
-    const Matrix greatest = shapes.eigenvectors().rightCols(skin_modes);
-    const Matrix mode = greatest.transpose() * alike;
-    const Matrix weight = terms.eigenvectors() * inverse.asDiagonal() * greatest;
+    const Matrix alike = product(root.asDiagonal() * transposed(terms.vectors), fitted);
+    const SymmetricEigen shapes = symmetric_eigen(product(alike, transposed(alike)));
+    const Matrix greatest = shapes.vectors.rightCols(skin_modes);
+    const Matrix mode = product(transposed(greatest), alike);
+    const Matrix weight = product(terms.vectors * inverse.asDiagonal(), greatest);
     auto table = std::make_unique<SkinTable>();
     for (std::size_t m = 0; m < skin_modes; ++m) {
       const auto of = static_cast<Eigen::Index>(m);
@@ -163,4 +164,4 @@ Result<const SkinTable*> SkinTables::of(const BodyRequest& body) {
   return table.get();
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

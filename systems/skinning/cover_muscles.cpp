@@ -1,7 +1,7 @@
-#include "systems/skinning/cover_muscles.h"
+#include <mobil/systems/skinning/cover_muscles.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/skinning/cover_muscles.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -16,17 +16,16 @@
 #include "systems/skinning/ring_grid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 constexpr CoverTag tag;
-using V = CoverV;
 
 /// A station a little nearer to the mean of its four neighbours.
 HWY_INLINE Ring smoothed(const Ring& above, const Ring& here, const Ring& below) {
   const Ring left = before(here), right = after(here);
   return each_part([&](std::size_t p) HWY_ATTR {
-    const V sum = hn::Add(hn::Add(above.part[p], below.part[p]), hn::Add(left.part[p], right.part[p]));
+    const CoverV sum = hn::Add(hn::Add(above.part[p], below.part[p]), hn::Add(left.part[p], right.part[p]));
     return mul_add(splat(0.125F), sum, hn::Mul(splat(0.5F), here.part[p]));
   });
 }
@@ -52,9 +51,9 @@ HWY_NOINLINE void find_lack(const RingGrid& floor, const RingGrid& excess, RingG
 }
 
 /// The larger, rounded over where they differ by less than w (C¹).
-HWY_INLINE V rounded_max(const V& a, const V& b, float w) {
-  const V d = hn::Sub(a, b), over = hn::Max(hn::Zero(tag), hn::Add(d, splat(w)));
-  const V between = mul_add(hn::Mul(over, over), splat(1 / (4 * w)), b);
+HWY_INLINE CoverV rounded_max(const CoverV& a, const CoverV& b, float w) {
+  const CoverV d = hn::Sub(a, b), over = hn::Max(hn::Zero(tag), hn::Add(d, splat(w)));
+  const CoverV between = mul_add(hn::Mul(over, over), splat(1 / (4 * w)), b);
   return hn::IfThenElse(hn::Ge(d, splat(w)), a, between);
 }
 
@@ -65,7 +64,7 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
   constexpr float least_m_by_bend = 0.0008F;
   RingGrid reach;
   find_reach(rings, muscles, reach);
-  const V scale = splat(lengths);
+  const CoverV scale = splat(lengths);
   const Ring inner = load_ring(rings.inner.data());
   RingGrid excess, floor, lacking;  // over the skin without muscles
   for (std::size_t i = 0; i < leg_stations; ++i) {
@@ -73,12 +72,12 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
                reached = reach.at(i);
     Ring over, least;
     for (std::size_t p = 0; p < ring_parts; ++p) {
-      const V skin = hn::Mul(scale, base.part[p]), layer = hn::Mul(scale, fat.part[p]), most = reached.part[p];
+      const CoverV skin = hn::Mul(scale, base.part[p]), layer = hn::Mul(scale, fat.part[p]), most = reached.part[p];
       const auto there = hn::Gt(most, hn::Zero(tag));
       over.part[p] = hn::IfThenElseZero(there, hn::Sub(rounded_max(skin, hn::Add(most, layer), round_m), skin));
-      const V hollow = hn::Max(hn::Zero(tag), hn::Mul(splat(rings.curved[i]), inner.part[p]));
-      const V over_muscle = mul_add(hollow, splat(least_m_by_bend), splat(least_m));
-      const V thin = mul_add(splat(0.5F), hn::Min(layer, splat(thin_m)), over_muscle);
+      const CoverV hollow = hn::Max(hn::Zero(tag), hn::Mul(splat(rings.curved[i]), inner.part[p]));
+      const CoverV over_muscle = mul_add(hollow, splat(least_m_by_bend), splat(least_m));
+      const CoverV thin = mul_add(splat(0.5F), hn::Min(layer, splat(thin_m)), over_muscle);
       least.part[p] = hn::IfThenElse(there, hn::Sub(hn::Add(thin, most), skin), hn::Neg(skin));
     }
     excess.set(i, over);
@@ -94,19 +93,19 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
       excess.set(i, each_part([&](std::size_t p) HWY_ATTR { return hn::Add(now.part[p], more.part[p]); }));
     });
   }
-  const V smaller = splat(1 / lengths);
+  const CoverV smaller = splat(1 / lengths);
   for (std::size_t i = 0; i < leg_stations; ++i) {
     const Ring base = load_ring(&grid.base[i * leg_angles]), over = excess.at(i), least = floor.at(i);
-    const V curved = splat(rings.curved[i]);
+    const CoverV curved = splat(rings.curved[i]);
     const bool bent = std::abs(rings.curved[i]) > 0.1F;
     const Ring lift = each_part([&](std::size_t p) HWY_ATTR {
-      V h = mul_add(scale, base.part[p], hn::Max(over.part[p], least.part[p]));
+      CoverV h = mul_add(scale, base.part[p], hn::Max(over.part[p], least.part[p]));
       if (bent) {
         // How far from the line a bent joint has room for skin.
-        const V hollow = hn::Mul(curved, inner.part[p]), room = hn::Div(splat(0.92F), hollow);
-        const V most = hn::Mul(splat(0.8F), room), last = hn::Mul(splat(0.2F), room);
-        const V beyond = hn::Div(hn::Sub(h, most), last);
-        const V squeezed = mul_add(last, hn::Div(beyond, hn::Add(splat(1), beyond)), most);
+        const CoverV hollow = hn::Mul(curved, inner.part[p]), room = hn::Div(splat(0.92F), hollow);
+        const CoverV most = hn::Mul(splat(0.8F), room), last = hn::Mul(splat(0.2F), room);
+        const CoverV beyond = hn::Div(hn::Sub(h, most), last);
+        const CoverV squeezed = mul_add(last, hn::Div(beyond, hn::Add(splat(1), beyond)), most);
         h = hn::IfThenElse(hn::And(hn::Gt(hollow, splat(0.05F)), hn::Gt(h, most)), squeezed, h);
       }
       // As of the skin at rest, which `lengths` makes larger.
@@ -117,11 +116,11 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(cover);
 }
@@ -131,5 +130,5 @@ void cover_muscles(const BodySkin& skin, const Pose<float>& pose, float lengths,
   HWY_DYNAMIC_DISPATCH(cover)(skin.leg, leg_rings(skin, pose, lengths, side), lengths, muscles, lift_m.data());
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

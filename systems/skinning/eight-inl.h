@@ -11,11 +11,11 @@
 
 #include <cstddef>
 
+#include <mobil/systems/skinning/packed_surface.h>
 #include "engine/fused-inl.h"
-#include "systems/skinning/packed_surface.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using EightTag = hn::CappedTag<float, block_vertices>;
@@ -113,7 +113,7 @@ HWY_INLINE hn::Vec<Tag> load_vertices(Tag tag, const float* first, [[maybe_unuse
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

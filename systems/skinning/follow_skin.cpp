@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -35,4 +35,4 @@ void follow_skin(const OwnSkin& own, std::span<const Vec3<float>> skin_position,
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/body/anthropometry.h"
-#include "components/segments.h"
-#include "engine/geometry.h"
-#include "systems/skinning/skin_table.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/segments.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/systems/skinning/skin_table.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -100,4 +100,4 @@ LegRings leg_rings(const BodySkin& skin, const Pose<float>& pose, float lengths,
   return rings;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

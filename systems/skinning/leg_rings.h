@@ -4,10 +4,10 @@
 #include <array>
 #include <cstddef>
 
-#include "assets/skin/body_skin.h"
-#include "components/pose.h"
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/components/pose.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Steps of a joint's bend.
 inline constexpr std::size_t bend_rings = 16;
@@ -35,4 +35,4 @@ struct LegRings {
 /// Of one leg in a pose (world, m); `lengths`: as of SkinShape.
 LegRings leg_rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

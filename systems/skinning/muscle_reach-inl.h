@@ -22,7 +22,7 @@
 #include "systems/skinning/ring_grid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// Vertices are worked on in passes over so many, within which none waits for another: from one vertex to where it
 /// raises the grid is a chain of some 200 cycles.
@@ -256,7 +256,7 @@ HWY_NOINLINE inline void find_reach(const LegRings& rings, std::span<const Vec3<
   take_cells(cells.data(), reach);
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

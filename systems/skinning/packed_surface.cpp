@@ -1,4 +1,4 @@
-#include "systems/skinning/packed_surface.h"
+#include <mobil/systems/skinning/packed_surface.h>
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <map>
 #include <tuple>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 #include "systems/skinning/write_vertices.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using namespace geometry;
 
@@ -159,4 +159,4 @@ Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh, std::span<const AlongSt
   return rigid;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,7 +1,7 @@
 #include "systems/skinning/place_skin.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/skinning/place_skin.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -10,12 +10,12 @@
 #include <cstddef>
 #include <numbers>
 
-#include "components/segments.h"
+#include <mobil/components/segments.h>
 #include "engine/fused-inl.h"
 #include "systems/skinning/vertex_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 using FourTag = hn::CappedTag<float, 4>;
@@ -136,9 +136,9 @@ HWY_INLINE Carried carried(const SkinVertex& vertex, const FrameMap* maps, const
 
 /// A row of two vertices; the second counts with eight lanes alone.
 template <class Tag>
-HWY_INLINE hn::Vec<Tag> of_two(Tag tag, const FourVector& first, [[maybe_unused]] const FourVector& second) {
+HWY_INLINE hn::Vec<Tag> of_two(Tag of, const FourVector& first, [[maybe_unused]] const FourVector& second) {
   if constexpr (hn::MaxLanes(Tag{}) == 8) {
-    return hn::Combine(tag, second, first);
+    return hn::Combine(of, second, first);
   } else {
     return first;
   }
@@ -199,11 +199,11 @@ void place(const SkinMesh& mesh, const BodySkin& skin, const LegLines& lines, co
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(place);
 }
@@ -239,5 +239,5 @@ void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, con
   place_skin(mesh, skin, maps, covers ? &cover : nullptr, fat, out);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

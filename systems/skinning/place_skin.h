@@ -4,15 +4,15 @@
 #include <array>
 #include <span>
 
-#include "assets/skin/body_skin.h"
-#include "components/fat.h"
-#include "components/pose.h"
-#include "systems/skinning/cover_muscles.h"
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/components/fat.h>
+#include <mobil/components/pose.h>
+#include <mobil/systems/skinning/cover_muscles.h>
+#include <mobil/systems/skinning/skin_table.h>
 #include "systems/skinning/skin_frames.h"
-#include "systems/skinning/skin_table.h"
 #include "systems/skinning/write_vertices.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Where the legs' lines are in the anatomical position, m; by Side.
 struct LegLines {
@@ -35,4 +35,4 @@ void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, con
                const std::array<std::span<const Vec3<float>>, 2>& muscles, const SkinTable* table, const FatBeside* fat,
                std::span<FrameMap> maps, const VertexTarget& out);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,14 +1,14 @@
 #include "systems/skinning/place_vertices.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/skinning/place_vertices.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "systems/skinning/eight-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// Σ wᵢ uᵢ of eight vertices; even and odd nodes apart, so that two sums grow at once.
@@ -42,7 +42,7 @@ HWY_INLINE EightVec on_bones(const BoneBlock& block, const SkinMaps& maps) {
           multiply_add(origin, a.z, multiply(insertion, b.z))};
 }
 
-void place(const PackedSurface& surface, const SkinMaps& maps, const float* node, float sign, float* places) {
+void place_surface(const PackedSurface& surface, const SkinMaps& maps, const float* node, float sign, float* places) {
   const WideEight signs = all(sign);
   const auto put = [&](EightVec p) HWY_ATTR {
     p.x = multiply(signs, p.x);
@@ -65,18 +65,18 @@ void place(const PackedSurface& surface, const SkinMaps& maps, const float* node
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
-HWY_EXPORT(place);
+HWY_EXPORT(place_surface);
 }
 
 void place_vertices(const PackedSurface& surface, const SkinMaps& maps, const float* node, Side side, float* places) {
-  HWY_DYNAMIC_DISPATCH(place)(surface, maps, node, side == Side::left ? -1.0F : 1.0F, places);
+  HWY_DYNAMIC_DISPATCH(place_surface)(surface, maps, node, side == Side::left ? -1.0F : 1.0F, places);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

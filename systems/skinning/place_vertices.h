@@ -1,9 +1,9 @@
 #pragma once
 // A muscle's surface where its mesh and its bones are now.
 
-#include "systems/skinning/packed_surface.h"
+#include <mobil/systems/skinning/packed_surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Positions of a surface's vertices: with T the motion of a bone since rest,
 ///   p = cage · frame(belly · rest_in_cage + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀).
@@ -12,4 +12,4 @@ namespace mobil {
 /// other, 4 · surface.places() floats, 16-byte aligned. The same bits on every instruction set.
 void place_vertices(const PackedSurface& surface, const SkinMaps& maps, const float* node, Side side, float* places);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

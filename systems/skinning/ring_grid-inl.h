@@ -12,10 +12,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "assets/skin/leg_grid.h"
+#include <mobil/assets/skin/leg_grid.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using CoverTag = hn::CappedTag<float, 16>;
@@ -129,7 +129,7 @@ HWY_INLINE void each_station(const RingGrid& grid, const Op& op) {
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

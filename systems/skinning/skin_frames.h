@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "assets/skin/body_skin.h"
-#include "components/pose.h"
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/components/pose.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// How a frame of the skin carries a point from the anatomical position: along x, y and z, and from the origin; m. The
 /// fourth number of each is its third again.
@@ -25,4 +25,4 @@ struct SkinBone {
 void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& pose, float lengths,
                 const Vec3<float>& origin_m, std::span<FrameMap> maps);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,11 +1,11 @@
-#include "systems/skinning/skin_pose.h"
+#include <mobil/systems/skinning/skin_pose.h>
 
 #include <cmath>
 
-#include "assets/body/anthropometry.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -95,4 +95,4 @@ SkinMaps skin_maps(const SurfaceRest& rest, Side side, RigidPose origin, RigidPo
           end_map(rest.insertion, side, insertion, muscle_turn, scale.lengths, scale.insertion), scale.belly};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,7 +1,7 @@
-#include "systems/skinning/skin_table.h"
+#include <mobil/systems/skinning/skin_table.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/skinning/skin_table.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -9,32 +9,32 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/segments.h"
+#include <mobil/components/segments.h>
 #include "engine/fused-inl.h"
 #include "systems/skinning/eight-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 void sum_modes(const SkinTable& table, const std::array<float, skin_modes>& share, float* lift_m) {
-  const hn::CappedTag<float, 16> tag;  // all of them divide the grid
+  const hn::CappedTag<float, 16> table_tag;  // all of them divide the grid
   static_assert(leg_grid_points % 16 == 0);
-  hn::Vec<decltype(tag)> all[skin_modes];
-  for (std::size_t m = 0; m < skin_modes; ++m) all[m] = hn::Set(tag, share[m]);
-  for (std::size_t n = 0; n < leg_grid_points; n += hn::Lanes(tag)) {
-    auto sum = hn::Mul(all[0], hn::Load(tag, &table.mode[0][n]));
-    for (std::size_t m = 1; m < skin_modes; ++m) sum = mul_add(all[m], hn::Load(tag, &table.mode[m][n]), sum);
-    hn::StoreU(sum, tag, lift_m + n);
+  hn::Vec<decltype(table_tag)> all[skin_modes];
+  for (std::size_t m = 0; m < skin_modes; ++m) all[m] = hn::Set(table_tag, share[m]);
+  for (std::size_t n = 0; n < leg_grid_points; n += hn::Lanes(table_tag)) {
+    auto sum = hn::Mul(all[0], hn::Load(table_tag, &table.mode[0][n]));
+    for (std::size_t m = 1; m < skin_modes; ++m) sum = mul_add(all[m], hn::Load(table_tag, &table.mode[m][n]), sum);
+    hn::StoreU(sum, table_tag, lift_m + n);
   }
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 HWY_EXPORT(sum_modes);
@@ -82,5 +82,5 @@ void cover_by_table(const SkinTable& table, const LegAngles& angles, std::array<
   HWY_DYNAMIC_DISPATCH(sum_modes)(table, share, lift_m.data());
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -1,9 +1,9 @@
-#include "systems/skinning/vertex_rings.h"
+#include <mobil/systems/skinning/vertex_rings.h>
 
 #include <algorithm>
 #include <string>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint16_t twice(std::uint16_t place) {
@@ -74,4 +74,4 @@ Result<VertexRings> vertex_rings(std::span<const std::uint32_t> triangle, std::s
   return all;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -19,7 +19,7 @@
 #include "systems/skinning/write_vertices.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 inline constexpr EightTag eight;
 using EightVector = hn::Vec<EightTag>;
@@ -138,7 +138,7 @@ HWY_INLINE void put(const Rows& position, const Rows& normal, std::size_t first,
   }
 }
 
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,7 +1,7 @@
 #include "systems/skinning/write_vertices.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/skinning/write_vertices.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -12,7 +12,7 @@
 #include "systems/skinning/vertex_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// Row i of what `twice_place(vertex)` says: x y z x of a vertex.
@@ -132,11 +132,11 @@ void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(write);
 HWY_EXPORT(rigid);
@@ -152,5 +152,5 @@ void write_rigid(const RigidSurface& surface, const AffineMap& map, const Vertex
   HWY_DYNAMIC_DISPATCH(rigid)(surface, map, out, scale, stretch);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3
 #endif

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
-#include "systems/skinning/packed_surface.h"
+#include <mobil/systems/skinning/packed_surface.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Where three floats of vertex v go: at `position` + v · `position_stride`, in bytes, and likewise of its normal, and
 /// four of its tangent; null: none wanted. Tangents need normals.
@@ -30,4 +30,4 @@ void write_vertices(const VertexRings& rings, std::span<const PlacedAlong> along
 void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale = 1,
                  float stretch = 1);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -12,7 +12,7 @@
 
 #include "systems/snapshot/snapshot_check.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Lists of the front, each as long as its header says.
@@ -265,4 +265,4 @@ Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotT
   return done;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

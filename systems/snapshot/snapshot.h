@@ -1,23 +1,23 @@
 #pragma once
 // The state of a simulation as bytes, and back: a world's rows, entities and time, with what its shared resources are
-// made from. It knows nothing of people: modules say which parts there are and check their own (engine/module.h).
+// made from. It knows nothing of people: modules say which parts there are and check their own (mobil/engine/module.h).
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "engine/error.h"
-#include "engine/jobs.h"
-#include "engine/module.h"
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/module.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "engine/snapshot.h"
-#include "engine/world.h"
 #include "systems/muscles/belly_library.h"
-#include "systems/snapshot/restore_limits.h"
 #include "systems/snapshot/snapshot_records.h"
 #include "systems/snapshot/snapshot_resources.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What a snapshot is taken of, `W` a World, const where it is only read.
 template <class W>
@@ -30,7 +30,7 @@ struct SnapshotSceneOf {
 using SnapshotScene = SnapshotSceneOf<const World>;
 using RestoreScene = SnapshotSceneOf<World>;
 
-/// A clock's units (engine/clock.h) and the number of ticks.
+/// A clock's units (mobil/engine/clock.h) and the number of ticks.
 struct SnapshotTime {
   std::int64_t tick_units = 0, remainder_units = 0;
   std::uint32_t tick = 0;
@@ -63,4 +63,4 @@ Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime
 Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
                                       const RestoreLimits& limits, std::span<const std::byte> in);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

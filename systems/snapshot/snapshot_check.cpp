@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "components/leg_muscles.h"
-#include "components/muscle.h"
+#include <mobil/components/leg_muscles.h>
+#include <mobil/components/muscle.h>
 #include "systems/muscles/muscle_parts.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 tl::unexpected<Error> damaged(const char* what) {
@@ -153,4 +153,4 @@ Result<void> check_steps(const TableKey& key, const World& world, double tick_s,
                   steps, most));
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

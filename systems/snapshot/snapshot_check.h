@@ -3,14 +3,14 @@
 
 #include <span>
 
-#include "engine/jobs.h"
-#include "engine/module.h"
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/module.h>
+#include <mobil/engine/world.h>
 #include "engine/snapshot.h"
-#include "engine/world.h"
 #include "systems/snapshot/snapshot_records.h"
 #include "systems/snapshot/snapshot_resources.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Parts are laid out as their modules have them, of the version that these have here, and their rows are sound.
 Result<void> check_modules(const Records<SavedModule>& saved, const SavedWorld& world, std::span<const Module> modules);
@@ -22,4 +22,4 @@ Result<void> check_key(const TableKey& key, const World& world, const ResourceLi
 /// A muscle takes at most so many steps in a tick: as its table says, and as a choice says that later muscles follow.
 Result<void> check_steps(const TableKey& key, const World& world, double tick_s, std::size_t most);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -12,10 +12,10 @@
 #include <string>
 #include <utility>
 
+#include <mobil/snapshot_file.h>
 #include "assets/files/output_file.h"
-#include "systems/snapshot/snapshot_file.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// An open file or folder, closed at the end.
@@ -122,4 +122,4 @@ Result<void> Rollback::back(Simulation& simulation, std::size_t times) {
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

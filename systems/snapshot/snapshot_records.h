@@ -6,7 +6,7 @@
 
 #include "systems/muscles/choice_words.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 struct FrontHeader {
   std::int64_t tick_units, remainder_units;
@@ -48,4 +48,4 @@ struct SavedResource {
   std::uint32_t number, spare;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

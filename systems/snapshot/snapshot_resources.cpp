@@ -11,7 +11,7 @@
 #include "engine/row_hash.h"
 #include "systems/lines/muscle_lines.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Takes numbers in.
@@ -361,4 +361,4 @@ Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

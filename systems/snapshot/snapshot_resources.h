@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "engine/error.h"
-#include "engine/module.h"
-#include "engine/world.h"
+#include <mobil/engine/error.h>
+#include <mobil/engine/module.h>
+#include <mobil/engine/world.h>
 #include "systems/muscles/belly_library.h"
 #include "systems/snapshot/snapshot_records.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The part's id of a shared resource; 0 of unknown ones.
 std::uint64_t resource_type(const Recipe& recipe);
@@ -43,4 +43,4 @@ class ResourceList {
   std::vector<Known> known_;
 };
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

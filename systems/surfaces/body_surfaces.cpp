@@ -1,4 +1,4 @@
-#include "systems/surfaces/body_surfaces.h"
+#include <mobil/systems/surfaces/body_surfaces.h>
 
 #include <fmt/format.h>
 
@@ -6,16 +6,16 @@
 #include <cassert>
 #include <cmath>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_plan.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_surfaces.h"
 #include "assets/surfaces/coarser_surface.h"
 #include "assets/surfaces/muscle_cage.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double passage_per_height = 0.04 / 1.80;
@@ -193,4 +193,4 @@ SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body) {
   return fit;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

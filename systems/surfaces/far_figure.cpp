@@ -1,11 +1,11 @@
-#include "systems/surfaces/far_figure.h"
+#include <mobil/far_figure.h>
 
 #include <cmath>
 
-#include "assets/body/anthropometry.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 using namespace geometry;
 
@@ -32,4 +32,4 @@ Vec3<float> far_scale(float height_m, float mass_kg) {
   return {girth, size, girth};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

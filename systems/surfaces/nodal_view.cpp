@@ -1,9 +1,9 @@
-#include "systems/surfaces/nodal_view.h"
+#include <mobil/systems/surfaces/nodal_view.h>
 
-#include "components/fade.h"
-#include "components/muscle.h"
+#include <mobil/components/fade.h>
+#include <mobil/components/muscle.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 NodalView nodal_displacement(const World& world, Entity muscle) {
   const auto place = world.find(muscle);
@@ -16,4 +16,4 @@ NodalView nodal_displacement(const World& world, Entity muscle) {
           static_cast<std::uint32_t>(part->value / 3)};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

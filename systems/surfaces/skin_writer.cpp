@@ -1,18 +1,18 @@
-#include "systems/surfaces/skin_writer.h"
+#include <mobil/skin_writer.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "assets/body/anthropometry.h"
-#include "components/body.h"
-#include "components/fat.h"
-#include "components/pose.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/body.h>
+#include <mobil/components/fat.h>
+#include <mobil/components/pose.h>
 #include "systems/kinematics/fat_motion.h"
 #include "systems/skinning/place_skin.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr float index_step = 1.5F;  // kg/m², between the builds that skins are made for
@@ -96,4 +96,4 @@ Result<void> SkinWriter::write(const World& world, std::span<const SkinRequest> 
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

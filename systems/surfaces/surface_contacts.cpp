@@ -5,10 +5,10 @@
 #include <map>
 #include <utility>
 
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/space_cells.h"
-#include "engine/geometry.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
@@ -376,4 +376,4 @@ void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position
   for (int i = 0; i < most_restored && apart.restore_volumes(touches_muscle); ++i) apart.make_normals();
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -7,17 +7,17 @@
 //
 // Bellies are deformed along their own lines, and bodies at rest already lie in each other a little. What lies deeper
 // in a neighbour than at rest is moved out, both muscles by half, from bones alone; the volume that this takes is given
-// back round the same part of the belly, and what that has no room for elsewhere, where muscles' surfaces are closed, as
-// all here are. Dynamics do not hear of it.
+// back round the same part of the belly, and what that has no room for elsewhere, where muscles' surfaces are closed,
+// as all here are. Dynamics do not hear of it.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "components/lanes.h"
-#include "systems/surfaces/body_surfaces.h"
+#include <mobil/components/lanes.h>
+#include <mobil/systems/surfaces/body_surfaces.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// A muscle's vertex, the vertex of another muscle or bone that is nearest to it at rest, and how far it is out of that
 /// there along its normal, m, where it is less than 0.
@@ -58,4 +58,4 @@ struct ContactWork {
 void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position, std::span<Vec3<float>> normal,
                 ContactWork& work);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-#include "systems/surfaces/surfaces.h"
+#include <mobil/surfaces.h>
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <bit>
 #include <cstdint>
 
-#include "components/activation.h"
-#include "components/pose.h"
+#include <mobil/components/activation.h>
+#include <mobil/components/pose.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "systems/skinning/place_vertices.h"
 #include "systems/skinning/write_vertices.h"
-#include "systems/surfaces/nodal_view.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t vertex_bytes = 3 * sizeof(float), tangent_bytes = 4 * sizeof(float);
@@ -217,4 +217,4 @@ Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceReq
   return {};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

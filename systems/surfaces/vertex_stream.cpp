@@ -1,10 +1,10 @@
-#include "systems/surfaces/vertex_stream.h"
+#include <mobil/systems/surfaces/vertex_stream.h>
 
 #include <fmt/format.h>
 
 #include <cstdint>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices, std::size_t bytes) {
   if (stream.stride < bytes)
@@ -33,4 +33,4 @@ bool lie_over(const VertexStream& a, std::size_t a_bytes, const VertexStream& b,
   return behind < (a_first ? a_bytes : b_bytes) || a.stride - behind < (a_first ? b_bytes : a_bytes);
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

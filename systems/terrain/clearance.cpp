@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "components/footing.h"
+#include <mobil/components/footing.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 float smooth(float u) {
@@ -34,4 +34,4 @@ FootLift lift_of(std::span<const TooLow> points) {
   return lift;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

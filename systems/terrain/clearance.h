@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// How much higher than straight from one foothold to the next the foot passes, m, early and late in its swing
 /// (`swing_lift`).
@@ -24,4 +24,4 @@ struct TooLow {
 /// A small lift after which nothing is too low, or hardly; each at most `most_lift_m`.
 FootLift lift_of(std::span<const TooLow> points);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

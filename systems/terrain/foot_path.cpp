@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "components/pose.h"
-#include "engine/rows.h"
+#include <mobil/components/pose.h>
+#include <mobil/rows.h>
 #include "systems/kinematics/kinematics.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// Phase of a step at a part of its time (as step_phase in assets/gait/step_curves-inl.h).
@@ -48,4 +48,4 @@ FootPath foot_path(const BodySize<float>& size, const StepPlan<float>& plan, con
   return path;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,12 +4,12 @@
 #include <array>
 #include <cstddef>
 
-#include "components/body.h"
-#include "components/footing.h"
-#include "components/gait.h"
-#include "components/lanes.h"
+#include <mobil/components/body.h>
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/lanes.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Heel, ball and tips of the toes of the foot in the air at sixteen instants of its swing, in the world, m; `part`:
 /// of the swing's time that is over.
@@ -26,4 +26,4 @@ struct FootPath {
 FootPath foot_path(const BodySize<float>& size, const StepPlan<float>& plan, const GaitState<float>& state,
                    const Footing<float>& footing);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <span>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
 #include "systems/terrain/foot_path.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// What stands out less is left to the swing, which passes level ground by as much.
@@ -74,4 +74,4 @@ FootLift lift_over(const GroundProfile& ground, const BodySize<float>& size, con
   return {under.lift_early_m, under.lift_late_m};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

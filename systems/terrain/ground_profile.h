@@ -4,12 +4,12 @@
 #include <array>
 #include <cstddef>
 
-#include "components/body.h"
-#include "components/footing.h"
-#include "components/gait.h"
+#include <mobil/components/body.h>
+#include <mobil/components/footing.h>
+#include <mobil/components/gait.h>
 #include "systems/terrain/clearance.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// Heights of the ground, m, at equal parts of the way from a foot's last foothold to its next one, both included.
 struct GroundProfile {
@@ -30,4 +30,4 @@ struct GroundProfile {
 FootLift lift_over(const GroundProfile& ground, const BodySize<float>& size, const StepPlan<float>& plan,
                    const GaitState<float>& state, const Footing<float>& footing);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/avoidance.h"
-#include "components/footing.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/footing.h>
 #include "systems/gait/gait.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 GaitChange change_to(float height_m, const LevelWalk& level, float speed_m_s) {
@@ -83,4 +83,4 @@ void keep_slowed(World& world, const Slowing& to) {
   }
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/style_limits.h>
 #include "assets/gait/slope_pace.h"
-#include "engine/jobs.h"
-#include "engine/world.h"
-#include "systems/people/person.h"
-#include "systems/people/style_limits.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// What walkers are asked for because of their slopes, and what finding that works in, kept from one time to the next.
 struct Slowing {
@@ -39,4 +39,4 @@ void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people,
 /// Records, after `Simulation::change_walks(to.changes)`, what these walkers were asked to do on level ground.
 void keep_slowed(World& world, const Slowing& to);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 /// What is lower is no edge but rough ground.
@@ -72,4 +72,4 @@ SoleFit fit_sole(const SoleGround& ground, float height_m, float step_length_m) 
   return best;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 /// The ground along a sole that is about to come down: heights, m, and how much the ground rises along the sole, m per
 /// m. Places lie evenly from the heel to the tips of the toes, and beyond both as far as the foot may be moved, and one
@@ -41,4 +41,4 @@ struct SoleFit {
 /// unmoved. `height_m`: of the walker.
 SoleFit fit_sole(const SoleGround& ground, float height_m, float step_length_m);
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

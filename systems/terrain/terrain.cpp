@@ -1,4 +1,4 @@
-#include "systems/terrain/terrain.h"
+#include <mobil/terrain.h>
 
 #include <fmt/format.h>
 
@@ -9,22 +9,22 @@
 #include <utility>
 #include <vector>
 
-#include "components/avoidance.h"
-#include "components/pose.h"
-#include "engine/each.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/pose.h>
+#include <mobil/each.h>
+#include <mobil/rows.h>
+#include <mobil/systems/people/person.h>
 #include "engine/exact_math.h"
-#include "engine/rows.h"
 #include "systems/gait/step_events.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/people/by_table.h"
 #include "systems/people/fat_wobble.h"
-#include "systems/people/person.h"
 #include "systems/simulation_world.h"
 #include "systems/terrain/ground_profile.h"
 #include "systems/terrain/slowing.h"
 #include "systems/terrain/sole_fit.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t leaving = index(FootholdOf::leaving);
@@ -411,4 +411,4 @@ TerrainReport Terrain::update() {
   return work.report;
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

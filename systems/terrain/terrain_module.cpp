@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "components/footing.h"
+#include <mobil/components/footing.h>
 #include "engine/snapshot.h"
 #include "systems/terrain/clearance.h"
 #include "systems/terrain/sole_fit.h"
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 namespace {
 
 bool is_sound(const Footing<float>& footing) {
@@ -39,4 +39,4 @@ Module terrain_module() {
   return {.name = "terrain", .version = 4, .parts = {component_part<Footing>()}, .check_rows = &check_rows};
 }
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -1,10 +1,10 @@
 #pragma once
 // The ground under walkers' feet as a part of their rows.
 
-#include "engine/module.h"
+#include <mobil/engine/module.h>
 
-namespace mobil {
+namespace mobil::inline v0_3 {
 
 Module terrain_module();
 
-}  // namespace mobil
+}  // namespace mobil::inline v0_3

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "components/forces.h"
-#include "components/pose.h"
-#include "systems/simulation.h"
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
+#include <mobil/simulation.h>
 #include "tests/activation/pulling_walker.h"
 
 namespace mobil::leg_moments_test {

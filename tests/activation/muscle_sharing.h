@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Dense>
+#include "engine/eigen.h"
 
 namespace mobil::test {
 

@@ -10,10 +10,10 @@
 #include <random>
 #include <string_view>
 
-#include "components/forces.h"
-#include "components/pose.h"
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
+#include <mobil/simulation.h>
 #include "systems/activation/moment_sharing.h"
-#include "systems/simulation.h"
 #include "tests/activation/hill_reference.h"
 #include "tests/activation/pulling_walker.h"
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
 #include "tests/activation/hill_reference.h"
 
 namespace mobil::musculotendon_test {

@@ -1,7 +1,7 @@
 #pragma once
 // A walker with forces whose single muscles pull as in walking people, lines alone.
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 
 namespace mobil::test {
 

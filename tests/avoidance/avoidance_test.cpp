@@ -8,13 +8,13 @@
 #include <cstring>
 #include <vector>
 
-#include "components/avoidance.h"
+#include <mobil/avoidance.h>
+#include <mobil/components/avoidance.h>
+#include <mobil/rows.h>
+#include <mobil/simulation.h>
 #include "engine/row_hash.h"
-#include "engine/rows.h"
-#include "systems/avoidance/avoidance.h"
 #include "systems/avoidance/claims.h"
 #include "systems/avoidance/trials.h"
-#include "systems/simulation.h"
 #include "systems/simulation_world.h"
 #include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"

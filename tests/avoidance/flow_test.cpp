@@ -9,9 +9,9 @@
 #include <ostream>
 #include <vector>
 
-#include "components/avoidance.h"
-#include "systems/avoidance/avoidance.h"
-#include "systems/simulation.h"
+#include <mobil/avoidance.h>
+#include <mobil/components/avoidance.h>
+#include <mobil/simulation.h>
 #include "tests/avoidance/walkers.h"
 
 namespace mobil {

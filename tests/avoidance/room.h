@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "systems/avoidance/avoidance.h"
-#include "systems/simulation.h"
+#include <mobil/avoidance.h>
+#include <mobil/simulation.h>
 #include "tests/avoidance/walkers.h"
 
 namespace mobil {

@@ -7,16 +7,16 @@
 #include <numbers>
 #include <vector>
 
+#include <mobil/avoidance.h>
+#include <mobil/components/avoidance.h>
+#include <mobil/components/body.h>
+#include <mobil/components/gait_style.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/rows.h>
+#include <mobil/simulation.h>
 #include "assets/body/joint_limits.h"
-#include "components/avoidance.h"
-#include "components/body.h"
-#include "components/gait_style.h"
-#include "components/pose.h"
-#include "engine/geometry.h"
-#include "engine/rows.h"
-#include "systems/avoidance/avoidance.h"
 #include "systems/kinematics/shoulders.h"
-#include "systems/simulation.h"
 #include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"
 

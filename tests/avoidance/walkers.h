@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include <mobil/simulation.h>
 #include "engine/row_hash.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

@@ -1,5 +1,5 @@
 // Bodies from height and mass: the parts add up to the whole.
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/components/gait_style.h>
+#include <mobil/simulation.h>
 #include "assets/body/joint_limits.h"
 #include "assets/body/segment_inertia.h"
-#include "components/gait_style.h"
-#include "systems/simulation.h"
 #include "tests/body/rigid_sum.h"
 #include "tests/simulation/people.h"
 

@@ -1,5 +1,5 @@
 // What a body is made of, against the published tables that it follows, and where a request has to give way.
-#include "assets/body/body_composition.h"
+#include <mobil/body_composition.h>
 #include "assets/body/fat_distribution.h"
 
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_plan.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_plan.h>
 #include "tests/simulation/people.h"
 
 namespace mobil::body_composition_test {

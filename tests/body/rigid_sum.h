@@ -3,9 +3,9 @@
 
 #include <span>
 
+#include <mobil/components/body.h>
+#include <mobil/engine/geometry.h>
 #include "assets/body/segment_inertia.h"
-#include "components/body.h"
-#include "engine/geometry.h"
 
 namespace mobil {
 

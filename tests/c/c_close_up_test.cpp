@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/skin/body_skin.h"
-#include "systems/simulation.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/simulation.h>
 #include "tests/c/c_fixture.h"
 #include "tests/labels.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "systems/c/mobil.h"
-#include "systems/simulation.h"
+#include <mobil/mobil.h>
+#include <mobil/simulation.h>
 
 namespace mobil::c_test {
 

@@ -1,6 +1,5 @@
 // What a host brings to the C interface: axes, memory that runs out, jobs.
 
-#include <Eigen/Dense>
 #include <array>
 #include <cstdlib>
 #include <functional>
@@ -8,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/eigen.h"
 #include "tests/c/c_fixture.h"
 #include "tests/labels.h"
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <string>
 
-#include "components/forces.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
+#include <mobil/forces.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 #include "tests/c/c_fixture.h"
 
 namespace mobil::c_test {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "systems/simulation.h"
-#include "systems/surfaces/skin_writer.h"
+#include <mobil/simulation.h>
+#include <mobil/skin_writer.h>
 #include "tests/c/c_fixture.h"
 
 namespace mobil::c_skin_test {

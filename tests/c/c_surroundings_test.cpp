@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "systems/avoidance/avoidance.h"
-#include "systems/terrain/terrain.h"
+#include <mobil/avoidance.h>
+#include <mobil/terrain.h>
 #include "tests/c/c_fixture.h"
 
 namespace mobil::c_surroundings_test {

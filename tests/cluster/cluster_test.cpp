@@ -1,4 +1,4 @@
-#include "systems/cluster/cluster.h"
+#include <mobil/cluster.h>
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <mobil/people_shard.h>
 #include "engine/row_hash.h"
-#include "systems/cluster/people_shard.h"
 #include "tests/cluster/local_run.h"
 
 namespace mobil {

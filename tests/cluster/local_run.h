@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "systems/cluster/local_transport.h"
-#include "systems/cluster/ranks.h"
+#include <mobil/local_transport.h>
+#include <mobil/systems/cluster/ranks.h>
 
 namespace mobil {
 

@@ -1,4 +1,4 @@
-#include "systems/cluster/message.h"
+#include <mobil/systems/cluster/message.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

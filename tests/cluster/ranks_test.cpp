@@ -1,4 +1,4 @@
-#include "systems/cluster/ranks.h"
+#include <mobil/systems/cluster/ranks.h>
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/fem/finite_element.h"
 #include "assets/fem/finite_kernel.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/hexahedron_points.h"
 #include "assets/fem/stiffness_terms.h"
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -15,10 +14,11 @@
 #include <tuple>
 #include <vector>
 
+#include <mobil/muscle_table.h>
 #include "assets/fem/muscle_template.h"
 #include "assets/finite/finite_belly.h"
 #include "assets/finite/shape_tables.h"
-#include "assets/muscles/muscle_table.h"
+#include "engine/eigen.h"
 #include "systems/deformation/reduced.h"
 #include "tests/deformation/finite_oracle.h"
 #include "tests/engine/instruction_sets.h"

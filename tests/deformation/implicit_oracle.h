@@ -1,7 +1,6 @@
 #pragma once
 // Sixteen bellies stepped implicitly, and each of them once more in double precision with dense matrices.
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
+#include "engine/eigen.h"
 #include "systems/deformation/deformation.h"
 #include "tests/fem/oracle.h"
 #include "tests/fem/spindle.h"

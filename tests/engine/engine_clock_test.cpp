@@ -1,5 +1,5 @@
 // The clock's books balance to the last unit.
-#include "engine/clock.h"
+#include <mobil/engine/clock.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

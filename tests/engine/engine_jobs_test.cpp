@@ -1,5 +1,5 @@
 // Threads and their floating-point modes.
-#include "engine/jobs.h"
+#include <mobil/engine/jobs.h>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 #include "tests/labels.h"
 
 MOBIL_TEST_LABELS("threads");

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"

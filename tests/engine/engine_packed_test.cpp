@@ -1,5 +1,5 @@
 // Packed systems: the rows chosen are worked on as if alone and put back where they were, all else keeps its bits.
-#include "engine/packed.h"
+#include <mobil/engine/packed.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"

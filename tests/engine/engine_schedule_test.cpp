@@ -1,5 +1,5 @@
 // The order of systems, what they are handed, and that neither threads nor blocks show in the result.
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -82,7 +82,8 @@ TEST(EngineSchedule, SystemsThatNeedNothingOfOtherBlocksShareAPass) {
   EXPECT_EQ(passes_of(ScheduleBuilder().add("a", &write_a).after("b").add("b", look_at_a).add("c", &b_to_c)), "b|ac|");
   EXPECT_EQ(passes_of(ScheduleBuilder()
                           .add("a", &write_a)
-                          .add_packed("p", [](const LA&) { return 1U; }, [](const LA&, LB&) {})
+                          .add_packed(
+                              "p", [](const LA&) { return 1U; }, [](const LA&, LB&) {})
                           .add("c", &b_to_c)),
             "a|p|c|");
 }

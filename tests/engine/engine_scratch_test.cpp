@@ -1,5 +1,5 @@
 // Memory that systems work in, and components that not every table has.
-#include "engine/scratch.h"
+#include <mobil/engine/scratch.h>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"
@@ -102,7 +102,8 @@ TEST(Scratch, IsAsLargeAsTheTableSaysAndNullWhereItSaysNothing) {
   World world;
   const Entity none = world.create(A<float>{}), zero = world.create(A<float>{}, TagValue<Floats>{0});
   std::vector<Entity> some;
-  for (const std::uint64_t floats : {1U, 16U, 5000U}) some.push_back(world.create(A<float>{}, TagValue<Floats>{floats}));
+  for (const std::uint64_t floats : {1U, 16U, 5000U})
+    some.push_back(world.create(A<float>{}, TagValue<Floats>{floats}));
   std::vector<std::size_t> seen;
   auto schedule = ScheduleBuilder()
                       .add("look", [&](const A<Lanes<float>>&, Scratch<Floats> s) { seen.push_back(s.floats); })

@@ -1,5 +1,5 @@
 // The world against a plain map of the same entities, compared whole after every change.
-#include "engine/world.h"
+#include <mobil/engine/world.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

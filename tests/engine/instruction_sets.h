@@ -7,16 +7,25 @@
 #include <cstring>
 #include <vector>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
 
 namespace mobil {
 
 inline constexpr std::int64_t fused_targets = HWY_AVX2 | HWY_AVX3 | HWY_NEON;
 
-/// Calls f(name) once for each of these instruction sets that this machine has, with kernels dispatched to it.
+/// The instruction sets that kernels are compiled for and this machine has: one alone where MOBIL_X86 is `native`.
+inline std::vector<std::int64_t> instruction_sets() {
+#if defined(MOBIL_KERNELS_FOR_THIS_MACHINE)
+  return {hwy::SupportedTargets() & -hwy::SupportedTargets()};
+#else
+  return hwy::SupportedAndGeneratedTargets();
+#endif
+}
+
+/// Calls f(name) once for each of these instruction sets, with kernels dispatched to it.
 template <class F>
 void for_each_instruction_set(std::int64_t targets, F&& f) {
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+  for (const std::int64_t target : instruction_sets()) {
     if ((targets & target) == 0) continue;
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());

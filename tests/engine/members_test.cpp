@@ -6,9 +6,9 @@
 #include <set>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include "engine/snapshot.h"
 #include "engine/state_hash.h"
-#include "engine/world.h"
 
 namespace mobil::members_test {
 template <class F>

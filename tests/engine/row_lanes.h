@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
 
 namespace mobil {
 

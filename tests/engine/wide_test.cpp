@@ -1,7 +1,7 @@
 // The sixteen-lane functions against double precision, on every instruction set that this machine has. A ulp is the
 // distance of neighbouring floats at the exact value; an ulp of one bounds results of that size absolutely.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/engine/wide_test.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "engine/wide_curve-inl.h"
@@ -9,7 +9,7 @@
 #include "engine/wide_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 void circular(const float* x, const float* y, float* s, float* c, float* angle, float* arc) {
   Wide ws, wc;
   sin_cos(load(x), ws, wc);
@@ -33,7 +33,7 @@ void arithmetic(const float* a, const float* b, const float* c, float* out) {
     out += lane_count;
   }
 }
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -45,7 +45,7 @@ HWY_AFTER_NAMESPACE();
 #include <random>
 #include <vector>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
 #include "tests/engine/instruction_sets.h"
 
 namespace mobil {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include "engine/state_hash.h"
-#include "engine/world.h"
 #include "tests/engine/engine_counting_memory.h"
 
 namespace mobil::world_batch_test {

@@ -2,7 +2,8 @@
 // with an error in the L2 norm that falls with the square of the element size, for every kind of element.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include "engine/eigen.h"
+
 #include <Eigen/SparseCholesky>
 #include <array>
 #include <cmath>

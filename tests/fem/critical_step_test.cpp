@@ -1,6 +1,8 @@
 // The critical step of every body: never above the exact one, and close, against eigen-solves.
 #include "assets/fem/critical_step.h"
 
+#include "engine/eigen.h"
+
 #include <Spectra/MatOp/SparseCholesky.h>
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/SymEigsSolver.h>

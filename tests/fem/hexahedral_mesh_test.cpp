@@ -1,5 +1,5 @@
 // Structured blocks: numbering, boundary, quality, refusals.
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/body/anthropometry.h"
-#include "assets/fem/hexahedral_mesh.h"
-#include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/assets/surfaces/surface_binding.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/muscle_table.h>
 #include "assets/surfaces/muscle_cage.h"
 #include "assets/surfaces/muscle_surfaces.h"
-#include "assets/surfaces/surface_binding.h"
-#include "engine/geometry.h"
 #include "tests/simulation/people.h"
 
 namespace mobil::muscle_mesh_test {

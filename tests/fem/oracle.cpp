@@ -1,9 +1,9 @@
 #include "tests/fem/oracle.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 #include <utility>
+
+#include "engine/eigen.h"
 
 namespace mobil::oracle {
 

@@ -2,16 +2,16 @@
 // An independent finite-element model in double precision and dense matrices: Voigt strain-displacement matrices,
 // assembled directly on the mesh it is given. What the kernels are compared with.
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
 #include "assets/fem/critical_step.h"
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/stiffness_terms.h"
 #include "assets/reduction/symmetric_eigen.h"
-#include "components/muscle.h"
+#include "engine/eigen.h"
 
 namespace mobil::oracle {
 

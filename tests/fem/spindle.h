@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 
 namespace mobil {
 

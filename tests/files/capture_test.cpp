@@ -11,10 +11,10 @@
 #include <fstream>
 #include <optional>
 
-#include "systems/capture/png.h"
-#include "systems/capture/renderer.h"
+#include <mobil/png.h>
+#include <mobil/renderer.h>
+#include <mobil/video.h>
 #include "systems/capture/vertex_normals.h"
-#include "systems/capture/video.h"
 #include "tests/files/temporary_folder.h"
 
 using namespace mobil;

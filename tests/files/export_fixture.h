@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -15,7 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
+#include <mobil/assets/export/walk_recording.h>
+#include "engine/eigen.h"
 
 namespace mobil::export_fixture {
 using Eigen::Quaterniond;

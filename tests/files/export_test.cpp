@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,9 +20,10 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/export/gltf_writer.h"
+#include <mobil/anthropometry.h>
+#include <mobil/gltf_writer.h>
 #include "assets/export/recorded_skin.h"
+#include "engine/eigen.h"
 #include "tests/files/export_fixture.h"
 #include "tests/files/temporary_folder.h"
 

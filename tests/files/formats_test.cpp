@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "assets/export/bvh_writer.h"
-#include "assets/export/gl_writer.h"
-#include "assets/export/gltf_writer.h"
+#include <mobil/bvh_writer.h>
+#include <mobil/gl_writer.h>
+#include <mobil/gltf_writer.h>
+#include <mobil/opensim_writer.h>
+#include <mobil/usd_writer.h>
+#include <mobil/x3d_writer.h>
 #include "assets/export/joint_angles.h"
-#include "assets/export/opensim_writer.h"
 #include "assets/export/unique_names.h"
-#include "assets/export/usd_writer.h"
-#include "assets/export/x3d_writer.h"
 #include "tests/files/formats_fixture.h"
 #include "tests/labels.h"
 

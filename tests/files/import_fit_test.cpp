@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -13,12 +12,13 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/fit_anatomy.h>
+#include <mobil/mesh_file.h>
 #include "assets/files/csv_table.h"
 #include "assets/import/bone_maps.h"
-#include "assets/import/fit_anatomy.h"
-#include "assets/import/mesh_file.h"
 #include "assets/surfaces/surface_mesh.h"
+#include "engine/eigen.h"
 #include "tests/files/reference_data.h"
 
 namespace mobil::import_fit_test {

@@ -5,7 +5,6 @@
 #include <rapidcheck/gtest.h>
 #include <unistd.h>
 
-#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -15,12 +14,13 @@
 #include <map>
 #include <sstream>
 
+#include <mobil/fit_anatomy.h>
+#include <mobil/mesh_file.h>
+#include <mobil/muscle_table.h>
 #include "assets/import/bone_maps.h"
-#include "assets/import/fit_anatomy.h"
-#include "assets/import/mesh_file.h"
 #include "assets/import/simplify_surface.h"
-#include "assets/muscles/muscle_table.h"
 #include "assets/surfaces/surface_mesh.h"
+#include "engine/eigen.h"
 #include "tests/files/temporary_folder.h"
 
 namespace mobil::import_test {

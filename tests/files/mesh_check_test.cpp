@@ -5,7 +5,6 @@
 #include <rapidcheck/gtest.h>
 #include <unistd.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,11 +15,12 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/import/anatomy_folder.h>
 #include "assets/files/csv_table.h"
-#include "assets/import/anatomy_folder.h"
 #include "assets/import/mend_mesh.h"
 #include "assets/import/mesh_place.h"
 #include "assets/import/triangle_cuts.h"
+#include "engine/eigen.h"
 #include "tests/files/capsule.h"
 #include "tests/files/reference_data.h"
 #include "tests/files/temporary_folder.h"

@@ -6,7 +6,6 @@
 
 #include <assimp/scene.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <assimp/Exporter.hpp>
@@ -18,8 +17,9 @@
 #include <utility>
 #include <vector>
 
-#include "assets/import/mesh_file.h"
+#include <mobil/mesh_file.h>
 #include "assets/import/mesh_text.h"
+#include "engine/eigen.h"
 #include "tests/files/capsule.h"
 #include "tests/files/temporary_folder.h"
 #include "tests/labels.h"

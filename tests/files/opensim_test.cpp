@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/export/opensim_writer.h"
+#include <mobil/opensim_writer.h>
 #include "tests/files/formats_fixture.h"
 #include "tests/files/opensim_table.h"
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <random>
 
+#include <mobil/muscle_table.h>
 #include "assets/finite/control_points.h"
 #include "assets/finite/finite_shape.h"
 #include "assets/finite/shape_tables.h"
-#include "assets/muscles/muscle_table.h"
 #include "tests/labels.h"
 
 namespace mobil::finite_belly_test {

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "assets/body/anthropometry.h"
-#include "assets/import/anatomy_folder.h"
-#include "assets/import/fit_anatomy.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/import/anatomy_folder.h>
+#include <mobil/fit_anatomy.h>
 #include "tests/fuzz/fuzz_input.h"
 
 namespace mobil::fuzz {

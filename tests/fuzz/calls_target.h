@@ -8,7 +8,7 @@
 #include <iterator>
 #include <vector>
 
-#include "systems/c/mobil.h"
+#include <mobil/mobil.h>
 #include "tests/fuzz/fuzz_input.h"
 
 namespace mobil::fuzz {

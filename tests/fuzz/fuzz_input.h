@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
 namespace mobil::fuzz {
 

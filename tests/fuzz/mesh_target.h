@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "assets/import/mesh_file.h"
+#include <mobil/mesh_file.h>
 #include "assets/import/simplify_surface.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/fuzz/fuzz_input.h"

@@ -1,7 +1,7 @@
 #pragma once
 // A walk's script, and what it asks of an average body.
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "demo/walk/walk_script.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/simulation/reseal.h"
 

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 #include "tests/gait/adams_step.h"
 
 namespace mobil::step {

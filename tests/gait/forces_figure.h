@@ -1,14 +1,14 @@
 #pragma once
 // A jointed figure in double precision that moves as it is told, as the forces' system sees it and as an oracle does.
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <random>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include "engine/eigen.h"
 #include "systems/forces/forces.h"
 #include "systems/kinematics/body_motion.h"
 #include "tests/engine/row_lanes.h"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "engine/geometry.h"
-#include "engine/rows.h"
+#include <mobil/engine/geometry.h>
+#include <mobil/rows.h>
 #include "tests/gait/walkers.h"
 
 namespace mobil::kinematics_test {

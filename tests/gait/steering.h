@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/simulation.h>
 
 namespace mobil::steering {
 

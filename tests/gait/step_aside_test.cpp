@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 #include "tests/gait/walkers.h"
 
 namespace mobil::step_aside_test {

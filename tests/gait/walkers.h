@@ -9,9 +9,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "assets/body/anthropometry.h"
-#include "assets/body/body_composition.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/body_composition.h>
+#include <mobil/engine/geometry.h>
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "tests/engine/row_lanes.h"

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
-#include "components/muscle.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/components/muscle.h>
 #include "demo/lab/muscle/force_history.h"
 #include "tests/program/program.h"
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include <mobil/engine/geometry.h>
 #include "assets/body/segment_inertia.h"
 #include "demo/lab/compare/compare_balance.h"
 #include "demo/lab/compare/compare_judge.h"
@@ -19,7 +20,6 @@
 #include "demo/lab/compare/compare_verdicts.h"
 #include "demo/lab/compare/compare_walk.h"
 #include "demo/pictures/svg_plot.h"
-#include "engine/geometry.h"
 #include "tests/gait/forces_figure.h"
 #include "tests/program/program.h"
 

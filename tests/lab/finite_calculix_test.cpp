@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
+#include <mobil/muscle_table.h>
 #include "assets/fem/muscle_template.h"
 #include "assets/finite/finite_belly.h"
 #include "assets/finite/shape_tables.h"
-#include "assets/muscles/muscle_table.h"
 #include "systems/deformation/finite.h"
 
 namespace mobil::finite_calculix_test {

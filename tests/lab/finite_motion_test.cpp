@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "demo/lab/frontier/frontier_living.h"
 
 namespace mobil::finite_motion_test {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include <mobil/relevance.h>
 #include "demo/lab/effects/accuracy_living.h"
-#include "systems/relevance/relevance.h"
 
 namespace mobil::living_accuracy_test {
 namespace {

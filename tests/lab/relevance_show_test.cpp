@@ -10,11 +10,11 @@
 #include <memory>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
+#include <mobil/relevance.h>
 #include "assets/reduction/reduced_basis.h"
 #include "demo/lab/effects/accuracy_measure.h"
 #include "demo/lab/effects/accuracy_reference.h"
-#include "systems/relevance/relevance.h"
 
 namespace mobil::relevance_show_test {
 constexpr double kept_part = 0.99;  // of muscle-ticks within the tolerance; all of them are within twice that

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/rows.h"
+#include <mobil/rows.h>
 #include "tests/lines/leg_block.h"
 
 namespace mobil::test {

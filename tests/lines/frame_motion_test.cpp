@@ -13,9 +13,9 @@
 #include <random>
 #include <vector>
 
+#include <mobil/engine/geometry.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
-#include "engine/geometry.h"
 #include "systems/deformation/deformation.h"
 #include "tests/fem/oracle.h"
 

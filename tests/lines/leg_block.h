@@ -4,11 +4,11 @@
 #include <random>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_path.h"
-#include "assets/muscles/muscle_plan.h"
-#include "components/muscle.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_path.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/geometry.h>
 #include "tests/lines/leg_pose.h"
 #include "tests/simulation/people.h"
 

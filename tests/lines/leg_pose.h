@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/muscles/muscle_plan.h"
-#include "components/body.h"
-#include "engine/geometry.h"
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/body.h>
+#include <mobil/engine/geometry.h>
 
 namespace mobil::test {
 

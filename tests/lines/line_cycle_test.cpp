@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
-#include "components/gait.h"
-#include "components/pose.h"
-#include "systems/simulation.h"
+#include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/muscle_table.h>
+#include <mobil/simulation.h>
 #include "tests/files/reference_data.h"
 #include "tests/lines/leg_block.h"
 #include "tests/muscles/find_member.h"

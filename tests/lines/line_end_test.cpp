@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/muscles/muscle_table.h"
-#include "systems/simulation.h"
+#include <mobil/muscle_table.h>
+#include <mobil/simulation.h>
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "systems/lines/line_of_action.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/lines/leg_block.h"

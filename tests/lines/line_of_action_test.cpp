@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "tests/lines/leg_block.h"
 
 namespace mobil::line_of_action_test {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 #include "tests/files/reference_data.h"

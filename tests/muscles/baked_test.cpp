@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <mobil/simulation.h>
 #include "engine/row_hash.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

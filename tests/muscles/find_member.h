@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 
 namespace mobil {
 

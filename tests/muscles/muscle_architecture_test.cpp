@@ -8,9 +8,9 @@
 #include <numbers>
 #include <string>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_path.h"
-#include "assets/muscles/muscle_plan.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_path.h>
+#include <mobil/assets/muscles/muscle_plan.h>
 #include "tests/muscles/find_member.h"
 #include "tests/simulation/people.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "assets/surfaces/draw_cage.h"
 
 namespace mobil {

@@ -1,5 +1,5 @@
 // The paths of muscles against what was published of them: lengths, where they meet bone, that they never jump.
-#include "assets/muscles/muscle_path.h"
+#include <mobil/assets/muscles/muscle_path.h>
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/muscles/leg_sections.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/assets/muscles/leg_sections.h>
+#include <mobil/muscle_table.h>
 #include "tests/files/reference_data.h"
 #include "tests/lines/leg_block.h"
 #include "tests/muscles/find_member.h"

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/fem/hexahedral_mesh.h"
-#include "assets/muscles/leg_sections.h"
-#include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/assets/muscles/leg_sections.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/muscle_table.h>
 #include "assets/surfaces/muscle_cage.h"
 #include "tests/lines/leg_pose.h"
 #include "tests/simulation/people.h"
@@ -57,18 +57,11 @@ TEST(MuscleTable, EveryMemberRunsFromAFixedOriginToAFixedEnd) {
 
 // Handsfield et al. 2014, tabulated by the regression for 80 kg and 1.80 m, cm³.
 TEST(MuscleTable, VolumesAreThePublishedOnes) {
-  const std::map<std::string_view, double> published = {{"semimembranosus", 275.1},
-                                                        {"semitendinosus", 212.7},
-                                                        {"biceps_femoris_long_head", 230.5},
-                                                        {"biceps_femoris_short_head", 115.0},
-                                                        {"rectus_femoris", 303.7},
-                                                        {"vastus_medialis", 491.8},
-                                                        {"vastus_intermedius", 296.3},
-                                                        {"vastus_lateralis", 950.9},
-                                                        {"gastrocnemius_medial", 289.7},
-                                                        {"gastrocnemius_lateral", 168.5},
-                                                        {"soleus", 486.5},
-                                                        {"tibialis_anterior", 149.9}};
+  const std::map<std::string_view, double> published = {
+      {"semimembranosus", 275.1},           {"semitendinosus", 212.7},   {"biceps_femoris_long_head", 230.5},
+      {"biceps_femoris_short_head", 115.0}, {"rectus_femoris", 303.7},   {"vastus_medialis", 491.8},
+      {"vastus_intermedius", 296.3},        {"vastus_lateralis", 950.9}, {"gastrocnemius_medial", 289.7},
+      {"gastrocnemius_lateral", 168.5},     {"soleus", 486.5},           {"tibialis_anterior", 149.9}};
   for (const auto& m : member_muscles()) {
     if (m.name == "plantaris") continue;  // not among them
     EXPECT_NEAR(handsfield_volume_cm3(m, 1.80, 80), published.at(m.name), 0.1) << m.name;

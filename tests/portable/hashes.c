@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #define MOBIL_STATIC_LIBRARY /* as a host of the static library; it must not hide any name of the header */
-#include "systems/c/mobil.h"
+#include <mobil/mobil.h>
 
 enum { most = 20 };
 

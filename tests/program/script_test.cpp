@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/gait/step_lookup.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"

@@ -12,11 +12,11 @@
 #include <optional>
 #include <set>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/gait_style.h>
+#include <mobil/components/muscle.h>
+#include <mobil/muscle_table.h>
 #include "assets/gait/step_lookup.h"
-#include "assets/muscles/muscle_table.h"
-#include "components/gait_style.h"
-#include "components/muscle.h"
 #include "demo/walk/walk_tables.h"
 #include "tests/labels.h"
 #include "tests/program/program.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include <mobil/simulation.h>
 #include "demo/schedule/schedule_picture.h"
-#include "systems/simulation.h"
 #include "tests/program/program.h"
 
 namespace mobil {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "components/footing.h"
+#include <mobil/components/footing.h>
 #include "demo/scene/crowd_people.h"
 #include "demo/town/town_map.h"
 #include "demo/town/town_scene.h"

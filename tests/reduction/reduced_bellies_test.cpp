@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_rows.h"
 

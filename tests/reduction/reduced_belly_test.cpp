@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_belly.h"
 #include "assets/reduction/reduced_eigen.h"

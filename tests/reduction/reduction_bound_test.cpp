@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/muscle_table.h>
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_belly.h"
 #include "assets/surfaces/muscle_cage.h"

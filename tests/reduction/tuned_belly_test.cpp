@@ -1,7 +1,6 @@
 // What fibres that pull add to reduced bellies: against the tangent of finite strain and dense matrices.
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include "assets/fem/finite_element.h"
 #include "assets/reduction/reduced_rows.h"
 #include "assets/reduction/reduced_tension.h"
+#include "engine/eigen.h"
 
 namespace mobil::tuned_belly_test {
 namespace {

@@ -9,12 +9,12 @@
 #include <optional>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "components/relevance.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/relevance.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 #include "demo/scene/crowd_people.h"
 #include "systems/gait/gait.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
 #include "tests/labels.h"
 
 MOBIL_TEST_LABELS("long");

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
-#include "systems/relevance/ladder.h"
+#include <mobil/muscle_table.h>
+#include <mobil/systems/relevance/ladder.h>
 
 namespace mobil::ladder_test {
 struct RandomTable {

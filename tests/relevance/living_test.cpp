@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/relevance.h>
 #include "assets/finite/finite_shape.h"
-#include "systems/relevance/relevance.h"
 #include "systems/simulation_world.h"
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"

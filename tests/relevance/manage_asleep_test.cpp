@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "components/relevance.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
+#include <mobil/components/relevance.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 #include "tests/labels.h"
 
 MOBIL_TEST_LABELS("threads");

@@ -1,5 +1,5 @@
 // What people get from what a scene needs, in simulations that run.
-#include "systems/relevance/relevance.h"
+#include <mobil/relevance.h>
 
 #include <gtest/gtest.h>
 

@@ -8,11 +8,11 @@
 #include <random>
 #include <vector>
 
-#include "components/compact.h"
-#include "components/forces.h"
-#include "components/sleep.h"
-#include "systems/people/pose_writer.h"
-#include "systems/simulation.h"
+#include <mobil/components/compact.h>
+#include <mobil/components/sleep.h>
+#include <mobil/forces.h>
+#include <mobil/pose_writer.h>
+#include <mobil/simulation.h>
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
 

@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
 #include "tests/engine/instruction_sets.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"

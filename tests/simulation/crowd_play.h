@@ -13,13 +13,13 @@
 #include <span>
 #include <vector>
 
-#include "components/avoidance.h"
-#include "components/forces.h"
-#include "components/sleep.h"
+#include <mobil/components/avoidance.h>
+#include <mobil/components/sleep.h>
+#include <mobil/forces.h>
+#include <mobil/simulation.h>
+#include <mobil/terrain.h>
 #include "engine/row_hash.h"
-#include "systems/simulation.h"
 #include "systems/simulation_world.h"
-#include "systems/terrain/terrain.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/jobs.h"
+#include <mobil/engine/jobs.h>
 
 namespace mobil {
 

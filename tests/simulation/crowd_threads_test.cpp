@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "systems/people/pose_writer.h"
+#include <mobil/pose_writer.h>
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "systems/relevance/relevance.h"
+#include <mobil/relevance.h>
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 

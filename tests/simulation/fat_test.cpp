@@ -8,10 +8,10 @@
 #include <random>
 #include <vector>
 
-#include "components/fat.h"
-#include "engine/rows.h"
+#include <mobil/components/fat.h>
+#include <mobil/rows.h>
+#include <mobil/simulation.h>
 #include "systems/kinematics/fat_motion.h"
-#include "systems/simulation.h"
 
 namespace mobil::fat_test {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include "assets/fem/finite_element.h"
-#include "components/activation.h"
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "components/activation.h"
+#include <mobil/components/activation.h>
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"

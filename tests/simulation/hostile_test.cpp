@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <mobil/simulation.h>
 #include "engine/snapshot_bytes.h"
-#include "systems/simulation.h"
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/reseal.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <mobil/simulation.h>
 #include "assets/fem/muscle_template.h"
-#include "systems/simulation.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 

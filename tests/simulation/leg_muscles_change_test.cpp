@@ -10,9 +10,9 @@
 #include <random>
 #include <vector>
 
+#include <mobil/muscle_table.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
-#include "assets/muscles/muscle_table.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <string>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "systems/muscles/choice_words.h"
 #include "tests/labels.h"
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_plan.h"
-#include "components/leg_frames.h"
-#include "engine/geometry.h"
-#include "systems/people/retarget.h"
-#include "systems/surfaces/surfaces.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/leg_frames.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/retarget.h>
+#include <mobil/surfaces.h>
 #include "tests/simulation/leg_muscles.h"
 
 namespace mobil::limbs_test {

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/error.h"
-#include "systems/people/limit_watch.h"
+#include <mobil/engine/error.h>
+#include <mobil/simulation.h>
+#include <mobil/systems/people/limit_watch.h>
+#include <mobil/systems/people/walk_limits.h>
 #include "systems/people/style_estimate.h"
-#include "systems/people/walk_limits.h"
-#include "systems/simulation.h"
 #include "tests/simulation/walk_watch.h"
 
 namespace mobil::limit_watch_test {

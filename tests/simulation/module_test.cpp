@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/schedule.h"
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
+#include <mobil/snapshot_file.h>
 #include "systems/muscles/muscle_parts.h"
-#include "systems/simulation.h"
-#include "systems/snapshot/snapshot_file.h"
 #include "tests/simulation/crowd_play.h"
 
 namespace mobil::module_test {

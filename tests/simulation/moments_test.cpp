@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "components/forces.h"
-#include "systems/simulation.h"
+#include <mobil/forces.h>
+#include <mobil/simulation.h>
 
 namespace mobil::moments_test {
 namespace {

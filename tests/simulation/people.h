@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "assets/body/body_composition.h"
-#include "components/body.h"
-#include "components/gait.h"
+#include <mobil/body_composition.h>
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
 
 namespace mobil {
 

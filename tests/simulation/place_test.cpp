@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "components/forces.h"
-#include "components/sleep.h"
-#include "engine/geometry.h"
+#include <mobil/components/sleep.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/forces.h>
 #include "tests/simulation/leg_muscles.h"
 
 namespace mobil::place_test {

@@ -1,9 +1,8 @@
 // Poses in bulk: of any people, at any instant of a tick, in any host's layout.
-#include "systems/people/pose_writer.h"
+#include <mobil/pose_writer.h>
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -11,9 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "components/pose.h"
-#include "engine/jobs.h"
-#include "systems/simulation.h"
+#include <mobil/components/pose.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/simulation.h>
+#include "engine/eigen.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/labels.h"
 

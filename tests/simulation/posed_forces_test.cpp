@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "components/forces.h"
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
+#include <mobil/forces.h>
 #include "tests/simulation/leg_muscles.h"
 
 namespace mobil::posed_forces_test {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "tests/simulation/leg_muscles.h"
 
 namespace mobil::posed_test {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/schedule.h"
-#include "systems/simulation.h"
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
 #include "systems/simulation_world.h"
 
 namespace mobil {

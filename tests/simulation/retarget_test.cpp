@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
+#include <mobil/retarget.h>
+#include <mobil/simulation.h>
 #include "systems/people/pose_axes.h"
-#include "systems/people/retarget.h"
-#include "systems/simulation.h"
 #include "tests/simulation/leg_muscles.h"
 
 namespace mobil::retarget_test {

@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "systems/relevance/relevance.h"
-#include "systems/snapshot/snapshot_file.h"
+#include <mobil/relevance.h>
+#include <mobil/snapshot_file.h>
 #include "tests/engine/counting_heap.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"

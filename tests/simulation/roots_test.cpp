@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 #include "tests/simulation/people.h"
 
 namespace mobil::roots_test {

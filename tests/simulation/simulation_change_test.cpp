@@ -5,9 +5,9 @@
 #include <cstring>
 #include <vector>
 
-#include "components/forces.h"
-#include "engine/schedule.h"
-#include "systems/simulation.h"
+#include <mobil/forces.h>
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"

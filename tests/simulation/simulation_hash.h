@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 #include "tests/simulation/people.h"
 
 namespace mobil {

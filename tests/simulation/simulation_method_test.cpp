@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
-#include "components/fade.h"
+#include <mobil/components/fade.h>
+#include <mobil/muscle_table.h>
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 

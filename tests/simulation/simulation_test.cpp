@@ -1,6 +1,6 @@
 // The facade: same bits however the work is cut and whoever else is there, bodies and gaits of all kinds, effects
 // that come and go without a trace, time, memory.
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

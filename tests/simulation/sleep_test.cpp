@@ -9,13 +9,13 @@
 #include <random>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "components/forces.h"
+#include <mobil/anthropometry.h>
+#include <mobil/forces.h>
+#include <mobil/rows.h>
+#include <mobil/simulation.h>
 #include "demo/scene/crowd_people.h"
-#include "engine/rows.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"
-#include "systems/simulation.h"
 #include "tests/engine/counting_heap.h"
 
 namespace mobil::sleep_test {

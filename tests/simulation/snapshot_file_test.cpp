@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "systems/snapshot/snapshot_file.h"
+#include <mobil/snapshot_file.h>
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"

@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
-#include "components/gait.h"
+#include <mobil/components/gait.h>
+#include <mobil/simulation.h>
 #include "engine/snapshot.h"
 #include "engine/snapshot_bytes.h"
-#include "systems/simulation.h"
 #include "systems/snapshot/snapshot_records.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"

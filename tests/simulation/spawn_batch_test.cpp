@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"
 #include "tests/simulation/people.h"

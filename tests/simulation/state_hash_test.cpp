@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
+#include <mobil/simulation.h>
 #include "engine/row_hash.h"
-#include "systems/simulation.h"
 #include "systems/simulation_world.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"

@@ -12,10 +12,10 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/geometry.h"
+#include <mobil/engine/geometry.h>
+#include <mobil/pose_writer.h>
+#include <mobil/simulation.h>
 #include "systems/people/pose_measures.h"
-#include "systems/people/pose_writer.h"
-#include "systems/simulation.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_pool.h"
 #include "tests/simulation/people.h"

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
-#include "systems/surfaces/surfaces.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 

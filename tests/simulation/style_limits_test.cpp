@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "engine/rows.h"
+#include <mobil/anthropometry.h>
+#include <mobil/rows.h>
+#include <mobil/simulation.h>
+#include <mobil/systems/people/style_limits.h>
+#include <mobil/systems/people/walk_limits.h>
 #include "systems/gait/gait.h"
 #include "systems/people/style_estimate.h"
-#include "systems/people/style_limits.h"
-#include "systems/people/walk_limits.h"
-#include "systems/simulation.h"
 #include "tests/labels.h"
 #include "tests/simulation/walk_watch.h"
 

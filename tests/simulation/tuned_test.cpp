@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "components/activation.h"
+#include <mobil/components/activation.h>
 #include "systems/deformation/belly_motion.h"
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/simulation.h>
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
-#include "engine/geometry.h"
 #include "systems/gait/gait.h"
-#include "systems/simulation.h"
 #include "tests/gait/walkers.h"
 
 namespace mobil::style_limits_test {
@@ -166,7 +166,7 @@ class Watch {
     out.joint_at("elbow flexion", double{angles_.elbow_flexion[side]} / degree, 0, 150);
   }
 
-  /// Bending; turns are left out (systems/people/walk_limits.h).
+  /// Bending; turns are left out (mobil/systems/people/walk_limits.h).
   void column(Walked& out) const {
     Quat<double> below = level_pelvis();
     for (std::size_t v = 0; v < vertebra_limits.size(); ++v) {

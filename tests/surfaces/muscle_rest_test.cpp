@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/body/leg_profile.h"
-#include "assets/muscles/leg_sections.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/body/leg_profile.h>
+#include <mobil/assets/muscles/leg_sections.h>
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/muscle_surfaces.h"
-#include "engine/geometry.h"
 
 namespace mobil::muscle_rest_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/export/recorded_skin.h"
 #include "assets/skin/own_skin.h"
 #include "assets/surfaces/surface_mesh.h"

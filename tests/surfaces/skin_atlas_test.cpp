@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/skin/skin_atlas.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/skin_atlas.h>
 #include "tests/labels.h"
 
 MOBIL_TEST_LABELS("long");

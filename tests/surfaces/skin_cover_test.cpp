@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 #include "assets/body/bent_legs.h"
-#include "assets/skin/body_skin.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
-#include "systems/surfaces/surfaces.h"
 #include "tests/labels.h"
 #include "tests/surfaces/skin_placed.h"
 

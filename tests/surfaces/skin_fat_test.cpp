@@ -6,12 +6,12 @@
 #include <cstring>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/skin/body_skin.h"
-#include "components/fat.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/components/fat.h>
+#include <mobil/simulation.h>
+#include <mobil/skin_writer.h>
 #include "systems/kinematics/fat_motion.h"
-#include "systems/simulation.h"
-#include "systems/surfaces/skin_writer.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/surfaces/skin_placed.h"
 

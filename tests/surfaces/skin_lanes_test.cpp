@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 #include "assets/body/bent_legs.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
-#include "systems/surfaces/surfaces.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/surfaces/skin_oracle.h"
 #include "tests/surfaces/skin_placed.h"

@@ -9,12 +9,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/skin/body_skin.h"
-#include "components/pose.h"
-#include "components/segments.h"
-#include "engine/geometry.h"
-#include "systems/skinning/cover_muscles.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/components/pose.h>
+#include <mobil/components/segments.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/systems/skinning/cover_muscles.h>
 
 namespace mobil::skin_oracle {
 using namespace geometry;

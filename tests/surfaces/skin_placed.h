@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/skin/body_skin.h"
-#include "engine/geometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/engine/geometry.h>
 #include "systems/skinning/place_skin.h"
 
 namespace mobil::skin_test {

@@ -8,13 +8,13 @@
 #include <cstring>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/simulation.h>
+#include <mobil/skin_tables.h>
+#include <mobil/skin_writer.h>
+#include <mobil/surfaces.h>
+#include <mobil/systems/skinning/cover_muscles.h>
 #include "assets/body/bent_legs.h"
-#include "systems/simulation.h"
-#include "systems/skin/skin_tables.h"
-#include "systems/skinning/cover_muscles.h"
-#include "systems/surfaces/skin_writer.h"
-#include "systems/surfaces/surfaces.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/labels.h"
 

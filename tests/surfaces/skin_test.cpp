@@ -11,16 +11,16 @@
 #include <set>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/body/body_measures.h"
-#include "assets/skin/body_form.h"
-#include "assets/skin/body_skin.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/body/body_measures.h>
+#include <mobil/assets/skin/body_form.h>
+#include <mobil/assets/skin/body_skin.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/simulation.h>
+#include <mobil/skin_writer.h>
+#include <mobil/surfaces.h>
 #include "assets/surfaces/bone_surfaces.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
 #include "systems/skinning/place_skin.h"
-#include "systems/surfaces/skin_writer.h"
-#include "systems/surfaces/surfaces.h"
 #include "tests/labels.h"
 #include "tests/surfaces/skin_placed.h"
 

@@ -9,14 +9,14 @@
 #include <span>
 #include <vector>
 
-#include "components/body.h"
-#include "components/muscle.h"
-#include "components/pose.h"
-#include "components/surface.h"
-#include "engine/geometry.h"
+#include <mobil/components/body.h>
+#include <mobil/components/muscle.h>
+#include <mobil/components/pose.h>
+#include <mobil/components/surface.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "systems/skinning/place_vertices.h"
 #include "systems/skinning/write_vertices.h"
-#include "systems/surfaces/nodal_view.h"
 
 namespace mobil {
 

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/assets/surfaces/surface_binding.h>
+#include <mobil/engine/geometry.h>
 #include "assets/surfaces/muscle_surfaces.h"
-#include "assets/surfaces/surface_binding.h"
 #include "assets/surfaces/tube.h"
-#include "engine/geometry.h"
 #include "tests/surfaces/skinned.h"
 
 namespace mobil::skinning_test {

@@ -7,13 +7,13 @@
 #include <limits>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/muscle_table.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 #include "assets/body/bent_legs.h"
-#include "assets/muscles/muscle_table.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
 #include "systems/surfaces/surface_contacts.h"
-#include "systems/surfaces/surfaces.h"
 
 namespace mobil::surface_contacts_test {
 using namespace geometry;

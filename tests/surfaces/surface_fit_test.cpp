@@ -7,10 +7,10 @@
 #include <cstring>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
-#include "systems/surfaces/surfaces.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 
 namespace mobil {
 namespace {

@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "assets/import/fit_anatomy.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/surfaces/surface_binding.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/fit_anatomy.h>
+#include <mobil/muscle_table.h>
+#include <mobil/simulation.h>
+#include <mobil/systems/surfaces/body_surfaces.h>
 #include "assets/surfaces/muscle_surfaces.h"
-#include "assets/surfaces/surface_binding.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
-#include "systems/surfaces/body_surfaces.h"
 #include "tests/files/reference_data.h"
 #include "tests/labels.h"
 #include "tests/surfaces/skinned.h"

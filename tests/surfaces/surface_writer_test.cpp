@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/components/fade.h>
+#include <mobil/muscle_table.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
-#include "components/fade.h"
-#include "systems/simulation.h"
-#include "systems/surfaces/surfaces.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/labels.h"

@@ -8,14 +8,14 @@
 #include <set>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/leg_sections.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/leg_sections.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/muscle_table.h>
 #include "assets/surfaces/bone_surfaces.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "assets/surfaces/tube.h"
-#include "engine/geometry.h"
 
 namespace mobil::surfaces_test {
 using namespace geometry;

@@ -10,12 +10,12 @@
 #include <tuple>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/far_figure.h>
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 #include "systems/skinning/write_vertices.h"
-#include "systems/surfaces/far_figure.h"
-#include "systems/surfaces/surfaces.h"
 #include "tests/engine/instruction_sets.h"
 
 namespace mobil::texture_test {

@@ -10,9 +10,9 @@
 #include <span>
 #include <utility>
 
-#include "components/forces.h"
-#include "systems/simulation.h"
-#include "systems/terrain/terrain.h"
+#include <mobil/forces.h>
+#include <mobil/simulation.h>
+#include <mobil/terrain.h>
 
 namespace mobil {
 

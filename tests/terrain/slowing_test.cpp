@@ -7,12 +7,12 @@
 #include <cmath>
 #include <vector>
 
+#include <mobil/avoidance.h>
+#include <mobil/components/avoidance.h>
+#include <mobil/components/gait.h>
+#include <mobil/systems/people/style_limits.h>
 #include "assets/gait/slope_pace.h"
-#include "components/avoidance.h"
-#include "components/gait.h"
-#include "systems/avoidance/avoidance.h"
 #include "systems/gait/gait.h"
-#include "systems/people/style_limits.h"
 #include "tests/terrain/hike.h"
 
 namespace mobil {

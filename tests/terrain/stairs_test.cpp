@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "components/forces.h"
-#include "components/gait.h"
-#include "components/pose.h"
+#include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
 #include "tests/terrain/hike.h"
 #include "tests/terrain/measured_stairs.h"
 

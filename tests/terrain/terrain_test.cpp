@@ -1,6 +1,6 @@
 // Walkers on ground that is not level.
 
-#include "systems/terrain/terrain.h"
+#include <mobil/terrain.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -11,10 +11,10 @@
 #include <limits>
 #include <vector>
 
-#include "components/forces.h"
+#include <mobil/forces.h>
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 #include "engine/row_hash.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/labels.h"
 #include "tests/simulation/reseal.h"

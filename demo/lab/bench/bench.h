@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "demo/measure/machine.h"
 #include "demo/measure/measure.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_plan.h>
 #include "assets/finite/shape_tables.h"
-#include "assets/muscles/muscle_plan.h"
 #include "assets/reduction/reduced_rows.h"
 #include "demo/lab/bench/bench.h"
 #include "systems/activation/excitation.h"

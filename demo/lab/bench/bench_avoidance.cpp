@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "components/avoidance.h"
+#include <mobil/avoidance.h>
+#include <mobil/components/avoidance.h>
+#include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
 #include "engine/row_hash.h"
-#include "systems/avoidance/avoidance.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

@@ -11,12 +11,12 @@
 #include <thread>
 #include <vector>
 
+#include <mobil/cluster.h>
+#include <mobil/local_transport.h>
+#include <mobil/mpi_transport.h>
+#include <mobil/people_shard.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/scene/crowd_people.h"
-#include "systems/cluster/cluster.h"
-#include "systems/cluster/local_transport.h"
-#include "systems/cluster/mpi_transport.h"
-#include "systems/cluster/people_shard.h"
 
 namespace mobil {
 namespace {

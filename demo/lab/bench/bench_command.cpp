@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/mpi_transport.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd.h"
 #include "demo/program/commands.h"
@@ -20,7 +21,6 @@
 #include "demo/program/named_entries.h"
 #include "demo/program/progress.h"
 #include "demo/program/units.h"
-#include "systems/cluster/mpi_transport.h"
 
 namespace mobil {
 namespace {

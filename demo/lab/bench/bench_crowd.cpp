@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
+#include <mobil/engine/access.h>
+#include <mobil/schedule.h>
 #include "demo/program/progress.h"
-#include "engine/access.h"
-#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/engine/error.h>
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
 #include "demo/measure/measure.h"
 #include "demo/scene/crowd_people.h"
-#include "engine/error.h"
-#include "engine/schedule.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

@@ -12,12 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/relevance.h>
+#include <mobil/schedule.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd_scene.h"
 #include "demo/lab/bench/bench_fem.h"
 #include "demo/lab/bench/bench_fem_rivals.h"
-#include "engine/schedule.h"
-#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include <mobil/schedule.h>
 #include "demo/measure/measure.h"
 #include "demo/scene/crowd_people.h"
-#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
 #include "demo/measure/measure.h"
-#include "engine/error.h"
-#include "engine/jobs.h"
-#include "engine/schedule.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/jobs.h>
 #include "assets/fem/muscle_template.h"
 #include "demo/lab/bench/bench_fem_lanes.h"
 #include "demo/lab/bench/bench_fem_rivals.h"
-#include "engine/jobs.h"
 
 namespace mobil {
 namespace {

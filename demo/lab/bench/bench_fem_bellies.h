@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/muscle_template.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
 #include "demo/measure/measure.h"
-#include "engine/error.h"
 #include "systems/deformation/deformation.h"
 
 namespace mobil {

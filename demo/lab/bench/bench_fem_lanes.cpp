@@ -1,7 +1,7 @@
 #include "demo/lab/bench/bench_fem_lanes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "demo/lab/bench/bench_fem_lanes.cpp"
+#define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
 #include "assets/fem/muscle_template.h"
@@ -9,7 +9,7 @@
 #include "engine/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace mobil::HWY_NAMESPACE {
+namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 void own_steps(OwnStiffness& block, std::uint32_t steps) {
@@ -56,7 +56,7 @@ void own_steps(OwnStiffness& block, std::uint32_t steps) {
 }
 
 }  // namespace
-}  // namespace mobil::HWY_NAMESPACE
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <mobil/components/lanes.h>
 #include "assets/fem/muscle_template.h"
-#include "components/lanes.h"
 
 namespace mobil {
 

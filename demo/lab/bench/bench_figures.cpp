@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/jobs.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_fem.h"
-#include "engine/jobs.h"
 
 namespace mobil {
 namespace {

@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "components/gait.h"
+#include <mobil/components/gait.h>
+#include <mobil/pose_writer.h>
+#include <mobil/schedule.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd.h"
 #include "demo/measure/measure.h"
-#include "engine/schedule.h"
-#include "systems/people/pose_writer.h"
 
 namespace mobil {
 namespace {

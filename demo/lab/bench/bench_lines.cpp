@@ -7,10 +7,10 @@
 #include <array>
 #include <vector>
 
-#include "assets/muscles/muscle_plan.h"
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/engine/access.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd.h"
-#include "engine/access.h"
 #include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 

@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/jobs.h>
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_fem.h"
 #include "demo/lab/bench/bench_fem_bellies.h"
-#include "engine/jobs.h"
 #include "systems/deformation/reduced.h"
 
 namespace mobil {

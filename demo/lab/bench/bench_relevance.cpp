@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <mobil/relevance.h>
+#include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/measure/measure.h"
-#include "systems/relevance/relevance.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

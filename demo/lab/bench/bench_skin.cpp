@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/simulation.h>
+#include <mobil/skin_tables.h>
+#include <mobil/skin_writer.h>
+#include <mobil/surfaces.h>
 #include "demo/lab/bench/bench.h"
-#include "engine/jobs.h"
-#include "systems/simulation.h"
-#include "systems/skin/skin_tables.h"
-#include "systems/surfaces/skin_writer.h"
-#include "systems/surfaces/surfaces.h"
 
 namespace mobil {
 namespace {

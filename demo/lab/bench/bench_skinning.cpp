@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 #include "demo/lab/bench/bench.h"
-#include "systems/simulation.h"
-#include "systems/surfaces/surfaces.h"
 
 namespace mobil {
 namespace {

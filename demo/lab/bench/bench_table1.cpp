@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

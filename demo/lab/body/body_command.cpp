@@ -7,13 +7,13 @@
 #include <memory>
 #include <string>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/png.h>
 #include "assets/files/output_file.h"
 #include "demo/lab/body/body_json.h"
 #include "demo/lab/body/body_picture.h"
 #include "demo/program/body_options.h"
 #include "demo/program/commands.h"
-#include "systems/capture/png.h"
 
 namespace mobil {
 namespace {

@@ -4,17 +4,17 @@
 
 #include <cmath>
 
-#include "assets/body/anthropometry.h"
-#include "assets/body/body_composition.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_path.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/body_composition.h>
+#include <mobil/engine/geometry.h>
+#include <mobil/muscle_table.h>
 #include "assets/body/joint_limits.h"
 #include "assets/body/segment_inertia.h"
 #include "assets/muscles/muscle_architecture.h"
-#include "assets/muscles/muscle_path.h"
-#include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_table.h"
 #include "demo/program/body_options.h"
 #include "demo/program/json.h"
-#include "engine/geometry.h"
 
 namespace mobil {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "components/body.h"
+#include <mobil/components/body.h>
 
 namespace mobil {
 

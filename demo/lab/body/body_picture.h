@@ -1,9 +1,9 @@
 #pragma once
 // What a body looks like at rest: bones and built-in muscles in the anatomical position.
 
-#include "components/body.h"
-#include "engine/error.h"
-#include "systems/capture/image.h"
+#include <mobil/components/body.h>
+#include <mobil/engine/error.h>
+#include <mobil/systems/capture/image.h>
 
 namespace mobil {
 

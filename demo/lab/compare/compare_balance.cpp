@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
+#include <mobil/engine/geometry.h>
+#include <mobil/simulation.h>
 #include "assets/body/segment_inertia.h"
-#include "engine/geometry.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

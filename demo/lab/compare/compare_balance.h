@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "components/body.h"
-#include "components/forces.h"
-#include "components/gait_style.h"
-#include "components/pose.h"
-#include "components/segments.h"
-#include "engine/error.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait_style.h>
+#include <mobil/components/pose.h>
+#include <mobil/components/segments.h>
+#include <mobil/engine/error.h>
+#include <mobil/forces.h>
 
 namespace mobil {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/files/output_file.h"
 #include "demo/lab/compare/compare_plots.h"
 #include "demo/lab/compare/compare_report.h"

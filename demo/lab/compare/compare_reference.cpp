@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/files/csv_table.h"
 #include "demo/lab/compare/reference_tables.h"
 

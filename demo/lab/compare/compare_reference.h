@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "demo/lab/compare/compare_judge.h"
-#include "engine/error.h"
 
 namespace mobil {
 

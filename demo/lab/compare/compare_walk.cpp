@@ -5,10 +5,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "components/forces.h"
-#include "components/pose.h"
+#include <mobil/components/pose.h>
+#include <mobil/forces.h>
+#include <mobil/simulation.h>
 #include "demo/lab/compare/steady_cycle.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

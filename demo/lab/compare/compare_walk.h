@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "components/body.h"
-#include "components/gait.h"
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/engine/error.h>
 #include "demo/lab/compare/compare_judge.h"
 #include "demo/lab/compare/compare_reference.h"
-#include "engine/error.h"
 
 namespace mobil {
 

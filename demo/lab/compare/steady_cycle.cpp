@@ -1,6 +1,6 @@
 #include "demo/lab/compare/steady_cycle.h"
 
-#include "components/pose.h"
+#include <mobil/components/pose.h>
 
 namespace mobil {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "engine/error.h"
-#include "systems/simulation.h"
+#include <mobil/engine/error.h>
+#include <mobil/simulation.h>
 
 namespace mobil {
 

@@ -8,14 +8,14 @@
 #include <cmath>
 #include <utility>
 
+#include <mobil/engine/jobs.h>
+#include <mobil/muscle_table.h>
+#include <mobil/relevance.h>
 #include "assets/finite/control_points.h"
 #include "assets/finite/finite_motion.h"
 #include "assets/finite/shape_tables.h"
-#include "assets/muscles/muscle_table.h"
-#include "engine/jobs.h"
 #include "systems/deformation/reduced.h"
 #include "systems/muscles/belly_library.h"
-#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
+#include <mobil/engine/error.h>
+#include <mobil/systems/relevance/accuracy_table.h>
 #include "demo/lab/effects/accuracy_measure.h"
-#include "engine/error.h"
-#include "systems/relevance/accuracy_table.h"
 
 namespace mobil {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <map>
 
+#include <mobil/relevance.h>
+#include <mobil/schedule.h>
 #include "assets/reduction/reduced_basis.h"
 #include "demo/lab/effects/accuracy_reference.h"
-#include "engine/schedule.h"
-#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

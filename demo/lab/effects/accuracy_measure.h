@@ -1,16 +1,17 @@
 #pragma once
-// How the accuracy table (systems/relevance/accuracy_table.h) is made: people walk with each rung, beside references.
+// How the accuracy table (mobil/systems/relevance/accuracy_table.h) is made: people walk with each rung, beside
+// references.
 
 #include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "components/body.h"
+#include <mobil/components/body.h>
+#include <mobil/engine/error.h>
+#include <mobil/simulation.h>
+#include <mobil/systems/relevance/accuracy_table.h>
 #include "demo/lab/bench/bench_crowd.h"
-#include "engine/error.h"
-#include "systems/relevance/accuracy_table.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
+#include <mobil/simulation.h>
 #include "assets/reduction/reduced_basis.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
-#include "engine/error.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <string_view>
 
-#include "assets/export/walk_recording.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/relevance.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/relevance/accuracy_table.h>
 #include "demo/lab/effects/accuracy_measure.h"
 #include "demo/measure/measure.h"
 #include "demo/program/json.h"
 #include "demo/walk/figure.h"
-#include "engine/schedule.h"
-#include "systems/relevance/accuracy_table.h"
-#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

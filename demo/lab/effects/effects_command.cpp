@@ -51,7 +51,7 @@ Subcommand effects_command() {
       "mesh\n"
       "(reduced-N), their static answer alone, or the paper's explicit mesh (full); `mobil frontier` shows how far "
       "off\n"
-      "each is. A Relevance (systems/relevance/relevance.h) chooses among them: from a tolerance in metres, "
+      "each is. A Relevance (mobil/relevance.h) chooses among them: from a tolerance in metres, "
       "a\n"
       "camera and a tolerance in pixels, or a time budget a tick; its why() tells for each muscle what was chosen and "
       "why.\n"

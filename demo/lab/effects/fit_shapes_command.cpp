@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
+#include <mobil/muscle_table.h>
 #include "assets/files/output_file.h"
 #include "assets/finite/packed_shapes.h"
 #include "assets/finite/shape_tables.h"
-#include "assets/muscles/muscle_table.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <utility>
 
-#include "assets/muscles/muscle_table.h"
-#include "engine/jobs.h"
+#include <mobil/engine/jobs.h>
+#include <mobil/muscle_table.h>
 #include "systems/muscles/belly_library.h"
 
 namespace mobil {

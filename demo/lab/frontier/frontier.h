@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "demo/lab/frontier/frontier_answers.h"
 #include "demo/lab/frontier/frontier_method.h"
 #include "demo/lab/frontier/frontier_walks.h"
 #include "demo/measure/machine.h"
 #include "demo/pictures/svg_plot.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "components/lanes.h"
+#include <mobil/components/lanes.h>
+#include <mobil/engine/error.h>
 #include "demo/lab/frontier/frontier_method.h"
 #include "demo/lab/frontier/frontier_walks.h"
-#include "engine/error.h"
 
 namespace mobil {
 

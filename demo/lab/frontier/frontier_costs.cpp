@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <mobil/engine/jobs.h>
 #include "assets/reduction/reduced_basis.h"
-#include "engine/jobs.h"
 #include "systems/deformation/reduced.h"
 
 namespace mobil {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "demo/lab/frontier/frontier_method.h"
 #include "demo/lab/frontier/frontier_walks.h"
-#include "engine/error.h"
 #include "systems/deformation/deformation.h"
 
 namespace mobil {

@@ -9,11 +9,11 @@
 #include <iterator>
 #include <utility>
 
+#include <mobil/muscle_table.h>
 #include "assets/fem/axial_stiffness.h"
 #include "assets/fem/stiffness_terms.h"
 #include "assets/finite/control_points.h"
 #include "assets/finite/shape_tables.h"
-#include "assets/muscles/muscle_table.h"
 #include "systems/muscles/belly_library.h"
 
 namespace mobil {

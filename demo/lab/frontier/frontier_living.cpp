@@ -9,10 +9,10 @@
 #include <numbers>
 #include <utility>
 
+#include <mobil/muscle_table.h>
 #include "assets/finite/control_points.h"
 #include "assets/finite/finite_motion.h"
 #include "assets/finite/shape_tables.h"
-#include "assets/muscles/muscle_table.h"
 #include "demo/lab/frontier/frontier_ways.h"
 #include "systems/deformation/reduced.h"
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "components/muscle.h"
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "demo/pictures/svg_plot.h"
-#include "engine/error.h"
 
 namespace mobil {
 

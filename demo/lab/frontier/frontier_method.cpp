@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "assets/reduction/reduced_basis.h"
 #include "assets/surfaces/muscle_cage.h"
 #include "systems/muscles/belly_library.h"

@@ -7,12 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include <mobil/components/lanes.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
-#include "components/lanes.h"
 #include "demo/lab/frontier/frontier_walks.h"
-#include "engine/error.h"
 #include "systems/muscles/belly_library.h"
 
 namespace mobil {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/muscles/muscle_table.h"
+#include <mobil/muscle_table.h>
 #include "demo/lab/frontier/frontier.h"
 #include "demo/program/json.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 
 namespace mobil {
 namespace {

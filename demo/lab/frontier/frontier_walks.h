@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "assets/muscles/muscle_plan.h"
-#include "components/body.h"
-#include "components/lanes.h"
-#include "components/muscle.h"
-#include "engine/error.h"
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/body.h>
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_plan.h>
 #include "assets/finite/control_points.h"
-#include "assets/muscles/muscle_plan.h"
 #include "demo/measure/measure.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/finite.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "components/leg_muscles.h"
-#include "engine/error.h"
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/error.h>
 #include "systems/muscles/belly_library.h"
 
 namespace mobil {

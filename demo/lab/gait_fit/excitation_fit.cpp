@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "assets/files/csv_table.h"
 #include "assets/muscles/excitation_curves.h"
 #include "demo/lab/compare/reference_tables.h"
+#include "engine/eigen.h"
 
 namespace mobil {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

@@ -40,7 +40,7 @@ void append(const TabledShape& shape, int digits, std::size_t a_line, std::strin
 std::string source(const std::vector<StepNode>& nodes) {
   std::string text =
       "// Written by `mobil fit-gait --out assets/gait/step_table.cpp`: README.md says from what. Do not edit.\n\n"
-      "#include \"assets/gait/step_table.h\"\n\nnamespace mobil {\n\n// clang-format off\n"
+      "#include \"assets/gait/step_table.h\"\n\nnamespace mobil::inline v0_3 {\n\n// clang-format off\n"
       "const std::array<StepGiven, step_table::speed_count> step_given = {{\n";
   const auto out = std::back_inserter(text);
   for (std::size_t s = 0; s < speed_count; ++s) {
@@ -59,7 +59,7 @@ std::string source(const std::vector<StepNode>& nodes) {
     }
     text += "  }},\n";
   }
-  return text + "}};\n// clang-format on\n\n}  // namespace mobil\n";
+  return text + "}};\n// clang-format on\n\n}  // namespace mobil::inline v0_3\n";
 }
 
 /// Every usual node of the table that this program has.
@@ -77,7 +77,7 @@ std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
       "// Written by `mobil fit-gait --styles --out assets/gait/step_styles.cpp` from step_table.cpp: README.md. Do "
       "not "
       "edit.\n\n"
-      "#include \"assets/gait/step_styles.h\"\n\nnamespace mobil {\n\n// clang-format off\n"
+      "#include \"assets/gait/step_styles.h\"\n\nnamespace mobil::inline v0_3 {\n\n// clang-format off\n"
       "const std::array<std::array<TabledShape, style_effects.size()>, step_table::speed_count> step_styles = {{\n";
   const auto out = std::back_inserter(text);
   for (std::size_t s = 0; s < speed_count; ++s) {
@@ -88,7 +88,7 @@ std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
     }
     text += "  }},\n";
   }
-  return text + "}};\n// clang-format on\n\n}  // namespace mobil\n";
+  return text + "}};\n// clang-format on\n\n}  // namespace mobil::inline v0_3\n";
 }
 
 void print(const std::vector<StepNode>& nodes) {

@@ -1,9 +1,9 @@
 #include "demo/lab/gait_fit/levenberg_marquardt.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/eigen.h"
 
 namespace mobil {
 namespace {

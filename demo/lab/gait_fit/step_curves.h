@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "components/gait.h"
+#include <mobil/components/gait.h>
 #include "demo/lab/gait_fit/step_model.h"
 
 namespace mobil {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "components/gait_style.h"
+#include <mobil/components/gait_style.h>
 
 namespace mobil {
 namespace {

@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
+#include <mobil/engine/jobs.h>
 #include "assets/gait/step_table.h"
 #include "demo/lab/gait_fit/step_objective.h"
-#include "engine/jobs.h"
 
 namespace mobil {
 

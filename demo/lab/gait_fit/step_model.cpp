@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
+#include <mobil/components/gait.h>
 #include "assets/body/segment_inertia.h"
-#include "components/gait.h"
 #include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/gait_fit/step_curves.h"
 #include "demo/lab/gait_fit/upper_body.h"

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "components/lanes.h"
-#include "components/step_shape.h"
+#include <mobil/components/lanes.h>
+#include <mobil/components/step_shape.h>
 
 namespace mobil {
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "assets/body/anthropometry.h"
+#include <mobil/anthropometry.h>
 #include "assets/body/column.h"
 #include "assets/body/segment_inertia.h"
 

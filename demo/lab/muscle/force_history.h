@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "components/lanes.h"
-#include "engine/error.h"
+#include <mobil/components/lanes.h>
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

@@ -10,10 +10,10 @@
 #include <numbers>
 #include <vector>
 
+#include <mobil/components/activation.h>
+#include <mobil/simulation.h>
 #include "assets/fem/muscle_template.h"
-#include "components/activation.h"
 #include "demo/program/units.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "components/muscle.h"
-#include "engine/error.h"
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <utility>
 
+#include <mobil/muscle_table.h>
 #include "assets/fem/element_size.h"
 #include "assets/fem/muscle_template.h"
-#include "assets/muscles/muscle_table.h"
 #include "assets/reduction/reduced_basis.h"
 #include "demo/program/units.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "assets/export/basis_writer.h"
+#include <mobil/basis_writer.h>
 #include "demo/lab/muscle/muscle_options.h"
 
 namespace mobil {

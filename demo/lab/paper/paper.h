@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include "demo/lab/paper/paper_stage.h"
 #include "demo/lab/paper/paper_table.h"
 #include "demo/pictures/svg_plot.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -12,12 +12,12 @@
 #include <system_error>
 #include <vector>
 
+#include <mobil/schedule.h>
 #include "assets/files/output_file.h"
 #include "demo/lab/paper/paper.h"
 #include "demo/program/commands.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/progress.h"
-#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

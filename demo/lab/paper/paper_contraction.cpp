@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include "assets/body/bent_legs.h"
-#include "components/activation.h"
 #include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/compare/steady_cycle.h"
 #include "demo/lab/paper/paper.h"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include <mobil/forces.h>
 #include "assets/fem/muscle_template.h"
-#include "components/forces.h"
 #include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/compare/steady_cycle.h"
 #include "demo/walk/figure.h"

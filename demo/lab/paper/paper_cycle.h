@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
-#include "components/body.h"
-#include "components/gait.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/engine/error.h>
+#include <mobil/simulation.h>
 #include "demo/pictures/cycle_curve.h"
-#include "engine/error.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 

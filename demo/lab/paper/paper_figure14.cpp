@@ -8,10 +8,10 @@
 #include <iterator>
 #include <limits>
 
+#include <mobil/engine/geometry.h>
 #include "assets/fem/muscle_template.h"
 #include "demo/lab/compare/steady_cycle.h"
 #include "demo/lab/paper/paper.h"
-#include "engine/geometry.h"
 
 namespace mobil {
 namespace {

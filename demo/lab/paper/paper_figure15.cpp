@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_table.h"
+#include <mobil/anthropometry.h>
+#include <mobil/muscle_table.h>
 #include "demo/lab/compare/compare_judge.h"
 #include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/paper/paper.h"

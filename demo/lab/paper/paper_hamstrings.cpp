@@ -3,9 +3,9 @@
 
 #include <array>
 
+#include <mobil/engine/geometry.h>
 #include "demo/lab/paper/paper.h"
 #include "demo/pictures/contact_sheet.h"
-#include "engine/geometry.h"
 
 namespace mobil {
 namespace {

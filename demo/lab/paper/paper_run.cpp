@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
+#include <mobil/png.h>
 #include "assets/files/output_file.h"
 #include "demo/lab/paper/paper.h"
 #include "demo/program/progress.h"
-#include "systems/capture/png.h"
 
 namespace mobil {
 

@@ -5,10 +5,10 @@
 #include <deque>
 #include <vector>
 
+#include <mobil/engine/geometry.h>
+#include <mobil/renderer.h>
+#include <mobil/systems/capture/matrix.h>
 #include "demo/walk/recorded_scene.h"
-#include "engine/geometry.h"
-#include "systems/capture/matrix.h"
-#include "systems/capture/renderer.h"
 
 namespace mobil {
 namespace {

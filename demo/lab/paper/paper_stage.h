@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include <mobil/systems/capture/camera.h>
+#include <mobil/systems/capture/image.h>
 #include "demo/lab/paper/paper_cycle.h"
-#include "systems/capture/camera.h"
-#include "systems/capture/image.h"
 
 namespace mobil {
 

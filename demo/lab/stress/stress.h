@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/error.h"
+#include <mobil/engine/error.h>
 
 namespace mobil {
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include "assets/body/bent_legs.h"
-#include "components/activation.h"
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
 

@@ -8,10 +8,10 @@
 #include <random>
 #include <vector>
 
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
-#include "components/muscle.h"
-#include "engine/error.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reference.h"
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/engine/error.h>
 #include "assets/fem/stiffness_terms.h"
 #include "demo/lab/stress/stress.h"
-#include "engine/error.h"
 #include "systems/deformation/reference.h"
 
 namespace mobil {

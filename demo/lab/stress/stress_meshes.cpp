@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 #include "demo/lab/stress/stress_limits.h"

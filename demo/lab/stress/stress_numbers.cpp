@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/jobs.h>
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
-#include "engine/jobs.h"
 
 namespace mobil {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/geometry.h>
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
-#include "engine/geometry.h"
 
 namespace mobil {
 namespace {

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
+#include <mobil/simulation.h>
 #include "demo/lab/muscle/force_history.h"
 #include "demo/lab/muscle/muscle_options.h"
 #include "demo/lab/muscle/muscle_run.h"
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "components/fade.h"
+#include <mobil/components/fade.h>
+#include <mobil/relevance.h>
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
-#include "systems/relevance/relevance.h"
 #include "systems/simulation_world.h"
 
 namespace mobil {

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include <mobil/simulation.h>
 #include "assets/body/bent_legs.h"
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
-#include "systems/simulation.h"
 
 namespace mobil {
 namespace {

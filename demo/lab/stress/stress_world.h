@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 
 namespace mobil {
 

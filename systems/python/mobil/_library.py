@@ -36,9 +36,14 @@ class OutOfMemoryError(Error, MemoryError):
     """There is no memory for it."""
 
 
-def _declarations(header: str) -> str:
-    """What cffi reads of the header: no comments, no conditions, no macros but numbers."""
-    text = re.sub(r"/\*.*?\*/", " ", header, flags=re.DOTALL)
+def _declarations(header: pathlib.Path) -> str:
+    """What cffi reads of the header and its parts: no comments, no conditions, no macros but numbers."""
+    text = re.sub(
+        r"#include <mobil/(c/\w+\.h)>",
+        lambda part: (header.parent / part[1]).read_text(encoding="utf-8"),
+        header.read_text(encoding="utf-8"),
+    )
+    text = re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL)
     begin = text.index("#define MOBIL_INTERFACE")
     lines = text[begin : text.rindex("#ifdef __cplusplus")].splitlines()
     kept = [line for line in lines if not line.startswith("#") or line.startswith("#define MOBIL_INTERFACE")]
@@ -55,7 +60,7 @@ def _find() -> pathlib.Path | str:
 
 
 ffi = cffi.FFI()
-ffi.cdef(_declarations((_HERE / "mobil.h").read_text(encoding="utf-8")))
+ffi.cdef(_declarations(_HERE / "mobil.h"))
 try:
     lib = ffi.dlopen(str(_find()))
 except OSError as error:

@@ -35,9 +35,9 @@
 #include <span>
 #include <vector>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/engine/error.h>
 #include "assets/reduction/reduced_basis.h"
-#include "engine/error.h"
 
 namespace mobil {
 

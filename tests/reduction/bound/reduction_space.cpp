@@ -1,6 +1,5 @@
 #include "tests/reduction/bound/reduction_space.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +7,7 @@
 
 #include "assets/reduction/reduced_training.h"
 #include "assets/reduction/symmetric_eigen.h"
+#include "engine/eigen.h"
 
 namespace mobil {
 namespace {

@@ -3,11 +3,10 @@
 // few leave out is looked for first (tests/reduction/bound/reduction_bound.h). Nothing that is proven rests on how good
 // they are.
 
-#include <Eigen/Core>
-
-#include "assets/fem/hexahedral_mesh.h"
+#include <mobil/assets/fem/hexahedral_mesh.h>
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_operators.h"
+#include "engine/eigen.h"
 
 namespace mobil {
 

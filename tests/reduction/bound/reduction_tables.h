@@ -1,9 +1,8 @@
 #pragma once
 // What is computed once per basis for the bounds of tests/reduction/bound/reduction_bound.h.
 
-#include <Eigen/Core>
-
 #include "assets/reduction/reduced_basis.h"
+#include "engine/eigen.h"
 #include "tests/reduction/bound/reduction_constants.h"
 
 namespace mobil {

@@ -1,0 +1,169 @@
+#pragma once
+// From height and mass to the 48 segments: lengths as fractions of stature (Drillis & Contini 1966, the figure in
+// Winter), masses and centres of mass as fractions of body mass (Dempster, tabulated by Winter).
+
+#include <array>
+#include <cstddef>
+
+#include <mobil/components/body.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/error.h>
+
+namespace mobil::inline v0_3 {
+
+/// A body of height 1 m and mass 1 kg. Every other body is this one times its height and its mass, so a kernel may use
+/// the table with BodySize. Frames as in mobil/components/body.h; lengths in fractions of height, masses of body mass.
+struct UnitBody {
+  /// Origin of each segment in its parent's frame; the pelvis: its place over the ground when standing.
+  std::array<Vec3<double>, segment_count> joint_offset;
+  std::array<Vec3<double>, segment_count> centre_of_mass;
+  std::array<Vec3<double>, segment_count> tip;
+  std::array<double, segment_count> mass_fraction;
+};
+
+namespace fraction {
+/// Segment lengths, heights over the sole and distances from the middle, in fractions of height (frames:
+/// mobil/components/body.h).
+inline constexpr double thigh = 0.245, shank = 0.246, ankle_height = 0.039;
+inline constexpr double hip_height = thigh + shank + ankle_height;
+inline constexpr double hip_half_spacing = 0.046;
+inline constexpr double foot_length = 0.152;
+/// Ankle to the point under the heel (backward) and to the point under the ball (forward), along the sole.
+inline constexpr double heel_back = 0.034, ball_forward = 0.078, toes_length = foot_length - heel_back - ball_forward;
+inline constexpr double toe_joint_height = 0.008;
+inline constexpr double heel_radius = 0.030 / 1.75;  // the heel rolls on a round rim
+inline constexpr double shoulder_height = 0.818, shoulder_half_spacing = 0.100;
+inline constexpr double upper_arm = 0.186, forearm = 0.146, hand = 0.108;
+/// Kneecap's centre from the knee's, knee straight: in front, and above (below, as measured on the
+/// leg that the bones are drawn after: its ligament then is as long as theirs).
+inline constexpr double patella_forward = 0.027, patella_up = -0.009;
+}  // namespace fraction
+
+/// The kneecap slides round the knee with the shank but for a tenth of its flexion: its ligament keeps its length
+/// within a seventh.
+inline constexpr float kneecap_part = 0.9F;
+
+/// The table of proportions, a constant of the programme.
+constexpr UnitBody make_unit_body();
+
+/// Body of the asked height and mass. Masses add up to mass_kg without rounding error; the column's offsets add up to
+/// the stature, with legs in proportion. Fails on a height outside 1.2–2.2 m, a mass outside 30–200 kg, a
+/// biotype outside 0.1–12, a mass that no living body of that height has, or a limb out of range. Where height, mass,
+/// biotype and constitution contradict each other less grossly, one gives way and `composition` notes it.
+Result<Body> make_body(const BodyRequest& request);
+/// How long a body's limbs are, asked for or not.
+LimbLengths<float> limb_lengths(const Body& body);
+/// The anatomical position: standing at the origin facing +Z, all rotations identity.
+Pose<float> standing_pose(const Body& body);
+/// Whether `make_body` would make it; the same errors.
+Result<void> check_body(const BodyRequest& request);
+
+constexpr UnitBody make_unit_body() {
+  using enum Segment;
+  namespace f = fraction;
+  UnitBody b{};
+  auto at = [](Segment s) { return index(s); };
+
+  // The column: height over the ground and forward place of each joint, L5/S1 up to the atlanto-occipital joint.
+  constexpr std::array<double, 25> height = {0.5850, 0.6050, 0.6250, 0.6450, 0.6650, 0.6850, 0.7010, 0.7165, 0.7315,
+                                             0.7460, 0.7600, 0.7740, 0.7875, 0.8010, 0.8140, 0.8270, 0.8395, 0.8520,
+                                             0.8630, 0.8740, 0.8850, 0.8960, 0.9070, 0.9175, 0.9280};
+  constexpr std::array<double, 25> forward = {-0.0180, -0.0130, -0.0100, -0.0095, -0.0115, -0.0155, -0.0205,
+                                              -0.0260, -0.0310, -0.0350, -0.0375, -0.0390, -0.0392, -0.0382,
+                                              -0.0360, -0.0330, -0.0290, -0.0240, -0.0185, -0.0140, -0.0105,
+                                              -0.0080, -0.0065, -0.0055, -0.0050};
+  b.joint_offset[at(pelvis)] = {0, f::hip_height, 0};
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    const double below = i == 0 ? f::hip_height : height[i - 1];
+    const double behind = i == 0 ? 0.0 : forward[i - 1];
+    const std::size_t s = at(L5) + i;
+    b.joint_offset[s] = {0, height[i] - below, forward[i] - behind};
+    b.tip[s - 1] = b.joint_offset[s];
+  }
+  b.tip[at(head)] = {0, 1.0 - height.back(), 0};
+
+  // Trunk: pelvis .142, abdomen .139 over five lumbar, thorax .216 over twelve thoracic less the clavicles, head and
+  // neck .081. The mass of a slice lies in front of its vertebra.
+  constexpr double clavicle_mass = 0.003, cervical_mass = 0.012;
+  b.mass_fraction[at(pelvis)] = 0.142;
+  b.centre_of_mass[at(pelvis)] = {0, 0.020, -0.004};
+  for (std::size_t i = 0; i < 24; ++i) {
+    const std::size_t s = at(L5) + i;
+    const double middle = 0.5 * b.tip[s].y;
+    if (i < 5) {
+      b.mass_fraction[s] = 0.139 / 5;
+      b.centre_of_mass[s] = {0, middle, 0.016};
+    } else if (i < 17) {
+      b.mass_fraction[s] = (0.216 - 2 * clavicle_mass) / 12;
+      b.centre_of_mass[s] = {0, middle, 0.036};
+    } else {
+      b.mass_fraction[s] = cervical_mass / 7;
+      b.centre_of_mass[s] = {0, middle, 0.010};
+    }
+  }
+  b.mass_fraction[at(head)] = 0.081 - cervical_mass;
+  b.centre_of_mass[at(head)] = {0, 0.014, 0.008};
+
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double out = side == Side::right ? -1.0 : 1.0;  // +X is left
+    auto of = [&](Segment s) { return index(on_side(s, side)); };
+    constexpr double patella_mass = 0.0012, toes_mass = 0.0025;
+
+    b.joint_offset[of(thigh_right)] = {out * f::hip_half_spacing, 0, 0};
+    b.tip[of(thigh_right)] = {0, -f::thigh, 0};
+    b.mass_fraction[of(thigh_right)] = 0.100 - patella_mass;
+    b.centre_of_mass[of(thigh_right)] = {0, -0.433 * f::thigh, 0};
+    b.joint_offset[of(patella_right)] = {0, -f::thigh + f::patella_up, f::patella_forward};
+    b.tip[of(patella_right)] = {0, -0.012, 0};
+    b.mass_fraction[of(patella_right)] = patella_mass;
+    b.joint_offset[of(shank_right)] = {0, -f::thigh, 0};
+    b.tip[of(shank_right)] = {0, -f::shank, 0};
+    b.mass_fraction[of(shank_right)] = 0.0465;
+    b.centre_of_mass[of(shank_right)] = {0, -0.433 * f::shank, 0};
+    b.joint_offset[of(foot_right)] = {0, -f::shank, 0};
+    b.tip[of(foot_right)] = {0, f::toe_joint_height - f::ankle_height, f::ball_forward};
+    b.mass_fraction[of(foot_right)] = 0.0145 - toes_mass;
+    b.centre_of_mass[of(foot_right)] = {0, -0.5 * f::ankle_height, 0.35 * f::ball_forward};
+    b.joint_offset[of(toes_right)] = b.tip[of(foot_right)];
+    b.tip[of(toes_right)] = {0, 0, f::toes_length};
+    b.mass_fraction[of(toes_right)] = toes_mass;
+    b.centre_of_mass[of(toes_right)] = {0, 0, 0.4 * f::toes_length};
+
+    // Arms hang on the sternal end of the clavicle, in front of T1.
+    constexpr double t1_height = height[16], t1_forward = forward[16];
+    constexpr double sternal_height = 0.815, sternal_out = 0.012, sternal_forward = 0.022;
+    b.joint_offset[of(clavicle_right)] = {out * sternal_out, sternal_height - t1_height, sternal_forward - t1_forward};
+    b.joint_offset[of(upper_arm_right)] = {out * (f::shoulder_half_spacing - sternal_out),
+                                           f::shoulder_height - sternal_height, -0.012 - sternal_forward};
+    b.tip[of(clavicle_right)] = b.joint_offset[of(upper_arm_right)];
+    b.mass_fraction[of(clavicle_right)] = clavicle_mass;
+    const Vec3<double> c = b.tip[of(clavicle_right)];
+    b.centre_of_mass[of(clavicle_right)] = {0.5 * c.x, 0.5 * c.y, 0.5 * c.z};
+    b.tip[of(upper_arm_right)] = {0, -f::upper_arm, 0};
+    b.mass_fraction[of(upper_arm_right)] = 0.028;
+    b.centre_of_mass[of(upper_arm_right)] = {0, -0.436 * f::upper_arm, 0};
+    b.joint_offset[of(forearm_right)] = b.tip[of(upper_arm_right)];
+    b.tip[of(forearm_right)] = {0, -f::forearm, 0};
+    b.mass_fraction[of(forearm_right)] = 0.016;
+    b.centre_of_mass[of(forearm_right)] = {0, -0.430 * f::forearm, 0};
+    constexpr double palm = 0.5 * f::hand, fingers_mass = 0.0020, thumb_mass = 0.0005;
+    b.joint_offset[of(hand_right)] = b.tip[of(forearm_right)];
+    b.tip[of(hand_right)] = {0, -palm, 0};
+    b.mass_fraction[of(hand_right)] = 0.006 - fingers_mass - thumb_mass;
+    b.centre_of_mass[of(hand_right)] = {0, -0.506 * palm, 0};
+    b.joint_offset[of(fingers_right)] = b.tip[of(hand_right)];
+    b.tip[of(fingers_right)] = {0, -(f::hand - palm), 0};
+    b.mass_fraction[of(fingers_right)] = fingers_mass;
+    b.centre_of_mass[of(fingers_right)] = {0, -0.4 * (f::hand - palm), 0};
+    b.joint_offset[of(thumb_right)] = {out * 0.014, -0.015, 0.004};  // palms forward: thumbs outward
+    b.tip[of(thumb_right)] = {0, -0.036, 0};
+    b.mass_fraction[of(thumb_right)] = thumb_mass;
+    b.centre_of_mass[of(thumb_right)] = {0, -0.015, 0};
+  }
+  return b;
+}
+
+/// The table of proportions that every body is scaled from.
+inline constexpr UnitBody unit_body = make_unit_body();
+
+}  // namespace mobil::inline v0_3

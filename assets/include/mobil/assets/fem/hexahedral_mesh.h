@@ -1,0 +1,123 @@
+#pragma once
+// Structured blocks of eight-node hexahedra: what a muscle is made of. Nodes are numbered x fastest, z slowest, so that
+// the origin face (z = 0) is the first plane of nodes and the insertion face the last.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mobil/components/lanes.h>
+#include <mobil/components/muscle.h>
+#include <mobil/engine/error.h>
+
+namespace mobil::inline v0_3 {
+
+/// nx × ny × nz hexahedra over (nx+1)(ny+1)(nz+1) nodes; positions in m, in the muscle's frame (z from the origin-side
+/// to the insertion-side end).
+struct HexahedralMesh {
+  Cells cells{};
+  std::vector<Vec3<double>> node;
+};
+
+/// One cross-section of a bent block at the fraction t (0–1) of its length: where its centre lies off the z axis, and
+/// how far the block's own x and y directions reach from there, m: (semi_x, shear_y) and (shear_x, semi_y). Without
+/// shear, the half-widths of an ellipse along x and y.
+struct CageStation {
+  float t, offset_x_m, offset_y_m, semi_x_m, semi_y_m;
+  float shear_x_m = 0, shear_y_m = 0;
+};
+
+/// Node numbers of a face's four corners, and of an element's eight.
+using Quad = std::array<std::uint32_t, 4>;
+using Hexahedron = std::array<std::uint32_t, 8>;
+
+/// Largest block that is accepted; the couplings of a node take some 3 kB.
+inline constexpr std::uint32_t largest_mesh_nodes = 40000;
+
+/// Nodes of one cross-section, (nx+1)(ny+1).
+constexpr std::uint32_t plane_nodes(const Cells& cells) {
+  return (cells[0] + 1) * (cells[1] + 1);
+}
+/// Nodes of the block.
+constexpr std::uint32_t node_count(const Cells& cells) {
+  return plane_nodes(cells) * (cells[2] + 1);
+}
+/// Elements of the block.
+constexpr std::uint32_t element_count(const Cells& cells) {
+  return cells[0] * cells[1] * cells[2];
+}
+/// The number of the node at the grid place (i, j, k), each from 0 to the cells in that direction.
+constexpr std::uint32_t node_index(const Cells& cells, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+  return (k * (cells[1] + 1) + j) * (cells[0] + 1) + i;
+}
+
+/// First node of the insertion face; it has plane_nodes(cells) of them, to the end of the mesh.
+constexpr std::uint32_t first_insertion_node(const Cells& cells) {
+  return plane_nodes(cells) * cells[2];
+}
+
+/// The eight nodes of an element (x fastest): counter-clockwise round its lower face, then round its upper.
+Hexahedron element_nodes(const Cells& cells, std::uint32_t element);
+
+/// The block's boundary as quadrilaterals wound outwards.
+std::vector<Quad> boundary_quads(const Cells& cells);
+
+/// The insertion face's quadrilaterals, wound towards +z.
+std::vector<Quad> insertion_quads(const Cells& cells);
+
+/// The middle node of the insertion face, or the two or four nearest where cells are odd across.
+std::vector<std::uint32_t> insertion_centre(const Cells& cells);
+
+/// How the elements of a block differ in length: those in the middle over those at its ends (`along`) or edges
+/// (`across`, in x and y), growing geometrically in between; of ever finer blocks exactly so, of n elements the power
+/// 1 − 2/n of it. A block of twice the elements has all nodes of the other. 1: all alike; above 1: fine towards the
+/// boundary.
+struct Grading {
+  double across = 1, along = 1;
+};
+
+/// Cubes of edge `cell_size_m`, centred on the z axis, z from 0; graded, elements that fill the same block. Fails
+/// outside 1–256 cells a side, beyond `largest_mesh_nodes`, for a size outside 1e-6–10 m or a grading outside 0.01–100.
+Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m, const Grading& grading = {});
+
+/// Fails unless each is from 1 to 256, and the nodes are no more than largest_mesh_nodes.
+Result<void> check_cells(const Cells& cells);
+
+/// A belly along z from 0 to `length_m`: rounded cross-sections through the stations (t ascending from 0 to 1, linear
+/// between them). A section blends a square grid with its elliptical image (2 : 3), so that its edges' middles touch
+/// the ellipse and its corners stay elements. Fails on a bad station or grading, or, naming the element, where one
+/// would be inverted or flat.
+Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m,
+                                  const Grading& grading = {});
+
+/// A template's mesh at one individual's size.
+template <class F>
+HexahedralMesh scaled(HexahedralMesh mesh, const BellyScale<F>& by) {
+  const auto across = static_cast<double>(by.across), along = static_cast<double>(by.along);
+  for (Vec3<double>& node : mesh.node) {
+    node.x *= across;
+    node.y *= across;
+    node.z *= along;
+  }
+  return mesh;
+}
+
+/// Volume enclosed by the trilinear elements, m³ (exact).
+double volume(const HexahedralMesh& mesh);
+
+/// Elements flatter than this are refused.
+inline constexpr double least_scaled_jacobian = 1e-3;
+
+/// Smallest over the eight corners of det(e₁,e₂,e₃) / (|e₁||e₂||e₃|): 1 for a box, 0 or less where inverted.
+double scaled_jacobian(const HexahedralMesh& mesh, std::uint32_t element);
+double smallest_scaled_jacobian(const HexahedralMesh& mesh);
+
+/// "element 8 (cell 0,0,2 of 2x2x3)", for messages.
+std::string element_label(const Cells& cells, std::uint32_t element);
+
+/// Fails, naming the element, where one is inverted or flat.
+Result<void> check_elements(const HexahedralMesh& mesh);
+
+}  // namespace mobil::inline v0_3

@@ -1,0 +1,127 @@
+#pragma once
+// The parameters that tell one walker from another, in one table that programs and people share.
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include <mobil/components/lanes.h>
+
+namespace mobil::inline v0_3 {
+
+/// A default for a field of one row or of sixteen.
+template <class F>
+constexpr F in_every_lane(float value) {
+  if constexpr (std::is_same_v<F, Lanes<float>>) {
+    F lanes{};
+    for (auto& lane : lanes.lane) lane = value;
+    return lanes;
+  } else {
+    return F(value);
+  }
+}
+
+/// Units are in the names: _deg degrees; _h fractions of body height; _cycle fractions of the gait cycle of two steps.
+/// What depends on speed is given at a natural step (0.43 body heights) and follows the step from there.
+/// Meaning, default and range of each: `gait_parameters`.
+template <class F>
+struct GaitStyleOf {
+  F pelvis_rotation_deg = in_every_lane<F>(6.5F);
+  F pelvis_list_deg = in_every_lane<F>(4.0F);
+  F pelvis_shift_h = in_every_lane<F>(0.0125F);
+  F pelvis_tilt_deg = in_every_lane<F>(10.0F);
+  F pelvis_tilt_wave_deg = in_every_lane<F>(0.8F);
+  F step_width_h = in_every_lane<F>(0.055F);
+  F toe_out_deg = in_every_lane<F>(6.0F);
+  F step_asymmetry = in_every_lane<F>(0.0F);
+  F time_asymmetry = in_every_lane<F>(0.0F);
+  F double_support_scale = in_every_lane<F>(1.0F);
+  F strike_pitch_deg = in_every_lane<F>(22.0F);
+  F strike_knee_deg = in_every_lane<F>(4.5F);
+  F foot_flat_cycle = in_every_lane<F>(0.1066F);
+  F stance_knee_deg = in_every_lane<F>(4.1F);
+  F toe_off_knee_deg = in_every_lane<F>(33.35F);
+  F knee_release_cycle = in_every_lane<F>(0.443F);
+  F swing_knee_deg = in_every_lane<F>(47.0F);
+  F swing_ankle_deg = in_every_lane<F>(-0.8F);
+  F toe_clearance_m = in_every_lane<F>(0.012F);
+  F foot_pivot_h = in_every_lane<F>(0.0106F);
+  F mid_stance_height = in_every_lane<F>(0.9995F);
+  F hip_fall = in_every_lane<F>(0.3F);
+  F leg_stiffness_n_per_m = in_every_lane<F>(16000.0F);
+  F leg_damping = in_every_lane<F>(0.40F);
+  F roll_over = in_every_lane<F>(0.57F);
+  F forward_swing = in_every_lane<F>(0.0F);
+  F trunk_lean_deg = in_every_lane<F>(2.0F);
+  F trunk_stiffness = in_every_lane<F>(8.0F);
+  F shoulder_rotation = in_every_lane<F>(1.0F);
+  F arm_back_deg = in_every_lane<F>(18.0F);
+  F arm_forward_deg = in_every_lane<F>(16.0F);
+  F elbow_back_deg = in_every_lane<F>(10.0F);
+  F elbow_forward_deg = in_every_lane<F>(35.0F);
+  F arm_abduction_deg = in_every_lane<F>(6.0F);
+  F forearm_pronation_deg = in_every_lane<F>(65.0F);
+  F finger_flexion_deg = in_every_lane<F>(25.0F);
+};
+
+/// One person's style.
+using GaitStyle = GaitStyleOf<float>;
+
+/// One parameter: its name, unit ("1" where it has none), where it lies, its range, and what it does.
+struct GaitParameter {
+  std::string_view name, unit;
+  float GaitStyle::*value;
+  float low, high;
+  std::string_view meaning;
+};
+
+/// All parameters of a style, in the order of its fields. The command line, the C interface and snapshots know them by
+/// these names.
+inline constexpr std::array<GaitParameter, 36> gait_parameters = {{
+    {"pelvis_rotation_deg", "deg", &GaitStyle::pelvis_rotation_deg, 0, 15, "pelvis turn to each side (transverse)"},
+    {"pelvis_list_deg", "deg", &GaitStyle::pelvis_list_deg, 0, 10, "pelvis list to each side (frontal)"},
+    {"pelvis_shift_h", "height", &GaitStyle::pelvis_shift_h, 0, 0.03F, "pelvis shift toward the stance foot"},
+    {"pelvis_tilt_deg", "deg", &GaitStyle::pelvis_tilt_deg, -10, 20, "mean anterior tilt of the pelvis"},
+    {"pelvis_tilt_wave_deg", "deg", &GaitStyle::pelvis_tilt_wave_deg, 0, 5,
+     "rise and fall of that tilt, twice a cycle"},
+    {"step_width_h", "height", &GaitStyle::step_width_h, 0.02F, 0.15F, "distance between the lines of the two ankles"},
+    {"toe_out_deg", "deg", &GaitStyle::toe_out_deg, -15, 30, "feet turned outward"},
+    {"step_asymmetry", "1", &GaitStyle::step_asymmetry, -0.4F, 0.4F, "right step longer than the mean by this part"},
+    {"time_asymmetry", "1", &GaitStyle::time_asymmetry, -0.3F, 0.3F, "right step slower than the mean by this part"},
+    {"double_support_scale", "1", &GaitStyle::double_support_scale, 0.6F, 1.5F,
+     "double support, of what the cadence asks"},
+    {"strike_pitch_deg", "deg", &GaitStyle::strike_pitch_deg, 10, 30, "foot at heel strike, toes up"},
+    {"strike_knee_deg", "deg", &GaitStyle::strike_knee_deg, 2, 20, "knee flexion at heel strike"},
+    {"foot_flat_cycle", "cycle", &GaitStyle::foot_flat_cycle, 0.04F, 0.15F, "heel strike to foot flat"},
+    {"stance_knee_deg", "deg", &GaitStyle::stance_knee_deg, 4, 20, "least knee flexion before the heel rises"},
+    {"toe_off_knee_deg", "deg", &GaitStyle::toe_off_knee_deg, 20, 50, "knee flexion at toe-off"},
+    {"knee_release_cycle", "cycle", &GaitStyle::knee_release_cycle, 0.41F, 0.47F, "when the trailing knee yields"},
+    {"swing_knee_deg", "deg", &GaitStyle::swing_knee_deg, 30, 75,
+     "greatest knee flexion in swing, before the foot is lifted"},
+    {"swing_ankle_deg", "deg", &GaitStyle::swing_ankle_deg, -12, 10, "dorsiflexion in mid-swing"},
+    {"toe_clearance_m", "m", &GaitStyle::toe_clearance_m, 0, 0.06F, "height of the toe over the ground in mid-swing"},
+    {"foot_pivot_h", "height", &GaitStyle::foot_pivot_h, -0.01F, 0.03F,
+     "centre of pressure ahead of the ankle, mean, on one foot"},
+    {"mid_stance_height", "1", &GaitStyle::mid_stance_height, 0.90F, 1, "hip height in mid-stance, of standing"},
+    {"hip_fall", "1", &GaitStyle::hip_fall, 0.1F, 0.35F, "fall of the hips to double support, of straight legs'"},
+    {"leg_stiffness_n_per_m", "N/m", &GaitStyle::leg_stiffness_n_per_m, 8000, 60000, "leg spring at a height of 1.8 m"},
+    {"leg_damping", "1", &GaitStyle::leg_damping, 0.2F, 1,
+     "of the loaded knee, of critical: the more, the less it bends"},
+    {"roll_over", "1", &GaitStyle::roll_over, 0.4F, 0.7F,
+     "travel of the centre of pressure, of the hips', on one foot"},
+    {"forward_swing", "1", &GaitStyle::forward_swing, 0, 1, "share of the swing that torques at hip and knee make"},
+    {"trunk_lean_deg", "deg", &GaitStyle::trunk_lean_deg, -8, 12, "mean forward lean of the trunk"},
+    {"trunk_stiffness", "1", &GaitStyle::trunk_stiffness, 2, 20,
+     "of the trunk, of its toppling stiffness: against swaying"},
+    {"shoulder_rotation", "1", &GaitStyle::shoulder_rotation, 0, 2, "shoulders against the pelvis, times its rotation"},
+    {"arm_back_deg", "deg", &GaitStyle::arm_back_deg, 0, 50, "arm swing backward"},
+    {"arm_forward_deg", "deg", &GaitStyle::arm_forward_deg, 0, 60, "arm swing forward"},
+    {"elbow_back_deg", "deg", &GaitStyle::elbow_back_deg, 0, 100, "elbow flexion when the arm is back"},
+    {"elbow_forward_deg", "deg", &GaitStyle::elbow_forward_deg, 0, 120, "elbow flexion when the arm is forward"},
+    {"arm_abduction_deg", "deg", &GaitStyle::arm_abduction_deg, 0, 30, "arms held away from the trunk"},
+    {"forearm_pronation_deg", "deg", &GaitStyle::forearm_pronation_deg, 0, 90,
+     "forearms turned inward, palms to the thighs"},
+    {"finger_flexion_deg", "deg", &GaitStyle::finger_flexion_deg, 0, 90, "fingers bent"},
+}};
+
+}  // namespace mobil::inline v0_3

@@ -1,0 +1,46 @@
+#pragma once
+// A lane is an individual; a block is sixteen of them. A component is written once, as a template over its
+// scalar F: with F = float it is one individual's row, with F = Lanes<float> it is a block of sixteen rows
+// whose every field lies as sixteen neighbouring numbers.
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace mobil::inline v0_3 {
+
+/// Rows in a block.
+inline constexpr std::size_t lane_count = 16;
+
+/// Sixteen values of one field, one per individual, aligned for the widest register.
+template <class T>
+struct alignas(64) Lanes {
+  T lane[lane_count];
+
+  constexpr T& operator[](std::size_t i) { return lane[i]; }
+  constexpr const T& operator[](std::size_t i) const { return lane[i]; }
+};
+
+/// The unsigned integer that goes with a scalar: Whole<float> is a number, Whole<Lanes<float>> sixteen of them.
+template <class F>
+using Whole = std::conditional_t<std::is_same_v<F, Lanes<float>>, Lanes<std::uint32_t>, std::uint32_t>;
+
+/// A point, direction or other vector; the field that holds it says its unit and frame.
+template <class F>
+struct Vec3 {
+  F x, y, z;
+};
+
+/// Unit quaternion, w the scalar part; rotates a segment's axes into its parent's or the world's.
+template <class F>
+struct Quat {
+  F x, y, z, w;
+};
+
+/// Index of a bilateral field: the right side is 0, the left side 1.
+namespace sides {
+enum Side : std::uint32_t { right = 0, left = 1 };
+}  // namespace sides
+using sides::Side;  // Side::left is ours; left alone may be std::left
+
+}  // namespace mobil::inline v0_3

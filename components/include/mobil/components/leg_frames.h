@@ -1,0 +1,49 @@
+#pragma once
+// Where the bones of one leg are, as its lines of action need them.
+
+#include <mobil/components/lanes.h>
+
+namespace mobil::inline v0_3 {
+
+/// World places (m) of a leg's joint centres and world rotations of its bones. Of a left leg: the mirror image
+/// (position x → −x, quaternion (x, y, z, w) → (x, −y, −z, w)), so that every leg here is a right one.
+template <class F>
+struct LegFrames {
+  Vec3<F> hip_m, knee_m, ankle_m;
+  Quat<F> pelvis, thigh, shank, foot;
+};
+
+/// A leg's bones in the frame of its own knee: origin at the knee joint, axes of the thigh, m. `pelvis` and `foot`:
+/// what the axes x, y and z of these bones are there. The shank is turned about x by the flexion, whose sine and cosine
+/// these are. Of a left leg: the mirror image, as in LegFrames.
+template <class F>
+struct KneeFrame {
+  Vec3<F> hip_m, ankle_m;
+  Vec3<F> pelvis[3], foot[3];
+  F flexion_rad, sine, cosine;
+};
+
+/// Where a leg is in the walk: the part of the gait cycle that is over since its own heel strike, 0 to 1; and the
+/// walk's speed over √(g · leg), 0 of who stands and of posed people.
+template <class F>
+struct LegClock {
+  F cycle, speed;
+};
+
+/// Both legs of a person, right first, as they are looked up by their muscles.
+struct LegPost {
+  struct alignas(64) Leg {
+    LegFrames<float> frames;
+    LegClock<float> clock;
+  };
+  Leg leg[2];
+};
+
+/// Sizes of a leg over those of the leg that the published paths belong to: lengths of thigh and shank, and of both
+/// together for what lies across them.
+template <class F>
+struct LegScale {
+  F thigh, shank, across;
+};
+
+}  // namespace mobil::inline v0_3

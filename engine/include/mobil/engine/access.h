@@ -1,0 +1,471 @@
+#pragma once
+// What a system may take, and what each kind of parameter says about it. The scheduler reads a system's signature:
+//
+//   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and may read it)
+//   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and may read it)
+//   Maybe<C>                 reads this block's component where the table has it; MaybeField<const Tag> a field,
+//                            MaybeField<Tag> writes it (and may read it)
+//   Ahead<C>                 where the next block has it, to fetch what it names meanwhile
+//   Later<Tag>               where this block has a field that a later system works on, to fetch it meanwhile
+//   Previous<C>              reads what the component was before this tick's writers
+//   Lookup<C>                reads the component of other entities, this tick's
+//   Published<T>             writes what the block's rows tell others; LookupPublished<T> reads it
+//   TagValue<Tag>, Shared<T> the table's tag or shared resource
+//   Scratch<Tag>             memory to work in, as many floats as the table's tag says
+//   Tally<Tag>               adds to a count of the tick, which is no state (Schedule::tally); one a system
+//   Tick, float              the tick; a plain float is its length in s
+//   Rows                     the entities of the block's lanes
+//   const Table&             the block's table: how many rows, of what parts; how to work may depend on it, no result
+//
+// It runs on every block of every table that has all components, fields and tags named (Maybes, Later, Scratch, Tally
+// aside).
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include <mobil/engine/key.h>
+#include <mobil/engine/world.h>
+
+namespace mobil::inline v0_3 {
+
+/// The tick under way: its length, s, and its number from 0 on.
+struct Tick {
+  float dt_s = 0;
+  std::uint32_t index = 0;
+};
+
+/// The lanes of one block: sixteen entities, of which the first `live` are rows and the rest parked copies of the
+/// first.
+struct Rows {
+  const Entity* entity;
+  std::uint32_t live;
+};
+
+/// A field of one block: word w of lane l at data[16·w + l], 64-byte aligned.
+template <class Tag>
+struct Field {
+  std::conditional_t<std::is_const_v<Tag>, const float*, float*> data;
+  std::uint32_t words;
+  const float* next;  // where the table's next block has it, to be fetched meanwhile and never read; null at the last
+};
+
+/// A component as it was before this tick: the system runs ahead of all that write it.
+template <template <class> class C>
+struct Previous {
+  const C<Lanes<float>>* block;
+
+  const C<Lanes<float>>& operator*() const { return *block; }
+  const C<Lanes<float>>* operator->() const { return block; }
+};
+
+/// A component of the table's next blocks, whose values an earlier tick left there: to guess by what will be needed
+/// next and fetch it. Null past the last block.
+template <template <class> class C>
+struct Ahead {
+  const C<Lanes<float>>*block, *second, *third;
+};
+
+/// A field of this block that a later system works on, to be fetched for it and never read: null where it is missing.
+template <class Tag>
+struct Later {
+  const float* data;
+  std::uint32_t words;
+};
+
+/// A component that not every table has: null where it is missing.
+template <template <class> class C>
+struct Maybe {
+  const C<Lanes<float>>* block;
+};
+
+/// A field that not every table has: null where it is missing.
+template <class Tag>
+struct MaybeField {
+  std::conditional_t<std::is_const_v<Tag>, const float*, float*> data;
+};
+
+/// Memory of this block's own until the system returns, 64-byte aligned, with anything in it: as many floats as the
+/// table's TagValue<Tag>, null where that is 0 or missing.
+template <class Tag>
+struct Scratch {
+  float* data;
+  std::size_t floats;
+};
+
+/// A count that systems add to and the schedule keeps: what is rare and has to be told, and is no state. Sums of whole
+/// numbers: the same in whatever order blocks are worked on.
+template <class Tag>
+class Tally {
+ public:
+  explicit Tally(std::atomic<std::uint64_t>* sum) : sum_(sum) {}
+
+  /// From any thread.
+  void add(std::uint64_t count) const {
+    if (count > 0) sum_->fetch_add(count, std::memory_order_relaxed);
+  }
+
+ private:
+  std::atomic<std::uint64_t>* sum_;
+};
+
+/// Where a column of any entity's row is.
+class ColumnLookup {
+ public:
+  /// Where an entity's row of the column is: word w at column[16·w + lane].
+  struct Found {
+    const float* column = nullptr;  // null when the entity is stale or has no such column
+    std::uint32_t lane = 0;
+  };
+
+  ColumnLookup(const World& world, std::uint64_t id) : world_(&world), id_(id) {}
+  /// Fetches what `find` reads first.
+  void fetch(Entity entity) const { world_->fetch(entity); }
+  /// Null for a stale entity and where its table has no such column.
+  Found find(Entity entity) const {
+    const auto* const at = world_->locate(entity);
+    if (at == nullptr) return {};
+    Seen& seen = seen_[at->table % seen_count];
+    if (seen.number != at->table) {
+      const Table& table = world_->tables()[at->table];
+      seen = {at->table, table.column(id_), &table};
+    }
+    if (seen.first_word == Table::no_column) return {};
+    return {seen.table->block(at->row / lane_count) + seen.first_word * lane_count,
+            static_cast<std::uint32_t>(at->row % lane_count)};
+  }
+
+ private:
+  static constexpr std::size_t seen_count = 4;  // most that one asks for lie in few tables
+  struct Seen {
+    std::uint32_t number = ~0U, first_word = Table::no_column;
+    const Table* table = nullptr;
+  };
+
+  const World* world_;
+  std::uint64_t id_;
+  mutable Seen seen_[seen_count];
+};
+
+/// Rows of component C of any entity.
+template <template <class> class C>
+class Lookup {
+ public:
+  explicit Lookup(const World& world) : columns_(world, type_id<C<float>>()) {}
+
+  /// Word 0 of that entity's row; word w is 16·w further on. Null when the entity is stale or has no such component.
+  const float* find(Entity entity) const {
+    const auto [column, lane] = columns_.find(entity);
+    return column == nullptr ? nullptr : column + lane;
+  }
+
+ private:
+  ColumnLookup columns_;
+};
+
+/// What the sixteen rows of a block publish, to be written for all of them.
+template <class T>
+struct Published {
+  T* row;
+};
+
+/// What any entity has published this tick.
+template <class T>
+class LookupPublished {
+ public:
+  explicit LookupPublished(const World& world) : columns_(world, type_id<T>()) {}
+
+  /// Fetches what `find` reads first.
+  void fetch(Entity entity) const { columns_.fetch(entity); }
+
+  /// Null when the entity is stale or publishes no T.
+  const T* find(Entity entity) const {
+    const auto [column, lane] = columns_.find(entity);
+    return column == nullptr ? nullptr : reinterpret_cast<const T*>(column) + lane;
+  }
+
+ private:
+  ColumnLookup columns_;
+};
+
+/// A function's or a lambda's parameters.
+template <class... P>
+struct Parameters {};
+template <class F>
+struct Signature : Signature<decltype(&F::operator())> {};
+template <class R, class... P>
+struct Signature<R (*)(P...)> : Parameters<P...> {};
+template <class R, class... P>
+struct Signature<R (*)(P...) noexcept> : Parameters<P...> {};
+template <class R, class F, class... P>
+struct Signature<R (F::*)(P...) const> : Parameters<P...> {};
+template <class R, class F, class... P>
+struct Signature<R (F::*)(P...) const noexcept> : Parameters<P...> {};
+template <class R, class F, class... P>
+struct Signature<R (F::*)(P...)> : Parameters<P...> {};
+
+/// What one parameter does with a component or field (`none`: nothing that order depends on).
+struct Access {
+  enum class Mode : std::uint8_t { none, read, write, previous, lookup };
+
+  Mode mode = Mode::none;
+  std::uint64_t id = 0;
+  std::string_view name;
+};
+
+/// A parameter as found in one table.
+struct Bound {
+  std::uint32_t first_word = 0;
+  std::uint32_t words = 0;
+  std::uint64_t tag = 0;
+  const void* resource = nullptr;
+  std::size_t scratch_floats = 0;
+};
+
+/// One block, about to be worked on.
+struct BlockView {
+  const World& world;
+  Table& table;
+  std::size_t block;
+  Tick tick;
+  float* scratch = nullptr;
+  std::atomic<std::uint64_t>* tally = nullptr;  // the system's
+};
+
+/// How a parameter of type P is declared (`access`), found in a table (`bind`, false where the table lacks it) and made
+/// for a block (`make`).
+template <class P>
+struct Parameter;
+
+template <class P>
+struct Parameter<const P&> : Parameter<P> {};
+
+/// Those that any table can serve.
+struct AnywhereParameter {
+  static constexpr Access access() { return {}; }
+  static bool bind(const World&, const Table&, Bound&) { return true; }
+};
+
+/// What a system cannot take.
+template <class P>
+struct Parameter : AnywhereParameter {
+  static_assert(!std::is_same_v<P, P>,
+                "a system takes blocks of sixteen: `const Pose<Lanes<float>>&` to read, `Pose<Lanes<float>>&` to write,"
+                " or what else mobil/engine/access.h names; not a row, not a copy");
+  static P make(const BlockView&, const Bound&);
+};
+
+/// How a component or a field is handed to a system: what it asks of a table, and where a block has it.
+template <Access::Mode mode, class T>
+struct ColumnParameter {
+  static constexpr Access access() { return {mode, type_id<T>(), type_name<T>()}; }
+  static bool bind(const World&, const Table& table, Bound& bound) {
+    const KeyPart* part = find_part(table.key(), type_id<T>());
+    if (part == nullptr || !has_column(part->kind)) return false;
+    bound.first_word = table.column(part->id);
+    bound.words = static_cast<std::uint32_t>(part->value);
+    return true;
+  }
+  static float* data(const BlockView& view, const Bound& bound) {
+    return view.table.block(view.block) + bound.first_word * lane_count;
+  }
+};
+
+/// How a tag or a shared resource is handed to a system.
+template <class T>
+struct TagParameter {
+  static constexpr Access access() { return {}; }
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    const KeyPart* part = find_part(table.key(), type_id<T>());
+    if (part == nullptr || has_column(part->kind)) return false;
+    bound.tag = part->value;
+    bound.resource = world.resource(part->value);
+    return true;
+  }
+};
+
+template <template <class> class C>
+struct Parameter<C<Lanes<float>>&> : ColumnParameter<Access::Mode::write, C<float>> {
+  static C<Lanes<float>>& make(const BlockView& view, const Bound& bound) {
+    static_assert(ComponentLayout<C>::words > 0);
+    return *reinterpret_cast<C<Lanes<float>>*>(Parameter::data(view, bound));
+  }
+};
+
+template <template <class> class C>
+struct Parameter<const C<Lanes<float>>&> : ColumnParameter<Access::Mode::read, C<float>> {
+  static const C<Lanes<float>>& make(const BlockView& view, const Bound& bound) {
+    return Parameter<C<Lanes<float>>&>::make(view, bound);
+  }
+};
+
+template <template <class> class C>
+struct Parameter<Maybe<C>> : ColumnParameter<Access::Mode::read, C<float>> {
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    if (!Parameter<const C<Lanes<float>>&>::bind(world, table, bound)) bound.words = 0;
+    return true;
+  }
+  static Maybe<C> make(const BlockView& view, const Bound& bound) {
+    return {bound.words == 0 ? nullptr : &Parameter<const C<Lanes<float>>&>::make(view, bound)};
+  }
+};
+
+template <template <class> class C>
+struct Parameter<Previous<C>> : ColumnParameter<Access::Mode::previous, C<float>> {
+  static Previous<C> make(const BlockView& view, const Bound& bound) {
+    return {&Parameter<C<Lanes<float>>&>::make(view, bound)};
+  }
+};
+
+template <class Tag>
+struct Parameter<Field<Tag>>
+    : ColumnParameter<std::is_const_v<Tag> ? Access::Mode::read : Access::Mode::write, std::remove_const_t<Tag>> {
+  static Field<Tag> make(const BlockView& view, const Bound& bound) {
+    const bool last = view.block + 1 >= view.table.block_count();
+    return {Parameter::data(view, bound), bound.words,
+            last ? nullptr : view.table.block(view.block + 1) + bound.first_word * lane_count};
+  }
+};
+
+template <template <class> class C>
+struct Parameter<Ahead<C>> : AnywhereParameter {
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    return Parameter<const C<Lanes<float>>&>::bind(world, table, bound);
+  }
+  static Ahead<C> make(const BlockView& view, const Bound& bound) {
+    const auto next = [&](std::size_t by) -> const C<Lanes<float>>* {
+      if (view.block + by >= view.table.block_count()) return nullptr;
+      return reinterpret_cast<const C<Lanes<float>>*>(view.table.block(view.block + by) +
+                                                      bound.first_word * lane_count);
+    };
+    return {next(1), next(2), next(3)};
+  }
+};
+
+template <class Tag>
+struct Parameter<Later<Tag>> : AnywhereParameter {
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    if (!Parameter<Field<const Tag>>::bind(world, table, bound)) bound.words = 0;
+    return true;
+  }
+  static Later<Tag> make(const BlockView& view, const Bound& bound) {
+    return {bound.words == 0 ? nullptr : view.table.block(view.block) + bound.first_word * lane_count, bound.words};
+  }
+};
+
+template <class Tag>
+struct Parameter<MaybeField<Tag>>
+    : ColumnParameter<std::is_const_v<Tag> ? Access::Mode::read : Access::Mode::write, std::remove_const_t<Tag>> {
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    if (!Parameter<Field<Tag>>::bind(world, table, bound)) bound.words = 0;
+    return true;
+  }
+  static MaybeField<Tag> make(const BlockView& view, const Bound& bound) {
+    return {bound.words == 0 ? nullptr : Parameter::data(view, bound)};
+  }
+};
+
+template <template <class> class C>
+struct Parameter<Lookup<C>> : AnywhereParameter {
+  static constexpr Access access() { return {Access::Mode::lookup, type_id<C<float>>(), type_name<C<float>>()}; }
+  static Lookup<C> make(const BlockView& view, const Bound&) { return Lookup<C>(view.world); }
+};
+
+template <class T>
+struct Parameter<Published<T>> : AnywhereParameter {
+  static constexpr Access access() { return {Access::Mode::write, type_id<T>(), type_name<T>()}; }
+  static bool bind(const World&, const Table& table, Bound& bound) {
+    bound.first_word = table.column(type_id<T>());
+    return bound.first_word != Table::no_column;
+  }
+  static Published<T> make(const BlockView& view, const Bound& bound) {
+    return {reinterpret_cast<T*>(view.table.block(view.block) + bound.first_word * lane_count)};
+  }
+};
+
+template <class T>
+struct Parameter<LookupPublished<T>> : AnywhereParameter {
+  static constexpr Access access() { return {Access::Mode::lookup, type_id<T>(), type_name<T>()}; }
+  static LookupPublished<T> make(const BlockView& view, const Bound&) { return LookupPublished<T>(view.world); }
+};
+
+template <class Tag>
+struct Parameter<TagValue<Tag>> : TagParameter<Tag> {
+  static TagValue<Tag> make(const BlockView&, const Bound& bound) { return {bound.tag}; }
+};
+
+template <class T>
+struct Parameter<Shared<T>> : TagParameter<T> {
+  static Shared<T> make(const BlockView&, const Bound& bound) {
+    return {static_cast<const T*>(bound.resource), bound.tag};
+  }
+};
+
+template <class Tag>
+struct Parameter<Scratch<Tag>> : AnywhereParameter {
+  static bool bind(const World&, const Table& table, Bound& bound) {
+    const KeyPart* part = find_part(table.key(), type_id<Tag>());
+    if (part != nullptr && part->kind == PartKind::tag) bound.scratch_floats = part->value;
+    return true;
+  }
+  static Scratch<Tag> make(const BlockView& view, const Bound& bound) {
+    return {bound.scratch_floats == 0 ? nullptr : view.scratch, bound.scratch_floats};
+  }
+};
+
+/// A tally's tag stands among its system's accesses, with mode `none`: the order of systems does not depend on it.
+template <class Tag>
+struct Parameter<Tally<Tag>> : AnywhereParameter {
+  static constexpr Access access() { return {Access::Mode::none, type_id<Tag>(), type_name<Tag>()}; }
+  static Tally<Tag> make(const BlockView& view, const Bound&) { return Tally<Tag>(view.tally); }
+};
+
+/// Whether a parameter is an Of of some tag, by value or by reference.
+template <template <class> class Of, class P>
+inline constexpr bool is_tagged = false;
+template <template <class> class Of, class Tag>
+inline constexpr bool is_tagged<Of, Of<Tag>> = true;
+template <template <class> class Of, class Tag>
+inline constexpr bool is_tagged<Of, const Of<Tag>&> = true;
+/// Whether it is memory to work in.
+template <class P>
+inline constexpr bool is_scratch = is_tagged<Scratch, P>;
+/// Whether it counts.
+template <class P>
+inline constexpr bool is_tally = is_tagged<Tally, P>;
+
+/// Whether a parameter means something only within a tick.
+template <class P>
+inline constexpr bool is_timed = is_scratch<P> || is_tally<P>;
+template <>
+inline constexpr bool is_timed<Tick> = true;
+template <>
+inline constexpr bool is_timed<const Tick&> = true;
+template <>
+inline constexpr bool is_timed<float> = true;
+
+template <>
+struct Parameter<Tick> : AnywhereParameter {
+  static Tick make(const BlockView& view, const Bound&) { return view.tick; }
+};
+
+template <>
+struct Parameter<float> : AnywhereParameter {
+  static float make(const BlockView& view, const Bound&) { return view.tick.dt_s; }
+};
+
+template <>
+struct Parameter<const Table&> : AnywhereParameter {
+  static const Table& make(const BlockView& view, const Bound&) { return view.table; }
+};
+
+template <>
+struct Parameter<Rows> : AnywhereParameter {
+  static Rows make(const BlockView& view, const Bound&) {
+    return {view.table.entities(view.block), view.table.live(view.block)};
+  }
+};
+
+}  // namespace mobil::inline v0_3

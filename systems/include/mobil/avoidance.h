@@ -1,0 +1,103 @@
+#pragma once
+// Walkers who keep out of each other's way. A host says where each wants to go; at every heel strike Avoidance chooses
+// the next step toward there, of those that are clear of everybody else.
+//
+//   Simulation simulation;
+//   Avoidance avoidance(simulation);
+//   avoidance.manage(human);                                  // goes on as it was asked to
+//   avoidance.set_walls({{{-5, 2.5F}, {5, 2.5F}}});
+//   avoidance.want({{human, 1.3F, heading_rad}});             // whenever the wish changes
+//   avoidance.update();                                       // before each tick
+//   simulation.tick();
+//
+// Everybody's *claim* is where they will be through the step under way and the quickest stop after it. A step is taken
+// only where it and the stop after it are clear of all claims; else a walker does what its claim says, which everybody
+// else has kept clear of. So by induction nobody walks into anybody, in whatever order they choose.
+//
+// What was asked is state and lies on the person's row (mobil/components/avoidance.h); claims follow from the world.
+// Decisions depend on the world, walls and discs alone, not on threads or rows. Who is managed is asked for speed and
+// heading through Avoidance: what change_gait and turn_to ask lasts until the next step.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <mobil/components/avoidance.h>
+#include <mobil/engine/error.h>
+#include <mobil/simulation.h>
+#include <mobil/systems/avoidance/obstacles.h>
+
+namespace mobil::inline v0_3 {
+
+/// What somebody wants: to walk at that speed, 0 or one that their gait may have, and that heading (rad, about +Y).
+struct WalkWish {
+  Entity human;
+  float speed_m_s, heading_rad;
+};
+
+/// How much room people keep. What is out of range is taken as the end that is nearer.
+struct AvoidanceOptions {
+  /// Half the breadth that two people keep clear of each other, of the height: 0.18 m at 1.72 m, which is the trunk's
+  /// and that of shoulders that are turned by 40°. 0.02 to 0.5.
+  float radius_h = 0.105F;
+  /// How far two may overlap who have waited, m: clothes and arms give way. 0 to 0.2.
+  float overlap_m = 0.03F;
+  /// Half the breadth of the shoulders with the arms, of the height: 0.22 m. Walkers keep it clear of walls, of discs
+  /// and of people who are not managed. A walker who comes nearer to another managed one turns the shoulders.
+  /// `radius_h` to 0.5: at `radius_h` nobody turns them.
+  float shoulders_h = 0.128F;
+};
+
+/// What an update did: people looked at; who chose a step; of these who kept to their claim, and who gave way to
+/// somebody that chose at the same time; who stands though they want to walk.
+struct AvoidanceReport {
+  std::size_t people = 0, chose = 0, kept_claim = 0, gave_way = 0, waiting = 0;
+};
+
+/// Chooses the steps of those it manages, before each tick.
+class Avoidance {
+ public:
+  /// Works on `simulation`, which must outlive it and stay where it is.
+  explicit Avoidance(Simulation& simulation, const AvoidanceOptions& options = {});
+  ~Avoidance();
+  Avoidance(Avoidance&&) noexcept;
+  Avoidance(const Avoidance&) = delete;
+  Avoidance& operator=(const Avoidance&) = delete;
+
+  /// From now on this walker avoids others, and wants what it was last asked to do; who is managed already goes on to
+  /// want what they want, with the room of these options. Errors: a stale handle, a posed person (Status::missing);
+  /// nothing has changed.
+  Result<void> manage(Entity human);
+  /// The same of many, each named once; all or none.
+  Result<void> manage(std::span<const Entity> people);
+  /// No more; walkers keep the gait they have, and face their way. A walker whom only a slope slows down takes the gait
+  /// they wish for once it ends; one who wishes to stand keeps the gait they have. Errors: a stale handle, somebody who
+  /// is not managed.
+  Result<void> release(Entity human);
+  Result<void> release(std::span<const Entity> people);
+  /// All or none. Errors: a stale handle, somebody who is not managed (Status::missing), a speed that their gait cannot
+  /// have, a heading not within ±10000; nothing has changed.
+  Result<void> want(std::span<const WalkWish> wishes);
+
+  /// Instead of those before. Errors: a place that is not finite; nothing has changed.
+  Result<void> set_walls(std::span<const Wall> walls);
+  Result<void> set_discs(std::span<const Disc> discs);
+
+  /// Chooses for those whose next step begins in the tick to come, and how far shoulders turn, which they keep to where
+  /// it is called no more. Call it before each tick. Takes memory only as
+  /// crowds grow.
+  AvoidanceReport update();
+
+ private:
+  struct Work;
+  Course<float> first_course(const World& world, Entity human) const;
+
+  Simulation& simulation_;
+  AvoidanceOptions options_;
+  std::vector<Disc> discs_;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace mobil::inline v0_3

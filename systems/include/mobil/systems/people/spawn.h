@@ -1,0 +1,50 @@
+#pragma once
+// People who come: checked first, then many rows at once.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/error.h>
+#include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
+
+namespace mobil::inline v0_3 {
+
+/// One person of many to come, at a place on the ground, walking where they look (rad about +Y, 0 toward +Z, positive
+/// to the left).
+struct SpawnRequest {
+  BodyRequest body{};
+  GaitRequest gait{};
+  float x_m = 0, z_m = 0, heading_rad = 0;
+  std::optional<LegMuscles> muscles{};
+  /// Further parts of the person's row, components of zeros: of a host's own, or `relevance_parts()` where a Relevance
+  /// will manage them, so that nothing moves then. The memory is the caller's.
+  std::span<const KeyPart> parts{};
+};
+
+/// What could not be made, and of which of the people.
+struct NotMade {
+  std::size_t person = 0;
+  Error error;
+};
+
+/// Checks all people, with jobs, finds their bodies' sizes and resolves their gaits, both as long as `people`, gaits
+/// drawn nearer to the usual ones where they break limits (mobil/systems/people/style_limits.h). `each(person, body)`
+/// looks at more of each; several threads call it. Errors: those of the first person who has one.
+tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const SpawnRequest> people,
+                                         std::span<BodySize<float>> size, std::span<Gait<float>> gait,
+                                         const std::function<Result<void>(std::size_t, const Body&)>& each);
+/// The rows of checked people who have the same `parts`, right heel striking; their muscles are not made. Throws
+/// std::bad_alloc: then there are none of them.
+void create_walkers(World& world, const Jobs& jobs, std::span<const SpawnRequest> people,
+                    std::span<const BodySize<float>> size, std::span<const Gait<float>> gait,
+                    std::span<Entity> entities);
+/// A person whose host animates the skeleton, in the anatomical position at the origin. Errors: a body out of range.
+Result<Entity> spawn_posed(World& world, const BodyRequest& body);
+
+}  // namespace mobil::inline v0_3

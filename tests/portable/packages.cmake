@@ -1,0 +1,13 @@
+# For other machines and for the browser: of what others wrote the headers alone, which need not be built for the target.
+set(MOBIL_HEADERS_FROM /usr/include CACHE PATH "Where the headers of Eigen (eigen3), Highway, fmt and tl::expected are")
+set(others ${PROJECT_BINARY_DIR}/others)  # these alone, without all else that lies beside them
+file(MAKE_DIRECTORY ${others})
+foreach(folder hwy fmt tl eigen3)
+  file(CREATE_LINK ${MOBIL_HEADERS_FROM}/${folder} ${others}/${folder} SYMBOLIC)
+endforeach()
+foreach(target Eigen3::Eigen hwy::hwy tl::expected fmt::fmt)
+  add_library(${target} INTERFACE IMPORTED)
+  target_include_directories(${target} SYSTEM INTERFACE ${others} ${others}/eigen3)
+endforeach()
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY "FMT_STATIC_THOUSANDS_SEPARATOR=','")  # no std::locale
+target_compile_definitions(hwy::hwy INTERFACE HWY_COMPILE_ONLY_STATIC)

@@ -9,7 +9,7 @@
 
 #include "assets/reduction/reduced_basis.h"
 #include "systems/deformation/reduced.h"
-#include "systems/deformation/reference.h"
+#include "demo/lab/reference/reference.h"
 #include "tests/fem/spindle.h"
 #include "tests/labels.h"
 

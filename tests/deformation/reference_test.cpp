@@ -1,5 +1,5 @@
 // The double-precision solver against dense matrices, closed forms and the invariants of its methods.
-#include "systems/deformation/reference.h"
+#include "demo/lab/reference/reference.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "assets/reduction/reduced_belly.h"
-#include "systems/deformation/reference.h"
+#include "demo/lab/reference/reference.h"
 #include "tests/fem/oracle.h"
 
 namespace mobil::reduced_basis_test {

@@ -15,7 +15,7 @@
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/finite.h"
 #include "systems/deformation/reduced.h"
-#include "systems/deformation/reference.h"
+#include "demo/lab/reference/reference.h"
 
 namespace mobil {
 namespace {

@@ -13,7 +13,7 @@
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/reference.h"
+#include "demo/lab/reference/reference.h"
 
 namespace mobil {
 

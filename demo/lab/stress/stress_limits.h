@@ -8,7 +8,7 @@
 #include <mobil/engine/error.h>
 #include "assets/fem/stiffness_terms.h"
 #include "demo/lab/stress/stress.h"
-#include "systems/deformation/reference.h"
+#include "demo/lab/reference/reference.h"
 
 namespace mobil {
 

@@ -1,4 +1,4 @@
-#include "systems/deformation/reference.h"
+#include "demo/lab/reference/reference.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 #include "assets/fem/kernel_arrays.h"
 
-namespace mobil::inline v0_3 {
+namespace mobil {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -319,4 +319,4 @@ bool ReferenceBelly::finite() const {
   return state_->u.allFinite();
 }
 
-}  // namespace mobil::inline v0_3
+}  // namespace mobil

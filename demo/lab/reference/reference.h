@@ -13,7 +13,7 @@
 #include "assets/fem/critical_step.h"
 #include "assets/fem/stiffness_terms.h"
 
-namespace mobil::inline v0_3 {
+namespace mobil {
 
 /// One belly and how it is stepped: C = α·M + β·K, foundation K_f = ω_f²·M in x and y alone.
 struct ReferenceOptions {
@@ -80,4 +80,4 @@ class ReferenceBelly {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace mobil::inline v0_3
+}  // namespace mobil

@@ -51,6 +51,10 @@ if grep -q ' Eigen::' "$scratch/symbols"; then
   echo "our libraries have functions of Eigen under its own name, which a host's could stand in for" >&2
   exit 1
 fi
+if grep -E ' [VW] .*\bfmt::' "$scratch/symbols"; then
+  echo "our libraries have these of fmt, which a host's fmt of other flags could stand in for" >&2
+  exit 1
+fi
 for internal in engine/row_hash.h systems/muscles/change_muscles.h systems/gait/balance-inl.h assets/reduction/reduced_training.h; do
   [ -f "$2/$internal" ] || { echo "$internal is gone; name another internal header here" >&2; exit 1; }
   [ ! -e "$scratch/prefix/include/mobil/$internal" ] || { echo "$internal is internal and installed" >&2; exit 1; }

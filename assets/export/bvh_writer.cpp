@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <iterator>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -72,16 +71,15 @@ std::string bvh_text(const WalkRecording& recording) {
     turns[s] = joint_turns(local);
   }
   text += fmt::format("MOTION\nFrames: {}\nFrame Time: {:.9f}\n", recording.frames.size(), recording.frame_s);
-  auto out = std::back_inserter(text);
   for (std::size_t f = 0; f < recording.frames.size(); ++f) {
     for (const std::size_t s : skeleton.order) {
       if (skeleton.slides[s]) {
         const auto& places = keys.segment[s].translation_m;
         const auto& p = places[std::min(f, places.size() - 1)];
-        fmt::format_to(out, "{:.6f} {:.6f} {:.6f} ", p.x, p.y, p.z);
+        text += fmt::format("{:.6f} {:.6f} {:.6f} ", p.x, p.y, p.z);
       }
       const JointTurn& turn = turns[s][std::min(f, turns[s].size() - 1)];
-      fmt::format_to(out, "{:.5f} {:.5f} {:.5f} ", turn.x * bvh_degrees, turn.z * bvh_degrees, turn.y * bvh_degrees);
+      text += fmt::format("{:.5f} {:.5f} {:.5f} ", turn.x * bvh_degrees, turn.z * bvh_degrees, turn.y * bvh_degrees);
     }
     text.back() = '\n';
   }

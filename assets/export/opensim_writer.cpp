@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -48,11 +47,10 @@ std::string table_text(const OpensimTable& table, const WalkRecording& recording
   std::string text = fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\nendheader\ntime", title, rows,
                                  table.name.size() + 1, in_degrees ? "yes" : "no");
   for (const auto& name : table.name) text += "\t" + name;
-  auto out = std::back_inserter(text);
   for (std::size_t row = 0; row < rows; ++row) {
     const double time_s = recording.start_s + static_cast<double>(row) * recording.frame_s;
-    fmt::format_to(out, "\n{:.6f}", time_s);
-    for (const auto& column : table.column) fmt::format_to(out, "\t{:.6f}", column[row]);
+    text += fmt::format("\n{:.6f}", time_s);
+    for (const auto& column : table.column) text += fmt::format("\t{:.6f}", column[row]);
   }
   text += '\n';
   return text;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 #include <span>
 #include <string>
@@ -49,22 +48,22 @@ std::string usd_array(const Range& values, const Write& write) {
   std::string text = "[";
   for (const auto& value : values) {
     if (text.size() > 1) text += ", ";
-    write(std::back_inserter(text), value);
+    write(text, value);
   }
   text += "]";
   return text;
 }
 
 std::string usd_numbers(std::span<const std::uint32_t> values) {
-  return usd_array(values, [](auto out, std::uint32_t value) { fmt::format_to(out, "{}", value); });
+  return usd_array(values, [](std::string& out, std::uint32_t value) { out += fmt::format("{}", value); });
 }
 std::string usd_points(std::span<const Vec3<float>> points) {
-  return usd_array(points,
-                   [](auto out, const auto& p) { fmt::format_to(out, "({:.5f}, {:.5f}, {:.5f})", p.x, p.y, p.z); });
+  return usd_array(
+      points, [](std::string& out, const auto& p) { out += fmt::format("({:.5f}, {:.5f}, {:.5f})", p.x, p.y, p.z); });
 }
 std::string usd_normals(std::span<const Vec3<float>> position, const std::vector<std::uint32_t>& triangle) {
-  return usd_array(vertex_normals(columns_of(position), triangle).colwise(), [](auto out, const auto& n) {
-    fmt::format_to(out, "({:.3f}, {:.3f}, {:.3f})", n.x(), n.y(), n.z());
+  return usd_array(vertex_normals(columns_of(position), triangle).colwise(), [](std::string& out, const auto& n) {
+    out += fmt::format("({:.3f}, {:.3f}, {:.3f})", n.x(), n.y(), n.z());
   });
 }
 std::string usd_extent(std::span<const Vec3<float>> points) {
@@ -78,8 +77,8 @@ std::string usd_extent(std::span<const Vec3<float>> points) {
 }
 /// `atlas`: of places to the right and down from the upper left corner, where USD counts up from the lower left one.
 std::string usd_texture(std::span<const TexturePlace> places, bool atlas = false) {
-  return usd_array(places, [&](auto out, const TexturePlace& place) {
-    fmt::format_to(out, "({:.4f}, {:.4f})", place.along, atlas ? 1 - place.around : place.around);
+  return usd_array(places, [&](std::string& out, const TexturePlace& place) {
+    out += fmt::format("({:.4f}, {:.4f})", place.along, atlas ? 1 - place.around : place.around);
   });
 }
 std::string usd_colour(const Vec3<float>& c) {
@@ -93,7 +92,7 @@ std::string joint_tokens() {
     const std::size_t parent = index(segment_parent[s]);
     path[s] = (parent == s ? "" : path[parent] + "/") + std::string(segment_name[s]);
   }
-  return usd_array(path, [](auto out, const std::string& name) { fmt::format_to(out, "\"{}\"", name); });
+  return usd_array(path, [](std::string& out, const std::string& name) { out += fmt::format("\"{}\"", name); });
 }
 
 std::string usd_matrix(const Eigen::Vector3d& scale, const Eigen::Vector3d& place) {
@@ -120,7 +119,7 @@ void add_skeleton(UsdText& usd, const StandingPlaces& own, const StandingPlaces&
     bind[s] = usd_matrix(smaller, figure[s]);
     rest[s] = usd_matrix(Eigen::Vector3d::Ones(), own[s] - from);
   }
-  const auto write = [](auto out, const std::string& matrix) { fmt::format_to(out, "{}", matrix); };
+  const auto write = [](std::string& out, const std::string& matrix) { out += matrix; };
   usd.open("def Skeleton", "Skeleton", "prepend apiSchemas = [\"SkelBindingAPI\"]");
   usd.line("uniform token[] joints = " + joint_tokens());
   usd.line("uniform matrix4d[] bindTransforms = " + usd_array(bind, write));
@@ -135,19 +134,19 @@ void add_animation(UsdText& usd, const SkeletonKeys& keys) {
   std::size_t frames = keys.world.size();
   const auto key = [](const auto& all, std::size_t f) { return all[std::min(f, all.size() - 1)]; };
   add_samples(usd, "float3[] translations", frames, [&](std::size_t f) {
-    return usd_array(keys.segment, [&](auto out, const SegmentKeys& segment) {
+    return usd_array(keys.segment, [&](std::string& out, const SegmentKeys& segment) {
       const auto t = key(segment.translation_m, f);
-      fmt::format_to(out, "({:.6f}, {:.6f}, {:.6f})", t.x, t.y, t.z);
+      out += fmt::format("({:.6f}, {:.6f}, {:.6f})", t.x, t.y, t.z);
     });
   });
   add_samples(usd, "quatf[] rotations", frames, [&](std::size_t f) {
-    return usd_array(keys.segment, [&](auto out, const SegmentKeys& segment) {
+    return usd_array(keys.segment, [&](std::string& out, const SegmentKeys& segment) {
       const auto q = key(segment.rotation, f);
-      fmt::format_to(out, "({:.7f}, {:.7f}, {:.7f}, {:.7f})", q.w, q.x, q.y, q.z);
+      out += fmt::format("({:.7f}, {:.7f}, {:.7f}, {:.7f})", q.w, q.x, q.y, q.z);
     });
   });
   usd.line("half3[] scales = " +
-           usd_array(keys.segment, [](auto out, const SegmentKeys&) { fmt::format_to(out, "(1, 1, 1)"); }));
+           usd_array(keys.segment, [](std::string& out, const SegmentKeys&) { out += "(1, 1, 1)"; }));
   usd.close();
 }
 
@@ -178,7 +177,7 @@ void add_cloth(UsdText& usd, const FigurePiece& piece) {
   const std::string each = fmt::format(" (elementSize = {}; interpolation = \"vertex\")", joints);
   usd.line("int[] primvars:skel:jointIndices = " + usd_numbers(joint) + each);
   usd.line("float[] primvars:skel:jointWeights = " +
-           usd_array(weight, [](auto out, float w) { fmt::format_to(out, "{:.9g}", w); }) + each);
+           usd_array(weight, [](std::string& out, float w) { out += fmt::format("{:.9g}", w); }) + each);
   usd.line("matrix4d primvars:skel:geomBindTransform = " +
            usd_matrix(Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()));
 }

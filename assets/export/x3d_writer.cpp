@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -18,10 +17,10 @@ namespace {
 
 /// Joints' places have a digit more, for they add up along the chain.
 void append_point(std::string& text, const Vec3<float>& p) {
-  fmt::format_to(std::back_inserter(text), "{:.5f} {:.5f} {:.5f} ", p.x, p.y, p.z);
+  text += fmt::format("{:.5f} {:.5f} {:.5f} ", p.x, p.y, p.z);
 }
 void append_place(std::string& text, const Vec3<float>& p) {
-  fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f} {:.6f} ", p.x, p.y, p.z);
+  text += fmt::format("{:.6f} {:.6f} {:.6f} ", p.x, p.y, p.z);
 }
 
 /// Axis and angle.
@@ -29,7 +28,7 @@ void append_turn(std::string& text, const Quat<float>& q) {
   const Eigen::AngleAxisd turn(Eigen::Quaterniond(static_cast<double>(q.w), static_cast<double>(q.x),
                                                   static_cast<double>(q.y), static_cast<double>(q.z)));
   const Eigen::Vector3d& axis = turn.axis();
-  fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f} {:.6f} {:.6f} ", axis.x(), axis.y(), axis.z(), turn.angle());
+  text += fmt::format("{:.6f} {:.6f} {:.6f} {:.6f} ", axis.x(), axis.y(), axis.z(), turn.angle());
 }
 
 std::string points_text(const std::vector<Vec3<float>>& position) {
@@ -74,7 +73,7 @@ void add_shape(MovingScene& scene, const Vec3<float>& colour, const std::vector<
   text.field("creaseAngle", "3.1416");
   std::string corners;
   for (std::size_t i = 0; i + 2 < triangle.size(); i += 3) {
-    fmt::format_to(std::back_inserter(corners), "{} {} {} -1 ", triangle[i], triangle[i + 1], triangle[i + 2]);
+    corners += fmt::format("{} {} {} -1 ", triangle[i], triangle[i + 1], triangle[i + 2]);
   }
   text.fields("coordIndex", corners);
   text.open("Coordinate", name, "coord");
@@ -118,7 +117,7 @@ void add_movement(MovingScene& scene, double frame_s) {
   const std::size_t last = scene.frames - 1;
   std::string keys;
   for (std::size_t f = 0; f <= last; ++f) {
-    fmt::format_to(std::back_inserter(keys), "{:.8f} ", static_cast<double>(f) / static_cast<double>(last));
+    keys += fmt::format("{:.8f} ", static_cast<double>(f) / static_cast<double>(last));
   }
   const std::string clock = scene.names.take("clock");
   text.open("TimeSensor", clock);

@@ -14,6 +14,13 @@
 namespace mobil::inline v0_3 {
 namespace {
 
+/// "a, b, c".
+std::string listed(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
 /// Nothing for an open quote.
 std::optional<std::vector<std::string>> split(std::string_view line) {
   std::vector<std::string> cells(1);
@@ -90,11 +97,10 @@ Result<CsvTable> parse_csv(std::string_view text, std::string_view name, std::sp
   for (const auto column_name : required) {
     if (table.header.empty() || column(table, column_name)) continue;
     return fail(fmt::format("{} line {}: no column '{}'; the header needs {}", name, header_line, column_name,
-                            fmt::join(required, ", ")));
+                            listed(required)));
   }
   if (table.row.empty()) {
-    return fail(
-        fmt::format("{}: no rows; write a header with {} and at least one row", name, fmt::join(required, ", ")));
+    return fail(fmt::format("{}: no rows; write a header with {} and at least one row", name, listed(required)));
   }
   return table;
 }
@@ -104,7 +110,7 @@ Result<CsvTable> read_csv(const std::string& path, std::span<const std::string_v
   std::ifstream in(path, std::ios::binary);
   if (!in || std::filesystem::is_directory(path, ignored)) {
     return fail(fmt::format("{}: cannot be read; put a CSV file there, or name another, with the columns {}", path,
-                            fmt::join(required, ", ")));
+                            listed(required)));
   }
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   return parse_csv(text, path, required);

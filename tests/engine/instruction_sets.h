@@ -15,11 +15,11 @@ inline constexpr std::int64_t fused_targets = HWY_AVX2 | HWY_AVX3 | HWY_NEON;
 
 /// The instruction sets that kernels are compiled for and this machine has: one alone where MOBIL_X86 is `native`.
 inline std::vector<std::int64_t> instruction_sets() {
+  auto sets = hwy::SupportedAndGeneratedTargets();  // the best one first
 #if defined(MOBIL_KERNELS_FOR_THIS_MACHINE)
-  return {hwy::SupportedTargets() & -hwy::SupportedTargets()};
-#else
-  return hwy::SupportedAndGeneratedTargets();
+  sets.resize(1);
 #endif
+  return sets;
 }
 
 /// Calls f(name) once for each of these instruction sets, with kernels dispatched to it.

@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <vector>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/components/relevance.h>
 #include <mobil/png.h>
 #include <mobil/schedule.h>
-#include "assets/files/output_file.h"
 #include "demo/crowd/alive_scene.h"
 #include "demo/crowd/crowd_picture.h"
 #include "demo/crowd/crowd_report.h"

@@ -10,10 +10,10 @@
 #include <optional>
 #include <string>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/local_transport.h>
 #include <mobil/mpi_transport.h>
 #include <mobil/png.h>
-#include "assets/files/output_file.h"
 #include "demo/crowd/alive_run.h"
 #include "demo/crowd/city_run.h"
 #include "demo/crowd/crowd_export.h"

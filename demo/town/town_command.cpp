@@ -9,9 +9,9 @@
 #include <optional>
 #include <string>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/png.h>
 #include <mobil/video.h>
-#include "assets/files/output_file.h"
 #include "demo/program/commands.h"
 #include "demo/program/json.h"
 #include "demo/program/progress.h"

@@ -7,11 +7,11 @@
 #include <iterator>
 #include <numbers>
 
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
+#include <mobil/systems/gait/resolve_gait.h>
 #include "demo/program/nearest_name.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"
-#include "systems/gait/gait.h"
 
 namespace mobil {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include <mobil/anthropometry.h>
+#include <mobil/assets/files/output_file.h>
 #include <mobil/png.h>
-#include "assets/files/output_file.h"
 #include "demo/lab/body/body_json.h"
 #include "demo/lab/body/body_picture.h"
 #include "demo/program/body_options.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/muscle_table.h>
-#include "assets/files/output_file.h"
 #include "demo/lab/frontier/frontier.h"
 #include "demo/lab/frontier/frontier_finite.h"
 #include "demo/lab/frontier/frontier_living.h"

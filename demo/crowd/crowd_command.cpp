@@ -14,7 +14,6 @@
 #include <mobil/local_transport.h>
 #include <mobil/mpi_transport.h>
 #include <mobil/png.h>
-#include "demo/crowd/alive_run.h"
 #include "demo/crowd/city_run.h"
 #include "demo/crowd/crowd_export.h"
 #include "demo/crowd/crowd_options.h"
@@ -79,7 +78,6 @@ Result<void> export_crowd(const CrowdOptions& options, CrowdScene& scene) {
 }
 
 Result<void> run(const CrowdOptions& options) {
-  if (options.alive) return run_alive(options);
   auto made = CrowdScene::make(options.crowd, show_progress);
   if (!made) return tl::unexpected(made.error());
   CrowdScene& scene = **made;

@@ -41,25 +41,20 @@ Result<MuscleSet> read_muscles(const std::string& text) {
 
 const char* const walk_muscles_help =
     "Muscles: a belly is a block of elements in the frame of its line of action.\n"
-    "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles that act alike, "
-    "and\n"
-    "    cheap; members are the thirteen muscles on their own, for close views; what is not chosen is not simulated.\n"
+    "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles that act alike,\n"
+    "    and cheap; members are the thirteen muscles on their own, for close views; others are not simulated.\n"
     "  --method ecd: explicit, in steps short enough for each belly; icd: the same with the consistent mass;\n"
-    "    caa: implicit, one step a tick; static: no vibration at all; reduced: a few vectors of a finer mesh, the "
-    "cheapest\n"
-    "    that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the steps "
-    "taken.\n"
+    "    caa: implicit, one step a tick; static: no vibration at all; reduced: a few vectors of a finer mesh, the\n"
+    "    cheapest that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the\n"
+    "    steps taken.\n"
     "    finite: for close-ups; tissue that keeps its volume, whose fibres pull (--activation phase), on 425 nodes.\n"
-    "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in "
-    "line\n"
-    "    share each one's length, and the belly gets what the tendon leaves; muscles.csv has them. moments: excited "
-    "so\n"
-    "    that they make the walk's own moments at hip, knee and ankle as costs them least; motion.csv has what is "
-    "left.\n"
+    "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in\n"
+    "    line share each one's length, and the belly gets what the tendon leaves; muscles.csv has them. moments:\n"
+    "    excited so that they make the walk's own moments at hip, knee and ankle as costs least; motion.csv has the "
+    "rest.\n"
     "  --tuned: of --method reduced; how hard a muscle pulls stiffens and damps what shakes it, as in people.\n"
-    "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "
-    "Hz);\n"
-    "    without it they move by the line's pull alone.\n";
+    "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7\n"
+    "    Hz); without it they move by the line's pull alone.\n";
 
 std::vector<Option> walk_options(WalkText& text) {
   const char *gait = "Gait", *muscles = "Muscles", *pictures = "Pictures";

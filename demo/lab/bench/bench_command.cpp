@@ -167,10 +167,9 @@ Subcommand bench_command() {
   auto text = std::make_shared<BenchText>();
   Subcommand command{.name = "bench"};
   command.footer =
-      "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the "
-      "least\n"
-      "time that the thread had a processor; well below the best, other programs were at work. Of peak, of memory:\n"
-      "operations and bytes in the best time, over what one core does at most; above 100 % the caches serve.\n"
+      "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the\n"
+      "least time that the thread had a processor; well below the best, other programs were at work. Of peak, of\n"
+      "memory: operations and bytes in the best time, over what one core does at most; above 100 % the caches serve.\n"
       "crowd: people with eight muscles along 12 vectors, nobody looking; a tenth as many as --humans, as many, ten\n"
       "times as many (200000 at most). Its names: crowd.N.us_per_human_tick, crowd.N.compact.us_per_human_tick,\n"
       "crowd.large_over_small, crowd.compact.large_over_small, crowd.us_per_spawn.\n"

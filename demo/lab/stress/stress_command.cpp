@@ -188,9 +188,8 @@ Subcommand robustness_command() {
   auto text = std::make_shared<StressText>();
   Subcommand command{.name = "robustness"};
   command.footer =
-      "A line each: held or BROKE, the entry, what was tried: what is promised with its bound (why that bound): what "
-      "was\n"
-      "measured. Exit status 0 where all hold, 1 where some do not, 2 for bad usage.\n"
+      "A line each: held or BROKE, the entry, what was tried: what is promised with its bound (why that bound): what\n"
+      "was measured. Exit status 0 where all hold, 1 where some do not, 2 for bad usage.\n"
       "Example: mobil robustness slivers nan --csv robustness.csv";
   command.options = {named_option(stresses, text->names, "try"),
                      {"--list", &text->list, "Say what there is to try, and try nothing"},

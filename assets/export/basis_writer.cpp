@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
+#include <mobil/assets/files/output_file.h>
 #include "assets/export/gltf_buffers.h"
 #include "assets/export/mesh_shading.h"
-#include "assets/files/output_file.h"
 
 namespace mobil::inline v0_3 {
 namespace {

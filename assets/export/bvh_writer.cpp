@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/files/output_file.h>
 #include "assets/export/joint_angles.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
-#include "assets/files/output_file.h"
 
 namespace mobil::inline v0_3 {
 namespace {

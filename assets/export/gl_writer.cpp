@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/engine/geometry.h>
 #include "assets/export/mesh_shading.h"
 #include "assets/export/recording_check.h"
-#include "assets/files/output_file.h"
 
 namespace mobil::inline v0_3 {
 namespace {

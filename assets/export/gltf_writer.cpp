@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <mobil/assets/files/output_file.h>
 #include "assets/export/gltf_person.h"
 #include "assets/export/recording_check.h"
-#include "assets/files/output_file.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -1,4 +1,4 @@
-#include "assets/export/recorded_skin.h"
+#include <mobil/assets/export/recorded_skin.h>
 
 #include <algorithm>
 #include <array>

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/assets/surfaces/texture_places.h>
 #include "assets/export/figure_pieces.h"
 #include "assets/export/mesh_shading.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
 #include "assets/export/unique_names.h"
-#include "assets/files/output_file.h"
 
 namespace mobil::inline v0_3 {
 namespace {

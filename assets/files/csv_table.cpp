@@ -1,4 +1,4 @@
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
 
 #include <fmt/format.h>
 

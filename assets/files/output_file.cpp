@@ -1,4 +1,4 @@
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 
 #include <fmt/format.h>
 #include <unistd.h>

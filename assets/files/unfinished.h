@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <mutex>
 
+#include <mobil/assets/files/output_file.h>
+
 namespace mobil::inline v0_3 {
 
 /// From here on the path is a file or folder that is not complete. Noted before it is made, forgotten once it is gone
@@ -24,9 +26,5 @@ void remove_with_folders(const std::filesystem::path& path, const std::filesyste
 
 /// While it is held nothing is taken away: for steps that must all be done or none. The holder may call the others.
 std::unique_lock<std::recursive_mutex> hold_unfinished();
-
-/// Kills the programs and removes the files and folders. The last thing that a program does, on a thread of its own:
-/// not in a signal handler, for it allocates.
-void remove_unfinished() noexcept;
 
 }  // namespace mobil::inline v0_3

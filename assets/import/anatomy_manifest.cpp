@@ -14,8 +14,8 @@
 #include <tuple>
 #include <utility>
 
+#include <mobil/assets/files/csv_table.h>
 #include <mobil/muscle_table.h>
-#include "assets/files/csv_table.h"
 #include "assets/import/mesh_text.h"
 
 namespace mobil::inline v0_3 {

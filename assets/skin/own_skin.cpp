@@ -1,4 +1,4 @@
-#include "assets/skin/own_skin.h"
+#include <mobil/assets/skin/own_skin.h>
 
 #include <algorithm>
 #include <array>

@@ -7,9 +7,9 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/muscle_table.h>
-#include "assets/surfaces/muscle_surfaces.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -1,4 +1,4 @@
-#include "assets/surfaces/muscle_surfaces.h"
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 #include "demo/measure/measure.h"
 
 namespace mobil {

@@ -53,16 +53,7 @@ AliveScene::AliveScene(const AliveRequest& request) : request_(request), threads
   camera_ = first_view(request);
 }
 
-Result<std::unique_ptr<AliveScene>> AliveScene::make(const AliveRequest& request,
-                                                     const CrowdScene::Progress& progress) {
-  auto scene = make_empty(request, progress);
-  if (!scene) return scene;
-  if (auto done = (*scene)->populate(progress); !done) return tl::unexpected(done.error());
-  return scene;
-}
-
-Result<std::unique_ptr<AliveScene>> AliveScene::make_empty(const AliveRequest& request,
-                                                           const CrowdScene::Progress& progress) {
+Result<std::unique_ptr<AliveScene>> AliveScene::make_empty(const AliveRequest& request) {
   std::unique_ptr<AliveScene> scene(new AliveScene(request));
   if (request.library == nullptr) {
     if (auto done = load_baked_option(*scene->simulation_, request.baked); !done) return tl::unexpected(done.error());
@@ -75,16 +66,12 @@ Result<std::unique_ptr<AliveScene>> AliveScene::make_empty(const AliveRequest& r
   needs.compact_unseen = true;
   if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
   if (!request.muscles) return scene;
-  const auto preparing = [&](std::size_t done, std::size_t of) {
-    if (progress) progress("preparing", done, of);
-  };
-  if (auto done = prepare_and_keep(*scene->relevance_, *scene->simulation_, {}, preparing); !done)
+  if (auto done = prepare_and_keep(*scene->relevance_, *scene->simulation_, {}, {}); !done)
     return tl::unexpected(done.error());
   return scene;
 }
 
-Result<void> AliveScene::populate(const CrowdScene::Progress& progress) {
-  const std::size_t before = memory_.lent();
+Result<void> AliveScene::populate() {
   for (std::uint32_t number = 0; number < request_.alive; ++number) {
     if (request_.shards == 1 || shard_of(number, request_.shards) == request_.shard)
       walkers_.push_back({.number = number});
@@ -92,10 +79,7 @@ Result<void> AliveScene::populate(const CrowdScene::Progress& progress) {
   simulation_->reserve(walkers_.size());
   for (std::size_t first = 0; first < walkers_.size(); first += come_together) {
     if (auto done = come(first, std::min(come_together, walkers_.size() - first)); !done) return done;
-    if (progress) progress("spawning", std::min(first + come_together, walkers_.size()), walkers_.size());
   }
-  bytes_asleep_ =
-      static_cast<double>(memory_.lent() - before) / static_cast<double>(std::max<std::size_t>(walkers_.size(), 1));
   return {};
 }
 
@@ -162,8 +146,8 @@ WalkChange AliveScene::next_change(std::uint32_t slot) {
   return out;
 }
 
-AliveOrders fly(const AliveRequest& request, std::uint32_t tick, double tick_s) {
-  AliveOrders orders{first_view(request), 0};
+Viewpoint fly(const AliveRequest& request, std::uint32_t tick, double tick_s) {
+  Viewpoint camera = first_view(request);
   const auto every = static_cast<std::uint32_t>(std::max(1L, std::lround(request.cut_every_s / tick_s)));
   const std::uint32_t take = tick / every, since = tick % every;
   const float since_s = static_cast<float>(since) * static_cast<float>(tick_s);
@@ -175,13 +159,12 @@ AliveOrders fly(const AliveRequest& request, std::uint32_t tick, double tick_s) 
   const float phase = since_s / period_s, saw = std::abs(std::remainder(phase, 2.0F));
   const float yaw = to_middle + swing_rad * 4 * (saw - 0.5F);
   const float far_m = flies_m_s * since_s;
-  orders.cut = since == 0 ? 1 : 0;
-  orders.camera.position_m = {x_m + far_m * std::sin(to_middle), eye_height_m, z_m + far_m * std::cos(to_middle)};
-  orders.camera.forward = {std::sin(yaw), 0, std::cos(yaw)};
-  return orders;
+  camera.position_m = {x_m + far_m * std::sin(to_middle), eye_height_m, z_m + far_m * std::cos(to_middle)};
+  camera.forward = {std::sin(yaw), 0, std::cos(yaw)};
+  return camera;
 }
 
-Result<std::size_t> AliveScene::decide(const AliveOrders& orders) {
+Result<std::size_t> AliveScene::decide(const Viewpoint& camera) {
   std::vector<std::uint32_t>& now = due_[simulation_->ticks() % ring];
   changes_.resize(now.size());
   next_due_.resize(now.size());
@@ -194,8 +177,7 @@ Result<std::size_t> AliveScene::decide(const AliveOrders& orders) {
   for (std::size_t i = 0; i < now.size(); ++i) due_[next_due_[i]].push_back(now[i]);
   now.clear();
   if (auto done = simulation_->change_walks(changes_); !done) return tl::unexpected(done.error());
-  camera_ = orders.camera;
-  cut_ = orders.cut != 0;
+  camera_ = camera;
   SceneNeeds needs = relevance_->scene();
   needs.camera = camera_;
   if (auto done = relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
@@ -227,8 +209,7 @@ Result<std::vector<std::byte>> AliveScene::save() const {
     host.put(std::uint64_t{slots.size()});
     host.put_all(std::span<const std::uint32_t>(slots));
   }
-  host.put(AliveOrders{camera_, cut_ ? 1U : 0U});
-  host.put(bytes_asleep_);
+  host.put(camera_);
   return pack_shard(*simulation_, relevance_.get(), host.bytes());
 }
 
@@ -237,8 +218,7 @@ Result<void> AliveScene::restore(std::span<const std::byte> saved) {
   if (!host) return tl::unexpected(host.error());
   PlainReader reader(*host);
   std::uint64_t count = 0;
-  AliveOrders orders;
-  double asleep_bytes = 0;
+  Viewpoint camera;
   reader.take(count);
   auto walkers = reader.take_many<Walker>(static_cast<std::size_t>(count));
   auto due = due_;
@@ -255,15 +235,12 @@ Result<void> AliveScene::restore(std::span<const std::byte> saved) {
       if (sound) is_due[slot] = true;
     }
   }
-  reader.take(orders);
-  reader.take(asleep_bytes);
+  reader.take(camera);
   if (!reader.whole() || !sound || due_together != walkers.size())
     return fail("a crowd's bytes do not agree with themselves");
   walkers_ = std::move(walkers);
   due_ = std::move(due);
-  bytes_asleep_ = asleep_bytes;
-  camera_ = orders.camera;
-  cut_ = orders.cut != 0;
+  camera_ = camera;
   for (std::uint32_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);
   SceneNeeds needs = relevance_->scene();
   needs.camera = camera_;

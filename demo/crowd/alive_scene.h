@@ -31,43 +31,29 @@ struct AliveRequest {
   const Simulation* library = nullptr;
 };
 
-/// Where the camera is in a tick, and whether it has just cut to that place.
-struct AliveOrders {
-  Viewpoint camera;
-  std::uint32_t cut = 0;
-};
 /// What such a camera sees, as a picture has it.
 Camera picture_from(const Viewpoint& camera);
 /// The side of the square that they live on, m.
 double side_of(const AliveRequest& request);
 /// From a place of its own after each cut: ahead, and turning to and fro.
-AliveOrders fly(const AliveRequest& request, std::uint32_t tick, double tick_s);
+Viewpoint fly(const AliveRequest& request, std::uint32_t tick, double tick_s);
 
 class AliveScene {
  public:
-  /// With nobody in it; and with everybody, asleep. Errors: what the simulation refuses.
-  static Result<std::unique_ptr<AliveScene>> make_empty(const AliveRequest& request,
-                                                        const CrowdScene::Progress& progress = {});
-  Result<void> populate(const CrowdScene::Progress& progress = {});
-  static Result<std::unique_ptr<AliveScene>> make(const AliveRequest& request,
-                                                  const CrowdScene::Progress& progress = {});
+  /// With nobody in it; and then with everybody, asleep. Errors: what the simulation refuses.
+  static Result<std::unique_ptr<AliveScene>> make_empty(const AliveRequest& request);
+  Result<void> populate();
   AliveScene(const AliveScene&) = delete;
   AliveScene& operator=(const AliveScene&) = delete;
 
   /// The parts of a tick: what people do next and where the camera is; who wakes, who falls asleep, which methods; the
   /// simulation. Returns how many were asked for something.
-  Result<std::size_t> decide() { return decide(fly(request_, simulation_->ticks(), simulation_->tick_s())); }
-  Result<std::size_t> decide(const AliveOrders& orders);
+  Result<std::size_t> decide(const Viewpoint& camera);
   RelevanceReport choose();
   void tick() { simulation_->tick(); }
 
-  const AliveRequest& request() const { return request_; }
   const Simulation& simulation() const { return *simulation_; }
   Simulation& simulation() { return *simulation_; }
-  const Viewpoint& camera() const { return camera_; }
-  double side_m() const { return side_m_; }
-  /// Whether the camera cut to another place in the last `decide`.
-  bool cut() const { return cut_; }
 
   /// Who is awake, and of them who is seen.
   struct Count {
@@ -83,10 +69,8 @@ class AliveScene {
   /// All of it as bytes, and an empty one made of them (mobil/systems/cluster/shard.h).
   Result<std::vector<std::byte>> save() const;
   Result<void> restore(std::span<const std::byte> saved);
-  /// Of a sleeper, in the simulation, as it was before anybody was awake; of a person, in the host's records; bytes.
-  double bytes_asleep() const { return bytes_asleep_; }
+  /// What the simulation holds in memory of its people.
   std::size_t bytes_of_people() const { return memory_.lent(); }
-  std::size_t host_bytes() const { return sizeof(Walker) + 2 * sizeof(std::uint32_t); }
 
  private:
   /// One who lives; all else is drawn from the number.
@@ -108,13 +92,12 @@ class AliveScene {
   void keep_slot(std::uint32_t slot);
 
   AliveRequest request_;
-  double side_m_ = 0, bytes_asleep_ = 0;
+  double side_m_ = 0;
   MeteredMemory memory_;
   Threads threads_;  // the simulation's, and the host's own
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Relevance> relevance_;
   Viewpoint camera_;
-  bool cut_ = false;
   std::vector<Walker> walkers_;
   std::vector<std::uint32_t> slot_of_;                // by entity index
   std::array<std::vector<std::uint32_t>, ring> due_;  // slots

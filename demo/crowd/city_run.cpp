@@ -13,7 +13,6 @@
 #include <mobil/schedule.h>
 #include <mobil/shard_bytes.h>
 #include "demo/bake/baked_file.h"
-#include "demo/crowd/alive_run.h"
 #include "demo/crowd/city_picture.h"
 #include "demo/crowd/city_report.h"
 #include "demo/crowd/city_shard.h"
@@ -27,6 +26,12 @@ namespace {
 
 constexpr std::uint32_t city_hash_every = 60;  // ticks
 constexpr double city_live_every_s = 0.25;
+/// Pictures of a city, spread over the ticks of a run, each in a file with its number.
+constexpr std::uint32_t city_pictures = 3;
+
+std::filesystem::path numbered(const std::filesystem::path& file, std::uint32_t number) {
+  return file.parent_path() / fmt::format("{}_{}{}", file.stem().string(), number, file.extension().string());
+}
 
 /// What the first rank's host knows besides shards.
 struct Host {
@@ -73,10 +78,10 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
     if ((cluster.ticks() - run.first_tick) % city_hash_every == 0 || cluster.ticks() == run.first_tick + ticks)
       run.hashes.push_back(cluster.state_hash());
     const std::uint32_t since = cluster.ticks() - run.first_tick;
-    for (std::size_t i = 0; options.alive && !options.capture.empty() && i < alive_pictures; ++i) {
-      if (since != alive_picture_tick(i, ticks)) continue;
-      const AliveOrders last = fly(*options.alive, cluster.ticks() - 1, run.tick_s);
-      take_picture(ranks, cluster, picture_from(last.camera), pictures, numbered(options.capture, i + 1));
+    for (std::uint32_t i = 0; options.alive && !options.capture.empty() && i < city_pictures; ++i) {
+      if (since != (2 * i + 1) * ticks / (2 * city_pictures)) continue;
+      const Viewpoint camera = fly(*options.alive, cluster.ticks() - 1, run.tick_s);
+      take_picture(ranks, cluster, picture_from(camera), pictures, numbered(options.capture, i + 1));
     }
     if (!ranks.first() || wall_now_s() < live_s) continue;
     show(fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms, of the first of {} ranks",

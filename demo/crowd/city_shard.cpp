@@ -94,7 +94,7 @@ class AliveShard : public CityShard {
   Result<void> restore(std::span<const std::byte> saved) override { return scene_->restore(saved); }
 
   Result<void> apply(std::span<const std::byte> commands) override {
-    const auto orders = read_orders<AliveOrders>(commands);
+    const auto orders = read_orders<Viewpoint>(commands);
     if (!orders) return tl::unexpected(orders.error());
     const double start = wall_now_s();
     const auto asked = scene_->decide(*orders);

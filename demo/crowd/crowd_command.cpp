@@ -10,11 +10,10 @@
 #include <optional>
 #include <string>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/local_transport.h>
 #include <mobil/mpi_transport.h>
 #include <mobil/png.h>
-#include "assets/files/output_file.h"
-#include "demo/crowd/alive_run.h"
 #include "demo/crowd/city_run.h"
 #include "demo/crowd/crowd_export.h"
 #include "demo/crowd/crowd_options.h"
@@ -79,7 +78,6 @@ Result<void> export_crowd(const CrowdOptions& options, CrowdScene& scene) {
 }
 
 Result<void> run(const CrowdOptions& options) {
-  if (options.alive) return run_alive(options);
   auto made = CrowdScene::make(options.crowd, show_progress);
   if (!made) return tl::unexpected(made.error());
   CrowdScene& scene = **made;
@@ -162,19 +160,18 @@ Subcommand crowd_command() {
       "state_hash for any number of threads (not with --budget, where methods follow the clock).\n"
       "The --near nearest to the middle of one edge are looked at: their muscles' control points are placed, within\n"
       "--near-tolerance; the others move on within --tolerance, along the vectors of their muscles alone.\n"
-      "A tick as measured is what the host decides, the choosing of methods and the simulation; missed is one that "
-      "took\n"
-      "longer than it simulates, by the wall's clock. It is a measurement: exit status 0 also where ticks were "
+      "A tick as measured is what the host decides, the choosing of methods and the simulation; missed is one that\n"
+      "took longer than it simulates, by the wall's clock. It is a measurement: exit status 0 also where ticks were "
       "missed.\n"
-      "Before it, not measured: spawning, and at least two seconds until methods have settled. heap requests are "
-      "those\n"
-      "of malloc and its kin on all threads. Of a picture's people those near the camera show their legs' bones and\n"
-      "muscles; an exported scene's are all dressed, each with a skeleton and skin of their own.\n"
-      "Under mpirun the crowd is spread over ranks, one thread each, in --shards that are simulated by themselves. "
-      "The\n"
-      "state_hash then depends on how many shards there are, and not on ranks, threads or machines; so it does after\n"
-      "a run that was killed goes on by --resume, on as many ranks as you like. The nearest are those of each shard.\n"
-      "\nExamples: mobil crowd\n"
+      "Before it, not measured: spawning, and at least two seconds until methods have settled. heap requests are\n"
+      "those of malloc and its kin on all threads. Of a picture's people those near the camera show their legs' bones\n"
+      "and muscles; an exported scene's are all dressed, each with a skeleton and skin of their own.\n"
+      "Under mpirun the crowd is spread over ranks, one thread each, in --shards that are simulated by themselves.\n"
+      "The state_hash then depends on how many shards there are, and not on ranks, threads or machines; so it does\n"
+      "after a run that was killed goes on by --resume, on as many ranks as you like. The nearest are those of each "
+      "shard.\n"
+      "\n"
+      "Examples: mobil crowd\n"
       "          mobil crowd --humans 10000 --churn 100 --report crowd.json\n"
       "          mobil crowd --humans 10000 --seconds 5 --raise\n"
       "          mobil crowd --humans 2000 --seconds 1 --capture crowd.png\n"

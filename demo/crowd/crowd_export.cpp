@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
+#include <mobil/assets/export/recorded_skin.h>
 #include <mobil/gltf_writer.h>
 #include <mobil/skin_writer.h>
 #include <mobil/usd_writer.h>
-#include "assets/export/recorded_skin.h"
 #include "demo/program/commands.h"
 #include "demo/walk/drawn_skin.h"
 

@@ -126,12 +126,13 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
   }
   if (!text.save.empty() && !text.resume.empty())
     return fail("--save: a run that goes on by --resume saves where it was; leave --save out");
-  options.city = ranks || shards > 1 || !text.save.empty() || !text.resume.empty();
+  const bool several = ranks || shards > 1 || !text.save.empty() || !text.resume.empty();
+  options.city = several || options.alive;
   const CrowdText usual;
   for (const auto& [name, given, usually] : {std::tuple("--save-every", &text.save_every, &usual.save_every),
                                              std::tuple("--balance-every", &text.balance_every, &usual.balance_every),
                                              std::tuple("--silence", &text.silence, &usual.silence)}) {
-    if (!options.city && *given != *usually)
+    if (!several && *given != *usually)
       return fail(fmt::format("{}: is of several shards or ranks; give --shards, or run under mpirun", name));
   }
   if (!options.city) return {};

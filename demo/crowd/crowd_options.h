@@ -24,7 +24,7 @@ struct CrowdOptions {
   double export_s = 2;
   bool raise = false;
   std::optional<AliveRequest> alive{};  // of `mobil city`, instead of the crowd
-  /// Several shards, several ranks, or a run that is saved: `run_city` instead of one scene.
+  /// A city, several shards, several ranks, or a run that is saved: `run_city` instead of one scene.
   bool city = false;
   ClusterOptions cluster{};
   double silence_s = 60;

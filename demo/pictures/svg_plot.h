@@ -54,9 +54,9 @@ struct PlotPanel {
 struct PlotFigure {
   std::string title, footnote;
   std::size_t columns = 1;
-  std::vector<PlotPanel> panels;
-  bool shared_y = false;
   double panel_width = 240, panel_height = 150;
+  bool shared_y = false;
+  std::vector<PlotPanel> panels{};
 };
 
 /// The whole SVG file. Vectors of one series that differ in length are cut to the shortest.

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 #include "demo/program/progress.h"
 
 namespace mobil {

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <thread>
 
-#include "assets/files/unfinished.h"
+#include <mobil/assets/files/output_file.h>
 
 namespace mobil {
 

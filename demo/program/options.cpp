@@ -37,7 +37,6 @@ CLI::Option* add_option(CLI::App& command, const Option& option) {
     if (option.name.starts_with("-")) added->expected(1)->allow_extra_args(false);
   }
   if (!option.group.empty()) added->group(option.group);
-  if (!option.excludes.empty()) added->excludes(command.get_option(option.excludes));
   return added;
 }
 

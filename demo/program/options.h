@@ -22,9 +22,8 @@ struct Option {
   Target target;
   std::string help;
   std::string group{};                 // the heading in --help; empty: "Options"
-  std::vector<std::string> choices{};  // of a text: the only values; empty: any
-  std::string excludes{};              // the name of an option above that cannot be given with this one
   std::vector<std::string> words{};    // values that a shell offers where `choices` are empty: no check
+  std::vector<std::string> choices{};  // of a text: the only values; empty: any
 };
 
 /// Names of an array, for a shell to offer.

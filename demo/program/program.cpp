@@ -47,9 +47,8 @@ Result<Program> make_program(std::string_view name, std::vector<Subcommand> comm
       .name = "mobil",
       .about =
           "mobil: crowds of virtual humans who walk, and whose muscles deform as they do.\n"
-          "Body and gait parameters go in; a walking skeleton, its lines of action, finite-element muscles and "
-          "anatomical\n"
-          "surfaces come out. Quantities are SI or carry a unit: 180cm, 5km/h, 110steps/min.",
+          "Body and gait parameters go in; a walking skeleton, its lines of action, finite-element muscles and\n"
+          "anatomical surfaces come out. Quantities are SI or carry a unit: 180cm, 5km/h, 110steps/min.",
       .version = MOBIL_VERSION,
       .footer = "Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out",
       .options = {{"--quiet", &quiet, "Say nothing of progress and of what was written; errors stay"}}};

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include <mobil/anthropometry.h>
+#include <mobil/systems/gait/resolve_gait.h>
 #include "demo/scene/scatter.h"
-#include "systems/gait/gait.h"
 
 namespace mobil {
 namespace {

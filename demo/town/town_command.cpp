@@ -9,9 +9,9 @@
 #include <optional>
 #include <string>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/png.h>
 #include <mobil/video.h>
-#include "assets/files/output_file.h"
 #include "demo/program/commands.h"
 #include "demo/program/json.h"
 #include "demo/program/progress.h"
@@ -160,13 +160,12 @@ Subcommand town_command() {
   auto text = std::make_shared<TownText>();
   Subcommand command{.name = "town"};
   command.footer =
-      "A street with kerbs, a square, houses, stairs up to a terrace and a ramp down from it. Everybody has a place "
-      "to\n"
-      "go to, a way there by Recast and Detour, and a wish that follows it; Avoidance keeps people apart, Terrain "
-      "puts\n"
-      "their feet on the ground. One of them takes a tour: across the street, round the corner of a house, up the\n"
-      "stairs, over the terrace and down the ramp; --view follow goes along.\n"
-      "\nExamples: mobil town\n"
+      "A street with kerbs, a square, houses, stairs up to a terrace and a ramp down from it. Everybody has a place\n"
+      "to go to, a way there by Recast and Detour, and a wish that follows it; Avoidance keeps people apart, Terrain\n"
+      "puts their feet on the ground. One of them takes a tour: across the street, round the corner of a house, up\n"
+      "the stairs, over the terrace and down the ramp; --view follow goes along.\n"
+      "\n"
+      "Examples: mobil town\n"
       "          mobil town --capture town.mp4\n"
       "          mobil town --humans 120 --seconds 20 --view above --capture town.png";
   add_options(command, {{"--humans", &text->humans, "How many people, 1 to 300"},

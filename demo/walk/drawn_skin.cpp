@@ -4,9 +4,9 @@
 #include <span>
 #include <utility>
 
+#include <mobil/systems/skinning/follow_skin.h>
+#include <mobil/systems/skinning/place_skin.h>
 #include "demo/scene/scatter.h"
-#include "systems/skinning/follow_skin.h"
-#include "systems/skinning/place_skin.h"
 
 namespace mobil {
 namespace {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/skin/own_skin.h>
 #include <mobil/components/pose.h>
 #include <mobil/systems/capture/scene.h>
-#include "assets/skin/own_skin.h"
-#include "systems/skinning/place_skin.h"
+#include <mobil/systems/skinning/place_skin.h>
 
 namespace mobil {
 

@@ -2,11 +2,10 @@
 
 #include <array>
 
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/assets/surfaces/surface_binding.h>
 #include <mobil/fit_anatomy.h>
-#include "assets/fem/muscle_template.h"
-#include "assets/surfaces/muscle_surfaces.h"
-#include "systems/skin/rest_surfaces.h"
+#include <mobil/systems/skin/rest_surfaces.h>
 
 namespace mobil {
 namespace {
@@ -18,10 +17,11 @@ bool is_tendon(const std::string& name) {
 }
 
 /// Of muscles alone, those with a belly, whose mesh a surface may follow.
-SurfaceChoice choice_of(const Simulation& simulation, const Human& human) {
+SurfaceChoice choice_of(const Human& human) {
   SurfaceChoice choice{.bones = false, .simulated = {}, .cells = human.leg_muscles.cells};
   for (const HumanMuscle& own : human.muscles) {
-    const bool belly = simulation.world().shared<MuscleTemplate>(own.entity[Side::right]) != nullptr;
+    const auto& [method, reduced] = own.method;
+    const bool belly = method != Method::none && (method != Method::reduced || reduced.control_points);
     choice.simulated.set(static_cast<std::size_t>(own.plan.muscle), belly);
   }
   return choice;
@@ -118,9 +118,8 @@ Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, cons
 
 }  // namespace
 
-Result<Figure> make_figure(const Simulation& simulation, const Human& human,
-                           const std::optional<std::filesystem::path>& anatomy, bool contact) {
-  SurfaceChoice choice = choice_of(simulation, human);
+Result<Figure> make_figure(const Human& human, const std::optional<std::filesystem::path>& anatomy, bool contact) {
+  SurfaceChoice choice = choice_of(human);
   if (anatomy) return real_figure(human, choice, *anatomy, contact);
   choice.bones = true;
   auto drawn = draw_surfaces(human.body, choice);

@@ -9,7 +9,7 @@
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include "systems/surfaces/surface_contacts.h"
+#include <mobil/systems/surfaces/surface_contacts.h>
 
 namespace mobil {
 
@@ -19,14 +19,14 @@ struct Figure {
   std::vector<Vec3<float>> colours;  // linear; of each part
   std::optional<SurfaceContacts> contacts;
   std::vector<std::string> said;    // about the folder and its meshes, "FILE: …"
-  std::vector<SurfaceMesh> skins;   // of right legs, where the folder has some (assets/skin/own_skin.h)
+  std::vector<SurfaceMesh> skins;   // of right legs, where the folder has some (mobil/assets/skin/own_skin.h)
   std::vector<Vec3<float>> rest_m;  // then all vertices of the right leg's muscles at rest
 };
 
 /// Surfaces for one person with muscles. Without a folder they are generated from published dimensions. Errors: those
 /// of reading and fitting the folder's meshes. `contact`: muscles are kept out of each other and of bones.
-Result<Figure> make_figure(const Simulation& simulation, const Human& human,
-                           const std::optional<std::filesystem::path>& anatomy, bool contact = false);
+Result<Figure> make_figure(const Human& human, const std::optional<std::filesystem::path>& anatomy,
+                           bool contact = false);
 
 /// Begins a recording of the figure: bones, and each muscle's name, triangles and colour, right then left.
 WalkRecording begin_recording(const Figure& figure, double frame_s);

@@ -11,11 +11,12 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/export/recorded_skin.h>
+#include <mobil/assets/files/output_file.h>
 #include <mobil/body_composition.h>
 #include <mobil/components/fat.h>
 #include <mobil/schedule.h>
-#include "assets/export/recorded_skin.h"
-#include "assets/files/output_file.h"
+#include <mobil/systems/kinematics/shown_fat.h>
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 #include "demo/walk/drawn_skin.h"
@@ -27,7 +28,6 @@
 #include "demo/walk/walk_script.h"
 #include "demo/walk/walk_summary.h"
 #include "demo/walk/walk_tables.h"
-#include "systems/kinematics/fat_motion.h"
 
 namespace mobil {
 namespace {
@@ -294,7 +294,7 @@ Result<void> run_walk(const WalkOptions& asked) {
   if (!added) return added;
   const Human human = *simulation.human(*entity);
   set_edges(options.ground, human.body.request.height_m, human.gait.step_length_m);
-  const auto figure = make_figure(simulation, human, options.anatomy, options.contact);
+  const auto figure = make_figure(human, options.anatomy, options.contact);
   if (!figure) return tl::unexpected(figure.error());
   auto results = OutputFolder::make(options.out);
   if (!results) return tl::unexpected(results.error());

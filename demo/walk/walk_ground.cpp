@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "demo/program/units.h"
-#include "engine/exact_math.h"
 
 namespace mobil {
 namespace {
@@ -86,9 +85,10 @@ TerrainHeight WalkGround::at(float x_m, float z_m) const {
     case GroundKind::cross:
       return {rise * x_m, rise, 0};
     case GroundKind::hills: {
-      const float x = wave_per_m * x_m, z = wave_per_m * z_m;
-      return {rise * exact::sin(z) * exact::cos(x), -rise * wave_per_m * exact::sin(z) * exact::sin(x),
-              rise * wave_per_m * exact::cos(z) * exact::cos(x)};
+      const double x = double{wave_per_m * x_m}, z = double{wave_per_m * z_m};
+      const auto times = [&](double a, double b) { return rise * static_cast<float>(a) * static_cast<float>(b); };
+      return {times(std::sin(z), std::cos(x)), -wave_per_m * times(std::sin(z), std::sin(x)),
+              wave_per_m * times(std::cos(z), std::cos(x))};
     }
     case GroundKind::kerb:
       return {z_m >= edge_m ? rise : 0, 0, 0};

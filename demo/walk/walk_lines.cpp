@@ -4,7 +4,7 @@
 #include <array>
 
 #include <mobil/engine/geometry.h>
-#include "assets/fem/muscle_template.h"
+#include <mobil/systems/surfaces/body_surfaces.h>
 
 namespace mobil {
 namespace {
@@ -61,19 +61,18 @@ std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Human& h
   std::vector<Vec3<float>> ends;
   for_each_muscle(simulation, human,
                   [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
-                    const auto* shape = simulation.world().shared<MuscleTemplate>(muscle);
                     const NodalView moved = simulation.nodal_displacement(muscle);
                     if (moved.first == nullptr) return;  // a line alone
-                    const BellyScale<float> scale = plan.scale;
+                    const auto mesh = rest_mesh(human.body, plan.muscle, human.leg_muscles.cells);
+                    if (!mesh) return;
                     const auto node = [&](std::uint32_t n) {
-                      const auto& rest = shape->mesh.node[n];
+                      const auto& rest = mesh->cage.node[n];
                       const float* u = moved.first + std::size_t{3} * n * lane_count;
                       return to_world(line, side,
-                                      {scale.across * static_cast<float>(rest.x) + u[0],
-                                       scale.across * static_cast<float>(rest.y) + u[lane_count],
-                                       scale.along * static_cast<float>(rest.z) + u[2 * lane_count]});
+                                      {static_cast<float>(rest.x) + u[0], static_cast<float>(rest.y) + u[lane_count],
+                                       static_cast<float>(rest.z) + u[2 * lane_count]});
                     };
-                    for (const auto& [from, to] : boundary_edges(shape->mesh.cells)) {
+                    for (const auto& [from, to] : boundary_edges(mesh->cage.cells)) {
                       ends.push_back(node(from));
                       ends.push_back(node(to));
                     }

@@ -41,25 +41,20 @@ Result<MuscleSet> read_muscles(const std::string& text) {
 
 const char* const walk_muscles_help =
     "Muscles: a belly is a block of elements in the frame of its line of action.\n"
-    "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles that act alike, "
-    "and\n"
-    "    cheap; members are the thirteen muscles on their own, for close views; what is not chosen is not simulated.\n"
+    "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles that act alike,\n"
+    "    and cheap; members are the thirteen muscles on their own, for close views; others are not simulated.\n"
     "  --method ecd: explicit, in steps short enough for each belly; icd: the same with the consistent mass;\n"
-    "    caa: implicit, one step a tick; static: no vibration at all; reduced: a few vectors of a finer mesh, the "
-    "cheapest\n"
-    "    that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the steps "
-    "taken.\n"
+    "    caa: implicit, one step a tick; static: no vibration at all; reduced: a few vectors of a finer mesh, the\n"
+    "    cheapest that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the\n"
+    "    steps taken.\n"
     "    finite: for close-ups; tissue that keeps its volume, whose fibres pull (--activation phase), on 425 nodes.\n"
-    "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in "
-    "line\n"
-    "    share each one's length, and the belly gets what the tendon leaves; muscles.csv has them. moments: excited "
-    "so\n"
-    "    that they make the walk's own moments at hip, knee and ankle as costs them least; motion.csv has what is "
-    "left.\n"
+    "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in\n"
+    "    line share each one's length, and the belly gets what the tendon leaves; muscles.csv has them. moments:\n"
+    "    excited so that they make the walk's own moments at hip, knee and ankle as costs least; motion.csv has the "
+    "rest.\n"
     "  --tuned: of --method reduced; how hard a muscle pulls stiffens and damps what shakes it, as in people.\n"
-    "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "
-    "Hz);\n"
-    "    without it they move by the line's pull alone.\n";
+    "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7\n"
+    "    Hz); without it they move by the line's pull alone.\n";
 
 std::vector<Option> walk_options(WalkText& text) {
   const char *gait = "Gait", *muscles = "Muscles", *pictures = "Pictures";
@@ -81,47 +76,25 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--muscles", &text.muscles,
        "groups, members, or names like hamstrings,soleus: which muscles of both legs are simulated", muscles},
       {"--members", &text.members, "The single muscles too, beside those of --muscles", muscles},
-      {"--drive",
-       &text.drive,
-       "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it",
-       muscles,
-       {},
-       {},
+      {"--drive", &text.drive,
+       "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it", muscles,
        words_of(drives)},
-      {"--method",
-       &text.method,
-       "How muscles move: ecd, icd, caa, static, reduced, finite or none, see below",
-       muscles,
-       {},
-       {},
+      {"--method", &text.method, "How muscles move: ecd, icd, caa, static, reduced, finite or none, see below", muscles,
        words_of(method_name)},
-      {"--element",
-       &text.element,
-       "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness",
-       muscles,
-       {},
-       {},
+      {"--element", &text.element,
+       "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness", muscles,
        words_of(element_name)},
-      {"--activation",
-       &text.activation,
-       "phase: muscles pull as people's do at that part of the gait cycle, and tendons stretch; moments; none",
-       muscles,
-       {},
-       {},
+      {"--activation", &text.activation,
+       "phase: muscles pull as people's do at that part of the gait cycle, and tendons stretch; moments; none", muscles,
        words_of(walk_activations)},
       {"--tuned", &text.tuned, "Tension stiffens and damps vibration; with --activation phase, --method reduced",
        muscles},
       {"--inertia", &text.inertia, "Muscles feel gravity and the leg's acceleration, see below", muscles},
       {"--anatomy", &text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv", pictures},
-      {"--view",
-       &text.view,
+      {"--view", &text.view,
        "stick (lines of action), wireframe (finite-element meshes), surface (muscles and bones), skin (dressed) or "
-       "glass "
-       "(muscles and bones through the skin)",
-       pictures,
-       {},
-       {},
-       words_of(views)},
+       "glass (muscles and bones through the skin)",
+       pictures, words_of(views)},
       {"--skin", &text.skin, "Skin and clothes in walk.glb and .usda", pictures},
       {"--fat", &text.fat, "Fat under the skin wobbles, in pictures with --view skin or glass", pictures},
       {"--contact", &text.contact, "Muscles are kept out of each other and of bones, in what is drawn and written",

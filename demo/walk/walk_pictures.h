@@ -9,9 +9,9 @@
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/components/body.h>
 #include <mobil/engine/error.h>
+#include <mobil/systems/skinning/place_skin.h>
 #include "demo/walk/figure.h"
 #include "demo/walk/walk_options.h"
-#include "systems/skinning/place_skin.h"
 
 namespace mobil {
 

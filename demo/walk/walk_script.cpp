@@ -7,11 +7,11 @@
 #include <iterator>
 #include <numbers>
 
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
+#include <mobil/systems/gait/resolve_gait.h>
 #include "demo/program/nearest_name.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"
-#include "systems/gait/gait.h"
 
 namespace mobil {
 
@@ -23,15 +23,13 @@ const std::string_view walk_script_help =
     "    6,step_length_right,0.6\n"
     "    8,stop,\n"
     "Each change takes effect at the next step. Rows of one time are one change. Parameters:\n"
-    "  speed, step_length, step_frequency   with units as above; 'speed' lets the steps follow as they do at the "
-    "start;\n"
-    "                                       one of the other two keeps the speed, both at one time set it\n"
+    "  speed, step_length, step_frequency   with units as above; 'speed' lets the steps follow as they do at the\n"
+    "                                       start; one of the other two keeps the speed, both at one time set it\n"
     "  step_length_right, step_length_left  uneven steps: set step_length to their mean and step_asymmetry a, so that\n"
     "                                       right = mean (1 + a), left = mean (1 - a); one alone keeps the other\n"
     "  heading                              deg, 0 straight ahead as at the start, positive to the left\n"
-    "  aside, ahead                         a step of somebody who stands, from there: cm or m, to the left and "
-    "ahead,\n"
-    "                                       negative to the right and back; both at one time are one step\n"
+    "  aside, ahead                         a step of somebody who stands, from there: cm or m, to the left and\n"
+    "                                       ahead, negative to the right and back; both at one time are one step\n"
     "  stop                                 value empty or 1; stands until the next 'speed'\n"
     "  any gait parameter                   see --list-parameters";
 

@@ -7,7 +7,7 @@
 #include <mobil/body_composition.h>
 #include <mobil/muscle_table.h>
 #include <mobil/schedule.h>
-#include "assets/fem/muscle_template.h"
+#include <mobil/systems/muscles/muscle_step.h>
 #include "demo/program/json.h"
 
 namespace mobil {
@@ -23,8 +23,6 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
   for (const HumanMuscle& own : human.muscles) {
     for (const Side side : {Side::right, Side::left}) {
       const Entity entity = own.entity[side];
-      const auto* shape = simulation.world().shared<MuscleTemplate>(entity);
-      const BellyScale<float>& scale = own.plan.scale;
       const auto line = simulation.get<LineOfAction>(entity);
       if (!line) continue;
       const Method method = own.method.method;
@@ -34,15 +32,12 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
       const World& world = simulation.world();
       const std::uint64_t steps = world.get<Substeps>(entity).value_or(
           world.get<SolvedSteps>(entity).value_or(world.get<FiniteSteps>(entity).value_or(1)));
-      const double critical = limited ? critical_step(shape->critical_steps, static_cast<double>(scale.across),
-                                                      static_cast<double>(scale.along))
-                                            .value_or(0.0)
-                                      : 0.0;
+      const double critical = limited ? critical_step_s(world, entity, own.plan.scale).value_or(0.0) : 0.0;
       const MusclePlan& plan = own.plan;
       muscles.push_back({{"group", muscle_name(plan.muscle)},
                          {"side", side == Side::right ? "right" : "left"},
                          {"method", method_name[static_cast<std::size_t>(method)]},
-                         {"nodes", shape == nullptr ? 0 : node_count(shape->mesh.cells)},
+                         {"nodes", simulation.nodal_displacement(entity).nodes},
                          {"vectors", method == Method::reduced ? Json(own.method.reduced.vectors) : Json()},
                          {"rest_length_m", line->rest_length_m},
                          {"belly_length_m", plan.belly_length_m},

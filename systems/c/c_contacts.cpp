@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include <mobil/systems/skin/rest_surfaces.h>
 #include "systems/c/c_surfaces.h"
-#include "systems/skin/rest_surfaces.h"
 
 struct mobil_contacts {
   mobil::SurfaceContacts found;

@@ -4,15 +4,15 @@
 
 #include <vector>
 
+#include <mobil/assets/skin/own_skin.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/systems/people/person.h>
-#include "assets/skin/own_skin.h"
+#include <mobil/systems/skin/rest_surfaces.h>
+#include <mobil/systems/skinning/follow_skin.h>
+#include <mobil/systems/skinning/place_skin.h>
 #include "assets/surfaces/surface_mesh.h"
 #include "systems/c/c_skin.h"
 #include "systems/c/c_surfaces.h"
-#include "systems/skin/rest_surfaces.h"
-#include "systems/skinning/follow_skin.h"
-#include "systems/skinning/place_skin.h"
 
 struct mobil_own_skin {
   mobil::BodySkin bare;

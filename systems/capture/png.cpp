@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 #include "assets/files/unfinished.h"
 
 extern char** environ;

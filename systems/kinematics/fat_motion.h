@@ -7,6 +7,7 @@
 #include <mobil/components/fat.h>
 #include <mobil/components/pose.h>
 #include <mobil/components/segments.h>
+#include <mobil/systems/kinematics/shown_fat.h>
 #include "assets/body/fat_distribution.h"
 
 namespace mobil::inline v0_3 {
@@ -17,8 +18,6 @@ namespace mobil::inline v0_3 {
 inline constexpr float fat_hz = 10, fat_hz_thickness_m = 0.010F, fat_damping = 0.25F;
 /// Who moves faster than that has jumped without saying so: fat begins at rest. Sprinters' feet do 20 m/s.
 inline constexpr float fat_fastest_m_s = 30;
-/// Fat is shown beside its place by this part of its thickness at most.
-inline constexpr float fat_reach = 0.3F;
 
 /// A region is carried by a point between the origins of two segments, `part` of the way, and its fat is so thick in a
 /// man of 75 kg and 1.75 m: our choice, legs as mobil/assets/skin/leg_grid.h has them.
@@ -50,9 +49,5 @@ std::array<float, fat_regions> fat_thickness_m(const BodySize<float>& size);
 /// beside the skeleton. Gravity is in the shape at rest. A NaN stays in its lane and goes with it.
 void fat_motion(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose, FatWobble<Lanes<float>>& fat,
                 float tick_s);
-
-/// By how much each region's fat is shown beside its place, m, world frame: `beside_m`, which ever larger swings bring
-/// no further than `fat_reach` of the thickness.
-std::array<Vec3<float>, fat_regions> shown_fat(const BodySize<float>& size, const FatWobble<float>& fat);
 
 }  // namespace mobil::inline v0_3

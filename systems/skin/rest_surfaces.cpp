@@ -1,4 +1,4 @@
-#include "systems/skin/rest_surfaces.h"
+#include <mobil/systems/skin/rest_surfaces.h>
 
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>

@@ -1,4 +1,4 @@
-#include "systems/skinning/follow_skin.h"
+#include <mobil/systems/skinning/follow_skin.h>
 
 #include <cmath>
 #include <cstddef>

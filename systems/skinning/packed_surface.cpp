@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include <mobil/engine/geometry.h>
-#include "systems/skinning/write_vertices.h"
+#include <mobil/systems/skinning/write_vertices.h>
 
 namespace mobil::inline v0_3 {
 

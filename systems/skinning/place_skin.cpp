@@ -1,4 +1,4 @@
-#include "systems/skinning/place_skin.h"
+#include <mobil/systems/skinning/place_skin.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE __BASE_FILE__

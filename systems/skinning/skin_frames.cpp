@@ -1,4 +1,4 @@
-#include "systems/skinning/skin_frames.h"
+#include <mobil/systems/skinning/skin_frames.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE __BASE_FILE__
@@ -43,7 +43,7 @@ HWY_INLINE void put_maps(const SkinBone& a, const SkinBone& b, const EightV& tur
   const EightV twice = hn::Div(set(2 * lengths), square), one = set(lengths);
   const EightV tx = hn::Mul(twice, x), ty = hn::Mul(twice, y), tz = hn::Mul(twice, z), tw = hn::Mul(twice, w);
   const EightV xx = neg_mul_add(tz, z, neg_mul_add(ty, y, one)), yy = neg_mul_add(tz, z, neg_mul_add(tx, x, one)),
-          zz = neg_mul_add(ty, y, neg_mul_add(tx, x, one));
+               zz = neg_mul_add(ty, y, neg_mul_add(tx, x, one));
   const EightV xy = mul_add(tx, y, hn::Mul(tw, z)), yx = neg_mul_add(tw, z, hn::Mul(tx, y));
   const EightV xz = neg_mul_add(tw, y, hn::Mul(tx, z)), zx = mul_add(tx, z, hn::Mul(tw, y));
   const EightV yz = mul_add(ty, z, hn::Mul(tw, x)), zy = neg_mul_add(tw, x, hn::Mul(ty, z));

@@ -14,9 +14,9 @@
 #include <cstddef>
 #include <cstring>
 
+#include <mobil/systems/skinning/write_vertices.h>
 #include "engine/fused-inl.h"
 #include "systems/skinning/eight-inl.h"
-#include "systems/skinning/write_vertices.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

@@ -1,4 +1,4 @@
-#include "systems/skinning/write_vertices.h"
+#include <mobil/systems/skinning/write_vertices.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE __BASE_FILE__

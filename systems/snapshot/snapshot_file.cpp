@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/snapshot_file.h>
-#include "assets/files/output_file.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -8,11 +8,11 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_surfaces.h"
 #include "assets/surfaces/coarser_surface.h"
 #include "assets/surfaces/muscle_cage.h"
-#include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
 
 namespace mobil::inline v0_3 {

@@ -9,8 +9,8 @@
 #include <mobil/components/body.h>
 #include <mobil/components/fat.h>
 #include <mobil/components/pose.h>
+#include <mobil/systems/skinning/place_skin.h>
 #include "systems/kinematics/fat_motion.h"
-#include "systems/skinning/place_skin.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -1,4 +1,4 @@
-#include "systems/surfaces/surface_contacts.h"
+#include <mobil/systems/surfaces/surface_contacts.h>
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
 #include "tests/labels.h"
 
 MOBIL_TEST_LABELS("long");

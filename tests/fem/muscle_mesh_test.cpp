@@ -8,11 +8,11 @@
 #include <mobil/anthropometry.h>
 #include <mobil/assets/fem/hexahedral_mesh.h>
 #include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/assets/surfaces/surface_binding.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/muscle_table.h>
 #include "assets/surfaces/muscle_cage.h"
-#include "assets/surfaces/muscle_surfaces.h"
 #include "tests/simulation/people.h"
 
 namespace mobil::muscle_mesh_test {

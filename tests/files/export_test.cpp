@@ -21,8 +21,8 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/assets/export/recorded_skin.h>
 #include <mobil/gltf_writer.h>
-#include "assets/export/recorded_skin.h"
 #include "engine/eigen.h"
 #include "tests/files/export_fixture.h"
 #include "tests/files/temporary_folder.h"

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/assets/files/csv_table.h>
 #include <mobil/fit_anatomy.h>
 #include <mobil/mesh_file.h>
-#include "assets/files/csv_table.h"
 #include "assets/import/bone_maps.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/eigen.h"

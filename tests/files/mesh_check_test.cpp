@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/files/csv_table.h>
 #include <mobil/assets/import/anatomy_folder.h>
-#include "assets/files/csv_table.h"
 #include "assets/import/mend_mesh.h"
 #include "assets/import/mesh_place.h"
 #include "assets/import/triangle_cuts.h"

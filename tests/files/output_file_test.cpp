@@ -1,6 +1,6 @@
 // Results on disk: whole or not there; links are followed, devices written to; those of one run come together.
 
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
 #include "tests/fuzz/fuzz_input.h"
 
 namespace mobil::fuzz {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
 #include "tests/files/reference_data.h"
 #include "tests/gait/forces_figure.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/files/csv_table.h>
 #include <mobil/simulation.h>
-#include "assets/files/csv_table.h"
 #include "tests/files/reference_data.h"
 #include "tests/gait/forces_figure.h"
 

@@ -393,7 +393,7 @@ TEST(Plot, WhatCannotBeShownBreaksTheLineAndNothingElse) {
 
 TEST(Plot, EveryPanelIsDrawnAndAFigureOfNothingIsStillAPicture) {
   for (const std::size_t panels : {std::size_t{0}, std::size_t{1}, std::size_t{5}}) {
-    PlotFigure figure{"title", "note", 2, std::vector<PlotPanel>(panels), true};
+    PlotFigure figure{"title", "note", 2, 240, 150, true, std::vector<PlotPanel>(panels)};
     const std::string text = svg(figure);
     EXPECT_EQ(count(text, "<clipPath"), panels);
     EXPECT_EQ(count(text, "<g"), count(text, "</g>"));

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -38,7 +37,6 @@ FrontierRung reduced(std::uint32_t vectors, bool moving = true) {
 /// One muscle of one walker for a second, and few ways.
 FrontierRequest tiny_request() {
   FrontierRequest request;
-  request.form = "tiny";
   request.muscles = {Muscle::triceps_surae};
   request.walks = {frontier_walks()[2]};
   request.seconds = 1;
@@ -158,17 +156,6 @@ TEST(Frontier, CsvHasThePromisedColumnsFirst) {
     EXPECT_EQ(csv.number(i, "basis"), r.vectors);
     EXPECT_EQ(csv.text(i, "loads"), "line");
   }
-}
-
-TEST(Frontier, JsonSaysHowTheReferenceWasMadeAndHowFarItMoves) {
-  const auto json = nlohmann::json::parse(frontier_json(tiny()));
-  EXPECT_FALSE(json.at("machine").at("cpu").get<std::string>().empty());
-  EXPECT_NE(json.at("reference").at("made").get<std::string>().find("4x4x16"), std::string::npos);
-  const auto& change = json.at("reference").at("change").at(0);
-  EXPECT_EQ(change.at("loads"), "line");
-  EXPECT_GT(change.at("from_half_the_cells").get<double>(), 0);
-  EXPECT_GT(change.at("from_24_vectors").get<double>(), 0);
-  EXPECT_GT(json.at("costs").at("paper_shared_stiffness_us_per_tick").get<double>(), 0);
 }
 
 TEST(Frontier, PictureHasTheFrontierInOrderOfCost) {

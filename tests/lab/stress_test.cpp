@@ -93,7 +93,7 @@ TEST(Stress, BadInputIsOneLineAndNothingIsTried) {
   fs::create_directories(folder.path / "taken");
   const std::map<std::string, std::vector<std::string>> refused = {
       {"slivrs", {"'slivrs'", "did you mean slivers?", "energy-single"}},
-      {"nan somersault", {"'somersault'", "slivers, flat"}},
+      {"nan somersault", {"'somersault'", "slivers, aspect"}},
       {"nan --json", {"--json needs one value"}},
       {"nan --json ''", {"--json", "empty"}},
       {"nan --json nowhere/stress.json", {"--json nowhere/stress.json", "folder"}},

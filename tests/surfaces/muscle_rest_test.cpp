@@ -12,8 +12,8 @@
 #include <mobil/anthropometry.h>
 #include <mobil/assets/body/leg_profile.h>
 #include <mobil/assets/muscles/leg_sections.h>
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/engine/geometry.h>
-#include "assets/surfaces/muscle_surfaces.h"
 
 namespace mobil::muscle_rest_test {
 namespace {

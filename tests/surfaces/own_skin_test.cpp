@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
-#include "assets/export/recorded_skin.h"
-#include "assets/skin/own_skin.h"
+#include <mobil/assets/export/recorded_skin.h>
+#include <mobil/assets/skin/own_skin.h>
+#include <mobil/systems/skinning/follow_skin.h>
 #include "assets/surfaces/surface_mesh.h"
-#include "systems/skinning/follow_skin.h"
 #include "tests/labels.h"
 #include "tests/surfaces/skin_placed.h"
 

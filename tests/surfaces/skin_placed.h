@@ -8,7 +8,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/assets/skin/body_skin.h>
 #include <mobil/engine/geometry.h>
-#include "systems/skinning/place_skin.h"
+#include <mobil/systems/skinning/place_skin.h>
 
 namespace mobil::skin_test {
 using namespace geometry;

@@ -19,8 +19,8 @@
 #include <mobil/simulation.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/skinning/place_skin.h>
 #include "assets/surfaces/bone_surfaces.h"
-#include "systems/skinning/place_skin.h"
 #include "tests/labels.h"
 #include "tests/surfaces/skin_placed.h"
 

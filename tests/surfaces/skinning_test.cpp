@@ -10,9 +10,9 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/fem/hexahedral_mesh.h>
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/assets/surfaces/surface_binding.h>
 #include <mobil/engine/geometry.h>
-#include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/tube.h"
 #include "tests/surfaces/skinned.h"
 

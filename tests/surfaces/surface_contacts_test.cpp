@@ -12,8 +12,8 @@
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/surfaces/surface_contacts.h>
 #include "assets/body/bent_legs.h"
-#include "systems/surfaces/surface_contacts.h"
 
 namespace mobil::surface_contacts_test {
 using namespace geometry;

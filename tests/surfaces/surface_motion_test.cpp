@@ -12,13 +12,13 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/assets/surfaces/surface_binding.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/fit_anatomy.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/surfaces/body_surfaces.h>
-#include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/files/reference_data.h"
 #include "tests/labels.h"

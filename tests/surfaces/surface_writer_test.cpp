@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/components/fade.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/instruction_sets.h"

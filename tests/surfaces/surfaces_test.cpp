@@ -10,10 +10,10 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/leg_sections.h>
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/muscle_table.h>
 #include "assets/surfaces/bone_surfaces.h"
-#include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "assets/surfaces/tube.h"
 

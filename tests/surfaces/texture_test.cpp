@@ -15,7 +15,7 @@
 #include <mobil/far_figure.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include "systems/skinning/write_vertices.h"
+#include <mobil/systems/skinning/write_vertices.h>
 #include "tests/engine/instruction_sets.h"
 
 namespace mobil::texture_test {

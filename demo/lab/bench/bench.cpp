@@ -34,13 +34,15 @@ Result<BenchCrowd*> BenchRun::small_crowd() {
 
 BenchResult& BenchRun::add_time(std::string name, const Measured& time, double items, double unit_s, std::string unit) {
   const double scale = 1 / (items * unit_s);
-  BenchResult& result = results.emplace_back();
-  result.name = std::move(name);
-  result.value = time.best_s * scale;
-  result.unit = std::move(unit);
+  BenchResult& result = add_figure(std::move(name), time.best_s * scale, std::move(unit), "");
   result.median = time.median_s * scale;
   if (time.cpu_s) result.cpu = *time.cpu_s * scale;
   return result;
+}
+
+BenchResult& BenchRun::add_figure(std::string name, double value, std::string unit, std::string bound) {
+  return results.emplace_back(
+      BenchResult{.name = std::move(name), .value = value, .unit = std::move(unit), .bound = std::move(bound)});
 }
 
 std::string at_peak(const Machine& machine, double seconds) {
@@ -50,20 +52,15 @@ std::string at_peak(const Machine& machine, double seconds) {
 
 Result<void> bench_machine(BenchRun& run) {
   const Machine& machine = run.machine;
-  const auto add = [&](const char* name, double best, double median_value, const char* unit, std::string bound) {
-    BenchResult& result = run.results.emplace_back();
-    result.name = name;
-    result.value = best;
-    result.median = median_value;
-    result.unit = unit;
-    result.bound = std::move(bound);
-  };
-  add("machine.fma_peak_gflops", machine.fma_peak_gflops, machine.fma_peak_median_gflops, "Gflop/s",
-      fmt::format("one core, single precision: {:.1f} operations a cycle of {:.2f} GHz",
-                  machine.fma_peak_gflops / machine.clock_ghz, machine.clock_ghz));
-  add("machine.bandwidth_gbps", machine.bandwidth_gbps, machine.bandwidth_median_gbps, "GB/s", "one core, triad");
-  add("machine.bandwidth_all_cores_gbps", machine.all_cores_bandwidth_gbps, machine.all_cores_bandwidth_median_gbps,
-      "GB/s", fmt::format("{} cores at once", machine.cores));
+  run.add_figure("machine.fma_peak_gflops", machine.fma_peak_gflops, "Gflop/s",
+                 fmt::format("one core, single precision: {:.1f} operations a cycle of {:.2f} GHz",
+                             machine.fma_peak_gflops / machine.clock_ghz, machine.clock_ghz))
+      .median = machine.fma_peak_median_gflops;
+  run.add_figure("machine.bandwidth_gbps", machine.bandwidth_gbps, "GB/s", "one core, triad").median =
+      machine.bandwidth_median_gbps;
+  run.add_figure("machine.bandwidth_all_cores_gbps", machine.all_cores_bandwidth_gbps, "GB/s",
+                 fmt::format("{} cores at once", machine.cores))
+      .median = machine.all_cores_bandwidth_median_gbps;
   return {};
 }
 

@@ -47,6 +47,8 @@ struct BenchRun {
 
   /// Adds the time of one item, `unit_s` the unit in s, of a run over `items`. Good until the next is added.
   BenchResult& add_time(std::string name, const Measured& time, double items, double unit_s, std::string unit);
+  /// A figure without repeats of its own.
+  BenchResult& add_figure(std::string name, double value, std::string unit, std::string bound);
 
  private:
   std::shared_ptr<BenchCrowd> crowd_, small_crowd_;

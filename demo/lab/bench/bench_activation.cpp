@@ -94,11 +94,8 @@ Result<void> bench_tuned(BenchRun& run) {
     run.add_time(fmt::format("activation.{}.us_per_muscle_tick", tuned ? "tuned" : "untuned"), moving,
                  blocks * lane_count, 1e-6, "us");
   }
-  BenchResult& more = run.results.emplace_back();
-  more.name = "activation.tuned_more.us_per_muscle_tick";
-  more.value = us[1] - us[0];
-  more.unit = "us";
-  more.bound = "of twelve motions; " + at_peak(run.machine, 1e-6 * more.value);
+  run.add_figure("activation.tuned_more.us_per_muscle_tick", us[1] - us[0], "us",
+                 "of twelve motions; " + at_peak(run.machine, 1e-6 * (us[1] - us[0])));
   return {};
 }
 

@@ -260,15 +260,6 @@ class FlowScene {
   std::vector<WalkWish> wishes_;
 };
 
-void add(BenchRun& run, const std::string& name, double value, const char* unit, std::string what) {
-  BenchResult result;
-  result.name = name;
-  result.value = value;
-  result.unit = unit;
-  result.bound = std::move(what);
-  run.results.push_back(std::move(result));
-}
-
 void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a_m2, int full_s = 90,
                const AvoidanceOptions& options = {}) {
   const int seconds = run.quick ? 6 : full_s;
@@ -280,16 +271,17 @@ void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a
     of += fmt::format("; {:.2f} a m² in the middle", scene.in_middle / (seconds * 40 * middle_m2));
   }
   if (flow == Flow::door) {
-    add(run, name + ".people_per_s", static_cast<double>(scene.passed) / (seconds * 2 / 3.0), "/s", of);
+    run.add_figure(name + ".people_per_s", static_cast<double>(scene.passed) / (seconds * 2 / 3.0), "/s", of);
   } else {
-    add(run, name + ".m_per_s", scene.way_m / scene.person_s, "m/s",
+    run.add_figure(
+        name + ".m_per_s", scene.way_m / scene.person_s, "m/s",
         of + fmt::format("; {:.1f} % of the time somebody stands for over 5 s", 100 * scene.stood_s / scene.person_s));
   }
-  add(run, name + ".overlap_cm", 100 * scene.trunks_m, "cm",
-      fmt::format("of trunks, the most; {:.2f} % of people overlap by more than 5 cm, shoulders counted",
-                  100 * scene.near / std::max(scene.looks, 1.0)));
-  add(run, name + ".shoulders_cm", 100 * scene.shoulders_m, "cm", "of shoulders as they are turned, the most");
-  add(run, name + ".us_per_human_tick", 1e6 * scene.choosing_s / (60 * scene.person_s), "us", "choosing steps");
+  run.add_figure(name + ".overlap_cm", 100 * scene.trunks_m, "cm",
+                 fmt::format("of trunks, the most; {:.2f} % of people overlap by more than 5 cm, shoulders counted",
+                             100 * scene.near / std::max(scene.looks, 1.0)));
+  run.add_figure(name + ".shoulders_cm", 100 * scene.shoulders_m, "cm", "of shoulders as they are turned, the most");
+  run.add_figure(name + ".us_per_human_tick", 1e6 * scene.choosing_s / (60 * scene.person_s), "us", "choosing steps");
 }
 
 }  // namespace

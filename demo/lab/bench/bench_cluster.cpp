@@ -137,27 +137,22 @@ Result<void> time_ticks(Ranks& ranks, std::size_t people, int rounds, ClusterTim
   return {};
 }
 
-void add_result(BenchRun& run, std::string name, double seconds, double unit_s, std::string unit, std::string bound) {
-  BenchResult& result = run.results.emplace_back();
-  result.name = std::move(name);
-  result.value = seconds / unit_s;
-  result.unit = std::move(unit);
-  result.bound = std::move(bound);
-}
-
 void tell(BenchRun& run, const ClusterTimes& times, std::size_t people, int ranks, bool mpi) {
   const std::string between = mpi ? "between processes, by MPI" : "between threads; mpirun -n 2 measures processes";
+  const auto add = [&](std::string name, double seconds, double unit_s, const char* unit, std::string bound) {
+    run.add_figure(std::move(name), seconds / unit_s, unit, std::move(bound));
+  };
   ClusterModel model;
   for (const auto& [bytes, seconds] : times.ping_s)
-    add_result(run, fmt::format("cluster.ping.{}.us", bytes), seconds, 1e-6, "us", between);
+    add(fmt::format("cluster.ping.{}.us", bytes), seconds, 1e-6, "us", between);
   if (ranks > 1) {
     const auto& [long_bytes, long_s] = times.ping_s.back();
     model.overhead = times.send_s;
     model.per_byte = (long_s - times.ping_s.front().second) / static_cast<double>(long_bytes);
-    add_result(run, "cluster.share.16384.us", times.share_s, 1e-6, "us", fmt::format("to all of {} ranks", ranks));
-    add_result(run, "cluster.sum.us", times.sum_s, 1e-6, "us", "of all ranks, and back");
-    add_result(run, "cluster.send.us", times.send_s, 1e-6, "us", "o: what sending costs the sender");
-    add_result(run, "cluster.byte.ns", model.per_byte, 1e-9, "ns", "G");
+    add("cluster.share.16384.us", times.share_s, 1e-6, "us", fmt::format("to all of {} ranks", ranks));
+    add("cluster.sum.us", times.sum_s, 1e-6, "us", "of all ranks, and back");
+    add("cluster.send.us", times.send_s, 1e-6, "us", "o: what sending costs the sender");
+    add("cluster.byte.ns", model.per_byte, 1e-9, "ns", "G");
   }
   const double alone_s = median(times.alone_s), independent_s = median(times.independent_s),
                together_s = median(times.together_s);
@@ -168,14 +163,13 @@ void tell(BenchRun& run, const ClusterTimes& times, std::size_t people, int rank
   std::vector<double> kept;
   for (std::size_t i = 0; i < times.together_s.size(); ++i)
     kept.push_back(times.independent_s[i] / times.together_s[i]);
-  add_result(
-      run, "cluster.person.us", model.person, 1e-6, "us",
+  add("cluster.person.us", model.person, 1e-6, "us",
       fmt::format("a walker's tick; {} people a rank, one rank at work", people / static_cast<std::size_t>(ranks)));
-  add_result(run, "cluster.command.us", model.command, 1e-6, "us", "drawn by the first rank");
-  add_result(run, "cluster.tick.alone.ms", alone_s, 1e-3, "ms", "one rank works, the others wait");
-  add_result(run, "cluster.tick.independent.ms", independent_s, 1e-3, "ms", "all work and exchange nothing");
-  add_result(run, "cluster.tick.together.ms", together_s, 1e-3, "ms", "all work, with commands and meetings");
-  add_result(run, "cluster.kept", median(kept), 1, "1", "independent over together, median of interleaved rounds");
+  add("cluster.command.us", model.command, 1e-6, "us", "drawn by the first rank");
+  add("cluster.tick.alone.ms", alone_s, 1e-3, "ms", "one rank works, the others wait");
+  add("cluster.tick.independent.ms", independent_s, 1e-3, "ms", "all work and exchange nothing");
+  add("cluster.tick.together.ms", together_s, 1e-3, "ms", "all work, with commands and meetings");
+  add("cluster.kept", median(kept), 1, "1", "independent over together, median of interleaved rounds");
   const int cores = static_cast<int>(run.machine.cores);
   const ClusterTick here = predict(model, static_cast<double>(people), ranks, cores);
   run.notes.push_back(

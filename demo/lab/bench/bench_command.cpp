@@ -167,15 +167,12 @@ Subcommand bench_command() {
   auto text = std::make_shared<BenchText>();
   Subcommand command{.name = "bench"};
   command.footer =
-      "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the "
-      "least\n"
-      "time that the thread had a processor; well below the best, other programs were at work. Of peak, of memory:\n"
-      "operations and bytes in the best time, over what one core does at most; above 100 % the caches serve.\n"
-      "crowd: people with eight muscles along 12 vectors, nobody looking; a tenth as many as --humans, as many, ten "
-      "times\n"
-      "as many (200000 at most). Its names: crowd.N.us_per_human_tick, crowd.N.seen.us_per_human_tick,\n"
-      "crowd.large_over_small, crowd.us_per_spawn, crowd.system.NAME.us_per_human_tick, crowd.threads2_speedup,\n"
-      "crowd.threads2.NAME.speedup, crowd.100.METHOD.muscles_us_per_tick, crowd.100.METHOD.ratio_to_bullet.\n"
+      "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the\n"
+      "least time that the thread had a processor; well below the best, other programs were at work. Of peak, of\n"
+      "memory: operations and bytes in the best time, over what one core does at most; above 100 % the caches serve.\n"
+      "crowd: people with eight muscles along 12 vectors, nobody looking; a tenth as many as --humans, as many, ten\n"
+      "times as many (200000 at most). Its names: crowd.N.us_per_human_tick, crowd.N.compact.us_per_human_tick,\n"
+      "crowd.large_over_small, crowd.compact.large_over_small, crowd.us_per_spawn.\n"
       "threads: the crowd by 1, 2, 4, … threads, and a model of more; its names: threads.unseen.N.speedup,\n"
       "threads.unseen.N.speedup_predicted, threads.unseen.N.fork_us, threads.unseen.serial_share, threads.compact.….\n"
       "cluster: messages between ranks, ticks with and without exchange, and a model of more ranks; --humans on each.\n"

@@ -13,10 +13,10 @@ constexpr int settling_ticks = 90;  // the second step shows that the third is l
 
 }  // namespace
 
-LegMuscles bench_reduced_muscles(bool seen) {
+LegMuscles bench_reduced_muscles() {
   LegMuscles choice;
   choice.method = Method::reduced;
-  choice.reduced.control_points = seen;
+  choice.reduced.control_points = false;
   choice.reduced.reported = false;
   return choice;
 }
@@ -70,15 +70,6 @@ Result<void> BenchScene::grow_to(std::size_t humans) {
   return {};
 }
 
-Result<void> BenchScene::change(const LegMuscles& choice) {
-  for (const Entity human : people_) {
-    if (auto done = simulation_.change_leg_muscles(human, choice); !done) return done;
-  }
-  choice_ = choice;
-  for (int i = 0; i < settling_ticks; ++i) simulation_.tick();
-  return {};
-}
-
 Result<void> BenchScene::compact() {
   const auto done = simulation_.compact(people_);
   if (!done) return tl::unexpected(done.error());
@@ -105,7 +96,6 @@ void BenchScene::measure(int threads, int ticks, BenchTick& best) {
   if (best.system_s.empty()) series = {};
   best.system_s.resize(schedule.systems().size(), 1e9);
   turn_.loops = 0;
-  const double before = process_cpu_now_s();
   for (int i = 0; i < ticks; ++i) {
     turn_.handed_out_s = 0;
     const double wall = wall_now_s(), cpu = process_cpu_now_s();
@@ -114,8 +104,6 @@ void BenchScene::measure(int threads, int ticks, BenchTick& best) {
     series.wall.push_back(wall_now_s() - wall);
     series.serial_share.push_back(1 - turn_.handed_out_s / series.wall.back());
   }
-  const double mean = (process_cpu_now_s() - before) / ticks;
-  best.cpu_mean_s = best.cpu_mean_s > 0 ? std::min(best.cpu_mean_s, mean) : mean;
   best.loops = static_cast<double>(turn_.loops) / ticks;
   // Reading a thread's clock after every block slows a small crowd's tick by a tenth or more. Systems are therefore
   // timed in ticks of their own.
@@ -132,32 +120,6 @@ void BenchScene::measure(int threads, int ticks, BenchTick& best) {
   best.cpu_s = std::ranges::min(series.cpu);
   best.cpu_median_s = median(series.cpu);
   best.serial_share = median(series.serial_share);
-}
-
-double BenchScene::bytes_moved(const System& system) const {
-  const World& world = simulation_.world();
-  std::vector<Bound> bound(system.parameters);
-  double words = 0;
-  for (const Table& table : world.tables()) {
-    if (table.row_count() == 0 || !system.bind(world, table, bound.data())) continue;
-    for (const Access& access : system.accesses) {
-      if (access.mode != Access::Mode::read && access.mode != Access::Mode::write) continue;
-      const KeyPart* part = find_part(table.key(), access.id);
-      if (part != nullptr && part->kind != PartKind::tag)
-        words += double{1.0} * table.row_count() * static_cast<double>(part->value);
-    }
-  }
-  return 4 * words / static_cast<double>(size());
-}
-
-double BenchScene::rows_of(const System& system) const {
-  const World& world = simulation_.world();
-  std::vector<Bound> bound(system.parameters);
-  double rows = 0;
-  for (const Table& table : world.tables()) {
-    if (table.row_count() > 0 && system.bind(world, table, bound.data())) rows += table.row_count();
-  }
-  return rows / static_cast<double>(size());
 }
 
 }  // namespace mobil

@@ -17,15 +17,14 @@
 
 namespace mobil {
 
-/// Twelve vectors of the fine mesh, their control points placed or nobody looking.
-LegMuscles bench_reduced_muscles(bool seen);
+/// Twelve vectors of the fine mesh, nobody looking.
+LegMuscles bench_reduced_muscles();
 
 /// One tick: by the wall's clock, by this process' processor time, and of the latter each system's part in the order of
 /// the schedule; the least of all ticks measured, and the median. `serial_share` is the median part of the wall's time
 /// in which the tick's caller worked alone, `loops` how often a tick hands out work.
 struct BenchTick {
   double wall_s = 0, wall_median_s = 0, cpu_s = 0, cpu_median_s = 0;
-  double cpu_mean_s = 0;  // the least mean of a `measure`: other threads' time lags behind, too much for single ticks
   std::vector<double> system_s;
   double serial_share = 0, loops = 0;
 };
@@ -41,14 +40,11 @@ class BenchScene {
   /// Until there are so many, the people of demo/scene/crowd_people.h, and until they walk steadily. Errors: what the
   /// simulation refuses.
   Result<void> grow_to(std::size_t humans);
-  /// Everybody's muscles otherwise.
-  Result<void> change(const LegMuscles& choice);
   /// Everybody becomes compact (Simulation::compact), and whole again.
   Result<void> compact();
   Result<void> expand();
 
   std::size_t size() const { return people_.size(); }
-  Simulation& simulation() { return simulation_; }
   /// Seconds of processor time that the last people took to spawn, each.
   double spawn_s() const { return spawn_s_; }
   /// Bytes of the tables' rows, each.
@@ -58,12 +54,6 @@ class BenchScene {
   void measure(int threads, int ticks, BenchTick& best);
   /// The pool that `measure` works with; of more threads than one.
   const Threads& pool(int threads);
-
-  /// Bytes that a system reads and writes for one human and tick, by its signature, each once (what it looks up of
-  /// others not counted); 0 where it has nobody to work on.
-  double bytes_moved(const System& system) const;
-  /// Rows that it works on for one human.
-  double rows_of(const System& system) const;
 
  private:
   /// Hands the work on to the pool whose turn it is, or does it where it is nobody's; and how long that takes.

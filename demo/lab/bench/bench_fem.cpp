@@ -16,7 +16,6 @@
 
 #include <mobil/engine/jobs.h>
 #include "assets/fem/muscle_template.h"
-#include "demo/lab/bench/bench_fem_lanes.h"
 #include "demo/lab/bench/bench_fem_rivals.h"
 
 namespace mobil {
@@ -25,7 +24,7 @@ namespace {
 constexpr int fem_rounds = 5;
 
 struct Comparison {
-  Rounds shared, individual, lanes;
+  Rounds shared, individual;
   RivalRounds rivals;
 };
 
@@ -33,18 +32,11 @@ struct Comparison {
 Result<Comparison> compare(const BenchRun& run, const MuscleTemplate& muscle, bool with_rivals) {
   BenchBellies shared(muscle, Stiffness::shared, crowd_blocks);
   BenchBellies individual(muscle, Stiffness::individual, crowd_blocks);
-  BellyScale<Lanes<float>> scale{};
-  for (std::size_t l = 0; l < lane_count; ++l) scale.across[l] = 0.8F + 0.03F * static_cast<float>(l);
-  std::ranges::fill(scale.along.lane, 1.0F);
-  std::vector<OwnStiffness> own(4, OwnStiffness(muscle, scale));
   Comparison found;
   std::optional<double> bullet_dt_s;
   for (int round = 0; round < run.rounds(fem_rounds); ++round) {
     found.shared.add(measure(run.rounds(20), [&] { shared.tick(steps_a_tick, paper_tick_s); }));
     found.individual.add(measure(run.rounds(20), [&] { individual.tick(steps_a_tick, paper_tick_s); }));
-    found.lanes.add(measure(run.rounds(20), [&] {
-      for (OwnStiffness& block : own) step_own(block, steps_a_tick);
-    }));
     if (!with_rivals) continue;
     if (auto done = found.rivals.add({"eigen", "eigen_individual", "eigen_batched"}, run.quick); !done) {
       return tl::unexpected(done.error());
@@ -72,20 +64,18 @@ void add_rivals(BenchRun& run, const MuscleTemplate& muscle, const Comparison& f
   const auto add = [&](const char* name, const char* figure, double ours_us, bool by_second) {
     const RivalTime* theirs = found.rivals.find(name);
     if (theirs == nullptr) return;
-    BenchResult& time = run.results.emplace_back();
-    time.name = fmt::format("fem.rivals.{}.us_per_step", name);
-    time.value = theirs->us_per_step;
+    BenchResult& time = run.add_figure(fmt::format("fem.rivals.{}.us_per_step", name), theirs->us_per_step, "us",
+                                       fmt::format("{}; step {:.4g} ms", theirs->variant, theirs->dt_s * 1e3));
     time.cpu = theirs->us_per_step;
     time.median = theirs->median_us;
-    time.unit = "us";
-    time.bound = fmt::format("{}; step {:.4g} ms", theirs->variant, theirs->dt_s * 1e3);
     const double ratio =
         by_second ? theirs->us_per_step / theirs->dt_s / (ours_us / paper_step_s) : theirs->us_per_step / ours_us;
-    add_figure(run, figure, ratio, "1",
-               by_second ? fmt::format("processor time per simulated second, ours at 2 ms, theirs at {:.4g} ms, its "
-                                       "largest stable step",
-                                       theirs->dt_s * 1e3)
-                         : "processor time of a step, the best of interleaved rounds");
+    run.add_figure(figure, ratio, "1",
+                   by_second
+                       ? fmt::format("processor time per simulated second, ours at 2 ms, theirs at {:.4g} ms, its "
+                                     "largest stable step",
+                                     theirs->dt_s * 1e3)
+                       : "processor time of a step, the best of interleaved rounds");
     run.notes.push_back(
         fmt::format("mobil_rivals {}: {}{}", name, theirs->check, theirs->holds ? "" : ", TOO FAR OFF"));
   };
@@ -175,8 +165,8 @@ Result<void> bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
   }
   place_threads(jobs, allowed, false);
   const double once_s = one.all().best_s, twice_s = two.all().best_s;
-  add_figure(
-      run, "fem.threads2_speedup", once_s / twice_s, "1",
+  run.add_figure(
+      "fem.threads2_speedup", once_s / twice_s, "1",
       fmt::format("{} muscles, a tick of {} steps: {:.3f} ms by one thread, {:.3f} by two, each on a core; wall clock",
                   bellies.muscles(), steps_a_tick, once_s * 1e3, twice_s * 1e3));
   if (once_s / twice_s < 1.8) {
@@ -197,14 +187,6 @@ BenchResult& add_step_time(BenchRun& run, const std::string& stem, const Measure
   return result;
 }
 
-void add_figure(BenchRun& run, std::string name, double value, std::string unit, std::string bound) {
-  BenchResult& result = run.results.emplace_back();
-  result.name = std::move(name);
-  result.value = value;
-  result.unit = std::move(unit);
-  result.bound = std::move(bound);
-}
-
 Result<void> bench_fem(BenchRun& run) {
   const FlushDenormals flushed;
   const auto muscle = paper_block({2, 2, 8});
@@ -217,14 +199,12 @@ Result<void> bench_fem(BenchRun& run) {
   }
   const auto found = compare(run, *muscle, with_rivals);
   if (!found) return tl::unexpected(found.error());
-  const Measured shared = found->shared.all(), individual = found->individual.all(), lanes = found->lanes.all();
+  const Measured shared = found->shared.all(), individual = found->individual.all();
   constexpr auto muscles = static_cast<double>(crowd_blocks * lane_count);
   add_step_time(run, "fem.ecd81.shared", shared, muscles, steps_a_tick, cells);
   add_step_time(run, "fem.ecd81.individual", individual, muscles, steps_a_tick, cells);
-  add_figure(run, "fem.ecd81.individual_over_shared", individual.best_s / shared.best_s, "1",
-             "everybody's own length and section against one stiffness for all");
-  add_step_time(run, "fem.ecd81.per_lane", lanes, 4 * lane_count, steps_a_tick, cells).bound +=
-      ", a stiffness of its own in every lane: measured, not used";
+  run.add_figure("fem.ecd81.individual_over_shared", individual.best_s / shared.best_s, "1",
+                 "everybody's own length and section against one stiffness for all");
   if (with_rivals) add_rivals(run, *muscle, *found);
   if (auto done = bench_two_threads(run, *muscle); !done) return done;
   if (auto done = bench_fem_meshes(run); !done) return done;

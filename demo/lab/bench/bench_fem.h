@@ -11,9 +11,6 @@ namespace mobil {
 BenchResult& add_step_time(BenchRun& run, const std::string& stem, const Measured& time, double muscles, double steps,
                            const Cells& cells);
 
-/// A figure without repeats of its own.
-void add_figure(BenchRun& run, std::string name, double value, std::string unit, std::string bound);
-
 /// ECD on 99, 425, 525, 2673 and 3321 nodes.
 Result<void> bench_fem_meshes(BenchRun& run);
 /// CAA, ICD and static on 81 nodes.

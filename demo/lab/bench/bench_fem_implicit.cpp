@@ -113,9 +113,9 @@ Result<void> bench_time_errors(BenchRun& run, const MuscleTemplate& muscle) {
     const auto coarse = reference_history(muscle, method, dt_s, 1, body.scale(), body.strength(), 0);
     if (!truth) return tl::unexpected(truth.error());
     if (!coarse) return tl::unexpected(coarse.error());
-    add_figure(run, name, history_error(*coarse, *truth), "1",
-               fmt::format("rms over peak of one second's elongation, steps of {:.3g} ms against {:.3g} ms", dt_s * 1e3,
-                           fine_s * 1e3));
+    run.add_figure(name, history_error(*coarse, *truth), "1",
+                   fmt::format("rms over peak of one second's elongation, steps of {:.3g} ms against {:.3g} ms",
+                               dt_s * 1e3, fine_s * 1e3));
     return {};
   };
   if (auto done = add("fem.ecd81.time_error", Method::ecd, paper_step_s, paper_step_s / 20); !done) return done;

@@ -1,4 +1,4 @@
-// Figures 18, 19 and 20 of the paper as tables: what one second of one muscle costs by method, step and mesh, how far
+// Figures 18, 19 and 20 of the paper as numbers: what one second of one muscle costs by method, step and mesh, how far
 // the cheap solution is from the dear one, and whether a fourth muscle group at 3 ms costs what three cost at 2 ms.
 
 #include <fmt/format.h>
@@ -66,67 +66,45 @@ Result<Cost> second(const BenchRun& run, const MuscleTemplate& muscle, Method me
   return cost;
 }
 
-/// A table's cell: µs of processor time of one of sixteen, and of the block.
-std::string cell(const Cost& cost) {
-  if (!cost.block) return fmt::format("above the limit {:.2f} ms", cost.limit_s * 1e3);
-  return fmt::format("{:.0f} us ({:.0f})", *cost.block->cpu_s / lanes * 1e6, *cost.block->cpu_s * 1e6);
-}
-
-void add_cost(BenchRun& run, std::string name, const Cost& cost) {
-  if (!cost.block) return;
-  run.add_time(std::move(name), *cost.block, lanes, 1e-6, "us").bound =
+/// Says so where the step is above the method's limit.
+void add_cost(BenchRun& run, const std::string& name, const Cost& cost) {
+  if (!cost.block) {
+    run.notes.push_back(fmt::format("{}: above the limit {:.2f} ms", name, cost.limit_s * 1e3));
+    return;
+  }
+  run.add_time(name + ".us_per_simulated_s", *cost.block, lanes, 1e-6, "us").bound =
       fmt::format("a simulated second of one of sixteen; the block {:.0f} us, {:.0f} times real time",
                   cost.block->best_s * 1e6, 1 / cost.block->best_s);
 }
 
-std::string row(std::string_view head, const std::vector<std::string>& cells) {
-  std::string text = fmt::format("  {:<12}", head);
-  for (const std::string& c : cells) text += fmt::format("{:>25}", c);
-  return text;
-}
-
 /// Figure 18, one mesh; and of 81 nodes, figure 20 right is its first row.
 Result<std::map<double, Cost>> figure18(BenchRun& run, const FigureMesh& mesh, const MuscleTemplate& muscle) {
-  run.notes.push_back(fmt::format(
-      "Figure 18, {} nodes: processor time for a simulated second of one of sixteen (of the block)", mesh.nodes));
-  std::vector<std::string> head;
-  head.reserve(steps_ms.size());
-  for (const double ms : steps_ms) head.push_back(fmt::format("{:.1f} ms", ms));
-  run.notes.push_back(row("step", head));
   std::map<double, Cost> explicit_costs;
   for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
     const std::string_view name = method_name[static_cast<std::size_t>(method)];
-    std::vector<std::string> cells;
     for (const double ms : steps_ms) {
       const auto cost = second(run, muscle, method, ms * 1e-3);
       if (!cost) return tl::unexpected(cost.error());
-      add_cost(run, fmt::format("figure18.{}{}.{:.1f}ms.us_per_simulated_s", name, mesh.nodes, ms), *cost);
+      add_cost(run, fmt::format("figure18.{}{}.{:.1f}ms", name, mesh.nodes, ms), *cost);
       if (method == Method::ecd) explicit_costs[ms] = *cost;
-      cells.push_back(cell(*cost));
     }
-    run.notes.push_back(row(name, cells));
   }
   return explicit_costs;
 }
 
 /// Figure 20 left: ECD at 1 ms on three meshes; a mesh that 1 ms is too long for at 0.9 of its limit.
 Result<void> figure20_left(BenchRun& run) {
-  run.notes.emplace_back("Figure 20 left: the same by mesh, ECD at 1 ms");
   for (const FigureMesh& mesh : {coarse, fine, finest}) {
     const auto muscle = paper_block(mesh.cells);
     if (!muscle) return tl::unexpected(muscle.error());
     const auto cost = second(run, *muscle, Method::ecd, 1e-3);
     if (!cost) return tl::unexpected(cost.error());
-    add_cost(run, fmt::format("figure20.ecd{}.1.0ms.us_per_simulated_s", mesh.nodes), *cost);
-    std::string text = cell(*cost);
-    if (!cost->block) {
-      const double dt_s = 0.9 * cost->limit_s;
-      const auto shorter = second(run, *muscle, Method::ecd, dt_s);
-      if (!shorter) return tl::unexpected(shorter.error());
-      add_cost(run, fmt::format("figure20.ecd{}.{:.2f}ms.us_per_simulated_s", mesh.nodes, dt_s * 1e3), *shorter);
-      text += fmt::format("; at {:.2f} ms {}", dt_s * 1e3, cell(*shorter));
-    }
-    run.notes.push_back(fmt::format("  {:<12}   {}", fmt::format("{} nodes", mesh.nodes), text));
+    add_cost(run, fmt::format("figure20.ecd{}.1.0ms", mesh.nodes), *cost);
+    if (cost->block) continue;
+    const double dt_s = 0.9 * cost->limit_s;
+    const auto shorter = second(run, *muscle, Method::ecd, dt_s);
+    if (!shorter) return tl::unexpected(shorter.error());
+    add_cost(run, fmt::format("figure20.ecd{}.{:.2f}ms", mesh.nodes, dt_s * 1e3), *shorter);
   }
   return {};
 }
@@ -154,13 +132,9 @@ Result<void> figure19(BenchRun& run) {
   for (const auto* made : {&caa, &ecd2, &ecd3, &converged2, &converged3, &precise}) {
     if (!*made) return tl::unexpected(made->error());
   }
-  run.notes.emplace_back(
-      "Figure 19: a second of elongation under a pull of up to 0.4 N and 0.05 N at 7 Hz, rms difference over peak");
   const auto add = [&](const char* name, const std::vector<double>& a, const std::vector<double>& b,
                        const std::string& what) {
-    const double error = history_error(a, b);
-    add_figure(run, name, error, "1", what);
-    run.notes.push_back(fmt::format("  {:<58} {:.2f} %", what, 100 * error));
+    run.add_figure(name, history_error(a, b), "1", what + ", a second of elongation, rms over peak");
   };
   add("figure19.ecd81_to_caa525", *ecd2, *caa, "ECD 81 at 2 ms from CAA 525 at 1 ms");
   add("figure19.caa525_to_converged", *caa, *converged2, "CAA 525 at 1 ms from 2673 nodes at 0.5 ms");
@@ -174,13 +148,9 @@ Result<void> figure19(BenchRun& run) {
 /// "Also a four muscular group could be calculated with enough accuracy if Δt is increased to 0.003."
 void four_groups(BenchRun& run, const std::map<double, Cost>& costs) {
   const double at2 = *costs.at(2.0).block->cpu_s / lanes, at3 = *costs.at(3.0).block->cpu_s / lanes;
-  const double three = 3 * at2, four = 4 * at3;
-  add_figure(run, "figure20.four_groups_at_3ms_over_three_at_2ms", four / three, "1",
-             "of one leg; the paper's claim holds up to 1");
-  run.notes.push_back(fmt::format(
-      "A fourth group: four at 3 ms take {:.0f} us a simulated second, three at 2 ms {:.0f} us: {:.2f} of it, {:.0f} "
-      "times faster than real time",
-      four * 1e6, three * 1e6, four / three, 1 / four));
+  run.add_figure(
+      "figure20.four_groups_at_3ms_over_three_at_2ms", 4 * at3 / (3 * at2), "1",
+      fmt::format("of one leg; the paper's claim holds up to 1; {:.0f} times faster than real time", 1 / (4 * at3)));
 }
 
 }  // namespace
@@ -197,7 +167,6 @@ Result<void> bench_paper_figures(BenchRun& run) {
   }
   if (auto done = figure19(run); !done) return done;
   if (auto done = figure20_left(run); !done) return done;
-  run.notes.emplace_back("Figure 20 right: the ECD row of figure 18, 81 nodes");
   four_groups(run, explicit_costs);
   return {};
 }

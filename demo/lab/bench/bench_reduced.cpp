@@ -1,5 +1,5 @@
 // Bellies that move along a few vectors: a crowd's and one's that the caches hold, against memory and against this
-// core's peak, and against the paper's choice, 81 nodes by explicit central differences at 2 ms.
+// core's peak.
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -12,16 +12,11 @@
 #include <memory>
 #include <new>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include <mobil/engine/jobs.h>
-#include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
 #include "demo/lab/bench/bench.h"
-#include "demo/lab/bench/bench_fem.h"
-#include "demo/lab/bench/bench_fem_bellies.h"
 #include "systems/deformation/reduced.h"
 
 namespace mobil {
@@ -29,9 +24,8 @@ namespace {
 
 constexpr std::size_t cached_blocks = 16;  // 256 muscles: half a megabyte at most
 constexpr double tick_s = 1.0 / 60;
-constexpr double paper_steps_a_second = 500, ticks_a_second = 60;
 
-enum class What { tick, placed, still };
+enum class What { tick, placed };
 
 struct Shape {
   std::uint32_t vectors;
@@ -39,15 +33,15 @@ struct Shape {
   What what;
 };
 
-/// Memory for a crowd, in huge pages where the system gives them or, for comparison, in ordinary ones.
+/// Memory for a crowd, in huge pages where the system gives them.
 class Pages {
  public:
-  Pages(std::size_t floats, bool huge) {
+  explicit Pages(std::size_t floats) {
     constexpr std::size_t page = std::size_t{2} << 20;
     const std::size_t bytes = (floats * sizeof(float) / page + 1) * page;
     floats_.reset(static_cast<float*>(std::aligned_alloc(page, bytes)));
     if (floats_ == nullptr) throw std::bad_alloc();
-    madvise(floats_.get(), bytes, huge ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
+    madvise(floats_.get(), bytes, MADV_HUGEPAGE);
     std::fill_n(floats_.get(), floats, 0.0F);
   }
   float* begin() const { return floats_.get(); }
@@ -63,17 +57,17 @@ class Pages {
 /// numbers are makes no difference to what they cost: each swings about a drive that grows evenly.
 class ReducedCrowd {
  public:
-  ReducedCrowd(const Shape& shape, std::size_t blocks, bool huge_pages = true)
+  ReducedCrowd(const Shape& shape, std::size_t blocks)
       : what_(shape.what),
         blocks_(blocks),
         basis_(make_basis(shape)),
-        state_width_(what_ == What::still ? 0 : reduced_state_width(basis_.vectors)),
-        motion_width_(what_ == What::still ? 0 : reduced_motion_width(basis_.vectors, basis_.inputs)),
+        state_width_(reduced_state_width(basis_.vectors)),
+        motion_width_(reduced_motion_width(basis_.vectors, basis_.inputs)),
         shape_width_(what_ == What::tick ? 0 : reduced_shape_width(basis_.vectors, basis_.inputs)),
         node_width_(what_ == What::tick ? 0 : nodal_width(basis_.options.control_cells)),
         head_width_(shape.frame ? 4 + 2 * frame_inputs : 4),
         words_(head_width_ + state_width_ + motion_width_ + shape_width_ + node_width_),
-        pages_(blocks * words_ * lane_count, huge_pages) {
+        pages_(blocks * words_ * lane_count) {
     const std::size_t each = reduced_motion_width(1, basis_.inputs);
     for (std::size_t b = 0; b < blocks; ++b) {
       Columns column = columns(b);
@@ -100,18 +94,8 @@ class ReducedCrowd {
           basis_,     *column.scale, column.state, column.motion, basis_.options.frame_loads ? column.frame : nullptr,
           next.state, next.motion};
       const ControlPoints points{column.shape, column.displacement, streamed, next.shape};
-      if (what_ != What::still) deform_reduced(block, {FarEnd::held, *column.end}, static_cast<float>(tick_s));
+      deform_reduced(block, {FarEnd::held, *column.end}, static_cast<float>(tick_s));
       if (what_ == What::placed) place_control_points(block, points, {FarEnd::held, *column.end});
-      if (what_ == What::still) place_static(block, points, {FarEnd::held, *column.end});
-    }
-  }
-
-  void report(const MuscleTemplate& control) {
-    BellyReport<Lanes<float>> told;
-    for (std::size_t b = 0; b < blocks_; ++b) {
-      const Columns column = columns(b);
-      report_reduced({basis_, *column.scale, column.state, column.motion}, control, {column.shape, column.displacement},
-                     {FarEnd::held, *column.end}, static_cast<float>(tick_s), told);
     }
   }
 
@@ -119,18 +103,15 @@ class ReducedCrowd {
   /// Read and written a muscle and tick, each once.
   double bytes() const {
     const double n = basis_.vectors, inputs = basis_.inputs;
-    double floats = 2 * inputs;
-    if (what_ != What::still) floats += 4 * n + static_cast<double>(motion_width_);
-    if (what_ != What::tick) floats += n * (n + inputs) - (what_ == What::still ? n * n : 0);
-    return 4 * (floats + (what_ == What::tick ? 0 : static_cast<double>(nodal_width(basis_.options.control_cells))));
+    double floats = 2 * inputs + 4 * n + static_cast<double>(motion_width_);
+    if (what_ == What::placed) floats += n * (n + inputs) + static_cast<double>(node_width_);
+    return 4 * floats;
   }
   double multiply_adds() const {
     const double n = basis_.vectors, inputs = basis_.inputs;
     const Cells& cells = basis_.options.control_cells;
-    double sum = 0;
-    if (what_ != What::still) sum += 8 * n + (inputs > 1 ? inputs * n : 0);
-    if (what_ != What::tick) sum += n * inputs + (what_ == What::placed ? n * n : 0);
-    if (what_ != What::tick) sum += 3.0 * plane_nodes(cells) * (cells[2] - 1) * (n + 1);
+    double sum = 8 * n + (inputs > 1 ? inputs * n : 0);
+    if (what_ == What::placed) sum += n * (n + inputs) + 3.0 * plane_nodes(cells) * (cells[2] - 1) * (n + 1);
     return sum;
   }
   bool finite() const {
@@ -185,10 +166,7 @@ class ReducedCrowd {
 
 std::string stem_of(const Shape& shape, bool cached) {
   return fmt::format("reduced.n{}{}{}{}", shape.vectors, shape.frame ? ".frame_loads" : "",
-                     shape.what == What::tick     ? ""
-                     : shape.what == What::placed ? ".control_points"
-                                                  : ".static",
-                     cached ? ".cached" : "");
+                     shape.what == What::tick ? "" : ".control_points", cached ? ".cached" : "");
 }
 
 Result<BenchResult> measure_crowd(BenchRun& run, const Shape& shape, std::size_t blocks, bool cached) {
@@ -214,81 +192,25 @@ Result<BenchResult> measure_crowd(BenchRun& run, const Shape& shape, std::size_t
   return result;
 }
 
-/// A muscle's step of the paper's 81 nodes at 2 ms, us.
-struct Paper {
-  double individual_us = 0, shared_us = 0;
-};
-
-/// Of as many muscles as ours are.
-Result<Paper> measure_paper(const BenchRun& run, std::size_t blocks) {
-  const auto muscle = paper_block({2, 2, 8});
-  if (!muscle) return tl::unexpected(muscle.error());
-  const auto us_per_step = [&](Stiffness stiffness) {
-    BenchBellies bellies(*muscle, stiffness, blocks);
-    std::size_t block = 0;
-    const Measured time = measure(run.rounds(200), [&] {
-      for (std::size_t n = 0; n < cached_blocks; ++n) bellies.tick_block(block++ % blocks, steps_a_tick, paper_tick_s);
-    });
-    return time.best_s / static_cast<double>(cached_blocks * lane_count * steps_a_tick) * 1e6;
-  };
-  return Paper{us_per_step(Stiffness::individual), us_per_step(Stiffness::shared)};
-}
-
-/// A report of points that are placed.
-Result<void> measure_report(BenchRun& run) {
-  auto mesh = make_block(ReducedOptions{}.control_cells, 0.015);
-  if (!mesh) return tl::unexpected(mesh.error());
-  const auto control = make_muscle_template(std::move(*mesh), {}, {});
-  if (!control) return tl::unexpected(control.error());
-  ReducedCrowd crowd({12, false, What::placed}, cached_blocks);
-  crowd.tick(0, 1, false);
-  const Measured time = measure_short([&] { crowd.report(*control); });
-  run.add_time("reduced.n12.report.us_per_tick", time, crowd.muscles(), 1e-6, "us").bound =
-      "volume, reaction and energies, where control points are";
-  return {};
-}
-
 }  // namespace
 
 Result<void> bench_reduced(BenchRun& run) {
   const FlushDenormals flushed;
   const std::size_t blocks = std::max<std::size_t>(1, run.humans * muscles_a_human / lane_count);
-  const auto paper = measure_paper(run, blocks), paper_cached = measure_paper(run, std::min(blocks, cached_blocks));
-  if (!paper) return tl::unexpected(paper.error());
-  if (!paper_cached) return tl::unexpected(paper_cached.error());
   std::map<std::string, double> us;
-  for (const std::uint32_t vectors : {8U, 12U, 16U, 24U}) {
-    for (const bool frame : {false, true}) {
-      for (const What what : {What::tick, What::placed, What::still}) {
-        for (const bool cached : {false, true}) {
-          const Shape shape{vectors, frame, what};
-          const auto result = measure_crowd(run, shape, cached ? std::min(blocks, cached_blocks) : blocks, cached);
-          if (!result) return tl::unexpected(result.error());
-          us[stem_of(shape, cached)] = result->value;
-        }
-      }
+  for (const Shape& shape : {Shape{12, false, What::tick}, Shape{12, false, What::placed}, Shape{16, true, What::tick},
+                             Shape{16, true, What::placed}}) {
+    for (const bool cached : {false, true}) {
+      const auto result = measure_crowd(run, shape, cached ? std::min(blocks, cached_blocks) : blocks, cached);
+      if (!result) return tl::unexpected(result.error());
+      us[stem_of(shape, cached)] = result->value;
     }
   }
-  if (auto done = measure_report(run); !done) return done;
-  const std::string line = "reduced.n12", points = "reduced.n12.control_points";
-  add_figure(run, "reduced.us_per_tick", us[line], "us", "12 vectors, a line's drive, the whole crowd");
-  add_figure(run, "reduced.us_per_tick_with_control_points", us[points], "us", "the same and its 81 nodes");
-  add_figure(run, "reduced.us_per_tick_with_frame_loads", us["reduced.n16.frame_loads"], "us",
-             "16 vectors, a line's drive and the frame's loads, the whole crowd");
-  const auto ratios = [&](const std::string& ending, const Paper& theirs, const std::string& ours) {
-    const auto add = [&](const char* name, double step_us, double tick_us, const char* whose) {
-      add_figure(run, fmt::format("reduced.ratio_to_paper{}{}", name, ending),
-                 step_us * paper_steps_a_second / (tick_us * ticks_a_second), "1",
-                 fmt::format("{:.3f} us a step of 81 nodes at 2 ms, {}; 500 of them against 60 ticks of {:.4f} us",
-                             step_us, whose, tick_us));
-    };
-    for (const auto& [name, tick_us] : {std::pair{"", us[line + ours]}, {"_with_control_points", us[points + ours]}}) {
-      add(name, theirs.individual_us, tick_us, "everybody's own size");
-      add(*name == 0 ? "_shared" : "_shared_with_control_points", theirs.shared_us, tick_us, "one stiffness for all");
-    }
-  };
-  ratios("", *paper, "");
-  ratios("_cached", *paper_cached, ".cached");
+  run.add_figure("reduced.us_per_tick", us["reduced.n12"], "us", "12 vectors, a line's drive, the whole crowd");
+  run.add_figure("reduced.us_per_tick_with_control_points", us["reduced.n12.control_points"], "us",
+                 "the same and its 81 nodes");
+  run.add_figure("reduced.us_per_tick_with_frame_loads", us["reduced.n16.frame_loads"], "us",
+                 "16 vectors, a line's drive and the frame's loads, the whole crowd");
   return {};
 }
 

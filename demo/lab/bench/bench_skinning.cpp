@@ -111,32 +111,24 @@ Result<void> time_writing(BenchRun& run, const std::string& name, const Scene& s
 }  // namespace
 
 Result<void> bench_skinning(BenchRun& run) {
-  const SurfaceChoice muscles{.bones = false}, bones{.simulated = {}};
-  const SurfaceChoice textured{.bones = false, .textured = true}, coarse{.bones = false, .detail = 0.1};
+  const SurfaceChoice muscles{.bones = false}, bones{.simulated = {}}, textured{.bones = false, .textured = true};
   constexpr std::size_t many = 100;
-  Scene one, shared, own, skeleton, tangents, tenth;
-  if (auto done = gather(one, 1, true, muscles); !done) return done;
-  if (auto done = gather(shared, many, true, muscles); !done) return done;
-  if (auto done = gather(own, many, false, muscles); !done) return done;
-  if (auto done = gather(skeleton, 1, true, bones); !done) return done;
-  if (auto done = gather(tangents, 1, true, textured); !done) return done;
-  if (auto done = gather(tenth, many, true, coarse); !done) return done;
   struct Way {
     const char* name;
-    const Scene& scene;
+    std::size_t people;
+    bool shared;
+    const SurfaceChoice& choice;
     std::size_t stride;
     double flops;
   };
-  for (const Way& way : {Way{"skinning.ns_per_vertex", one, 24, muscle_flops},
-                         Way{"skinning.stride_32.ns_per_vertex", one, 32, muscle_flops},
-                         Way{"skinning.hundred_shared.ns_per_vertex", shared, 24, muscle_flops},
-                         Way{"skinning.hundred_shared.stride_32.ns_per_vertex", shared, 32, muscle_flops},
-                         Way{"skinning.hundred_own.ns_per_vertex", own, 24, muscle_flops},
-                         Way{"skinning.hundred_own.stride_32.ns_per_vertex", own, 32, muscle_flops},
-                         Way{"skinning.tangents.ns_per_vertex", tangents, 40, muscle_flops + tangent_flops},
-                         Way{"skinning.hundred_of_a_tenth.ns_per_vertex", tenth, 24, muscle_flops},
-                         Way{"skinning.bones.ns_per_vertex", skeleton, 24, bone_flops}}) {
-    if (auto done = time_writing(run, way.name, way.scene, way.stride, way.flops); !done) return done;
+  for (const Way& way : {Way{"skinning.ns_per_vertex", 1, true, muscles, 24, muscle_flops},
+                         Way{"skinning.hundred_shared.ns_per_vertex", many, true, muscles, 24, muscle_flops},
+                         Way{"skinning.hundred_own.ns_per_vertex", many, false, muscles, 24, muscle_flops},
+                         Way{"skinning.tangents.ns_per_vertex", 1, true, textured, 40, muscle_flops + tangent_flops},
+                         Way{"skinning.bones.ns_per_vertex", 1, true, bones, 24, bone_flops}}) {
+    Scene scene;
+    if (auto done = gather(scene, way.people, way.shared, way.choice); !done) return done;
+    if (auto done = time_writing(run, way.name, scene, way.stride, way.flops); !done) return done;
   }
   return {};
 }

@@ -11,7 +11,6 @@
 
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd_scene.h"
-#include "demo/lab/bench/bench_fem.h"
 
 namespace mobil {
 namespace {
@@ -80,7 +79,7 @@ void measure_scene(BenchRun& run, BenchScene& scene, const std::string& name) {
     model.fork_s[threads] = fork_s(scene.pool(threads));
   }
   const auto figure = [&](const std::string& what, double value, const std::string& unit, std::string bound) {
-    add_figure(run, fmt::format("threads.{}.{}", name, what), value, unit, std::move(bound));
+    run.add_figure(fmt::format("threads.{}.{}", name, what), value, unit, std::move(bound));
   };
   figure(
       "serial_share", alone.serial_share, "1",
@@ -102,7 +101,7 @@ void measure_scene(BenchRun& run, BenchScene& scene, const std::string& name) {
 }  // namespace
 
 Result<void> bench_threads(BenchRun& run) {
-  BenchScene scene(bench_reduced_muscles(false));
+  BenchScene scene(bench_reduced_muscles());
   if (auto done = scene.grow_to(run.humans); !done) return done;
   measure_scene(run, scene, "unseen");
   if (auto done = scene.compact(); !done) return done;

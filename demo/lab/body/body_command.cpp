@@ -8,8 +8,8 @@
 #include <string>
 
 #include <mobil/anthropometry.h>
+#include <mobil/assets/files/output_file.h>
 #include <mobil/png.h>
-#include "assets/files/output_file.h"
 #include "demo/lab/body/body_json.h"
 #include "demo/lab/body/body_picture.h"
 #include "demo/program/body_options.h"
@@ -57,16 +57,15 @@ Subcommand body_command() {
   auto text = std::make_shared<BodyCommand>();
   Subcommand command{.name = "body"};
   command.footer =
-      "Height gives the lengths, mass the masses; both give the leg's muscles. Constitution and mesomorphy make "
-      "muscles\n"
-      "larger or smaller, endomorphy is fat, ectomorphy slenderness, which height and mass decide between themselves:\n"
-      "where a request contradicts itself, what gave way is said in a note. What no living body weighs at that height\n"
-      "is refused.\n"
+      "Height gives the lengths, mass the masses; both give the leg's muscles. Constitution and mesomorphy make\n"
+      "muscles larger or smaller, endomorphy is fat, ectomorphy slenderness, which height and mass decide between\n"
+      "themselves: where a request contradicts itself, what gave way is said in a note. What no living body weighs at\n"
+      "that height is refused.\n"
       "body.json holds 48 segments (joint, length, mass, centre, inertia), the joints' limits and the leg's muscles\n"
-      "(attachments, belly, fibres, pennation, tendon, section, volume), each with its source; body.png shows the "
-      "body\n"
-      "from the front and from its right in the anatomical position.\n"
-      "\nExamples: mobil body --height 1.80 --mass 80 --out out\n"
+      "(attachments, belly, fibres, pennation, tendon, section, volume), each with its source; body.png shows the\n"
+      "body from the front and from its right in the anatomical position.\n"
+      "\n"
+      "Examples: mobil body --height 1.80 --mass 80 --out out\n"
       "          mobil body --height 165cm --mass 58 --biotype 2-3-4 --constitution thin --json | less";
   add_options(command, body_options(text->body));
   add_options(command, {{"--json", &text->json, "Print the JSON, and write and draw nothing"},

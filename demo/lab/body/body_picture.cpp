@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/renderer.h>
 #include "assets/body/segment_inertia.h"
 #include "assets/surfaces/bone_surfaces.h"
-#include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "demo/pictures/contact_sheet.h"
 

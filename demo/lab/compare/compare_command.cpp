@@ -10,7 +10,7 @@
 #include <string>
 
 #include <mobil/anthropometry.h>
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 #include "demo/lab/compare/compare_plots.h"
 #include "demo/lab/compare/compare_report.h"
 #include "demo/program/commands.h"

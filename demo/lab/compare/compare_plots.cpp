@@ -46,7 +46,7 @@ void limit_row(std::span<PlotPanel> row) {
 /// A grid: a row a quantity, a column a walk. Each hip is drawn over the set that measures it the same way alone.
 PlotFigure cycle_figure(const Comparison& comparison, const char* title, std::span<const Row> rows) {
   const GaitReference& reference = comparison.reference;
-  PlotFigure figure{title, "", comparison.walks.size(), {}, true, comparison.walks.size() > 3 ? 175.0 : 230.0, 140};
+  PlotFigure figure{title, "", comparison.walks.size(), comparison.walks.size() > 3 ? 175.0 : 230.0, 140, true};
   for (const auto& row : rows) {
     for (const auto& walk : comparison.walks) {
       const MeasuredSet& own = reference.sets[walk.set];
@@ -130,7 +130,7 @@ std::vector<double> between(double low, double high, std::size_t count) {
 PlotFigure step_figure(const Comparison& comparison) {
   const double height = static_cast<double>(comparison.body.height_m);
   const double speed = comparison.by_height.front().stride.speed_m_s;
-  PlotFigure figure{"Step length and cadence", "", 2, {}, false, 300, 170};
+  PlotFigure figure{"Step length and cadence", "", 2, 300, 170};
   const auto speeds = between(comparison.by_speed.front().value, comparison.by_speed.back().value, 60);
   const auto heights = between(comparison.by_height.front().value, comparison.by_height.back().value, 60);
   for (const bool cadence : {false, true}) {
@@ -161,11 +161,7 @@ PlotPanel height_panel(const char* title, const std::vector<VariedWalk>& walks, 
 PlotFigure centre_of_mass_figure(const Comparison& comparison) {
   PlotFigure figure{"Centre of mass",
                     "Longer steps and heavier people: at the same speed. Orendurff: 0.7 and 1.6 m/s, straight between.",
-                    2,
-                    {},
-                    false,
-                    370,
-                    170};
+                    2, 370, 170};
   PlotPanel cycle{"height (m/s)", {"% of the gait cycle", 0, 100}, {"over its mean (mm)"}, {}, {}, {}, true};
   PlotPanel excursion{"rise", {"speed (m/s)"}, {"excursion (mm)"}, {}, {}, {}, true};
   for (const auto& walk : comparison.walks) {

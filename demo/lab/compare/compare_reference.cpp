@@ -9,7 +9,7 @@
 #include <utility>
 
 #include <mobil/anthropometry.h>
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
 #include "demo/lab/compare/reference_tables.h"
 
 namespace mobil {

@@ -43,19 +43,15 @@ Subcommand effects_command() {
   auto text = std::make_shared<EffectsCommand>();
   Subcommand command{.name = "effects"};
   command.footer =
-      "Every effect is switched on in a crowd of its own and its systems' time read off the simulation's report: what "
-      "a\n"
-      "scene does not ask for costs nothing. Columns: microseconds a human and tick of 1/60 s on one core (of the "
-      "least\n"
-      "busy moment), what it adds to what one sees, what it needs. Muscles come in rungs: a few vectors of a fine "
-      "mesh\n"
-      "(reduced-N), their static answer alone, or the paper's explicit mesh (full); `mobil frontier` shows how far "
-      "off\n"
-      "each is. A Relevance (mobil/relevance.h) chooses among them: from a tolerance in metres, "
-      "a\n"
+      "Every effect is switched on in a crowd of its own and its systems' time read off the simulation's report: what\n"
+      "a scene does not ask for costs nothing. Columns: microseconds a human and tick of 1/60 s on one core (of the\n"
+      "least busy moment), what it adds to what one sees, what it needs. Muscles come in rungs: a few vectors of a\n"
+      "fine mesh (reduced-N), their static answer alone, or the paper's explicit mesh (full); `mobil frontier` shows\n"
+      "how far off each is. A Relevance (mobil/relevance.h) chooses among them: from a tolerance in metres, a\n"
       "camera and a tolerance in pixels, or a time budget a tick; its why() tells for each muscle what was chosen and "
       "why.\n"
-      "\nExamples: mobil effects\n"
+      "\n"
+      "Examples: mobil effects\n"
       "          mobil effects --json effects.json";
   command.options = {{"--humans", &text->humans, "How many walk while effects are measured"},
                      {"--json", &text->json, "File for the figures"}};

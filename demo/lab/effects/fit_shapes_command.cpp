@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/muscle_table.h>
-#include "assets/files/output_file.h"
 #include "assets/finite/packed_shapes.h"
 #include "assets/finite/shape_tables.h"
 #include "demo/program/commands.h"

@@ -153,14 +153,12 @@ bool nearer(double error_a, double cost_a, double error_b, double cost_b) {
 
 FrontierRequest short_frontier() {
   FrontierRequest request;
-  request.form = "short";
   request.rungs = short_rungs();
   return request;
 }
 
 FrontierRequest long_frontier() {
   FrontierRequest request;
-  request.form = "long";
   request.seconds = 2.7;
   request.reference = {16, 16, 64};
   request.rounds = 15;
@@ -212,7 +210,6 @@ Result<Frontier> measure_frontier(const FrontierRequest& request) {
       const FrontierReference& own = answers(m).reference;
       mesh.add(own.mesh);
       fewer.add(own.vectors);
-      change.mesh_of_muscle.push_back(own.mesh.relative());
       if (own.elements) plain.add(*own.elements);
     }
     change.mesh = mesh.relative();

@@ -31,7 +31,6 @@ struct FrontierRung {
 /// meshes, one with half the other's cells, whose extrapolated answer the reference is held against; empty for none.
 /// `bytes`: of a method's crowd, so that caches do not flatter, unless a tick of it then took longer than `call_s`.
 struct FrontierRequest {
-  std::string form;
   std::vector<Muscle> muscles = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
                                  Muscle::tibialis_anterior};
   std::vector<FrontierWalk> walks = frontier_walks();
@@ -73,7 +72,6 @@ struct FrontierChange {
   bool loads = false;
   double mesh = 0, vectors = 0;
   std::optional<double> elements{};
-  std::vector<double> mesh_of_muscle;
 
   double own() const { return mesh > vectors ? mesh : vectors; }
 };
@@ -100,13 +98,9 @@ void mark_frontier(std::vector<FrontierRow>& rows);
 const FrontierRow* cheapest_within(std::span<const FrontierRow> rows, bool loads, bool points, double error);
 
 std::string frontier_csv(const Frontier& frontier);
-std::string frontier_json(const Frontier& frontier);
 PlotFigure frontier_figure(const Frontier& frontier);
 /// The frontier as a table, and what it shows.
 std::string frontier_text(const Frontier& frontier);
-
-/// What the reference is and how it was checked, in words.
-std::string reference_text(const Frontier& frontier);
 
 /// A muscle's reference under a scene's loads and its change.
 struct FrontierReference {

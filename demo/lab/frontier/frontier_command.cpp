@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/muscle_table.h>
-#include "assets/files/output_file.h"
 #include "demo/lab/frontier/frontier.h"
 #include "demo/lab/frontier/frontier_finite.h"
 #include "demo/lab/frontier/frontier_living.h"
@@ -59,10 +59,9 @@ Result<void> run_frontier(const FrontierText& text) {
   const auto& out = results->inside();
   if (auto done = write_file(out / "frontier.csv", frontier_csv(*frontier)); !done) return done;
   if (auto done = write_file(out / "frontier.svg", svg(frontier_figure(*frontier))); !done) return done;
-  if (auto done = write_file(out / "frontier.json", frontier_json(*frontier)); !done) return done;
   if (auto done = results->put(); !done) return done;
   fmt::print("{}", frontier_text(*frontier));
-  say_where(fmt::format("\nwritten {}: frontier.csv frontier.svg frontier.json", text.out));
+  say_where(fmt::format("\nwritten {}: frontier.csv frontier.svg", text.out));
   return {};
 }
 
@@ -74,10 +73,9 @@ Subcommand frontier_command() {
   command.footer =
       "Sixteen walks by six bodies and speeds move four muscle groups; every method, mesh, step and number of vectors\n"
       "gets the same line of action (and once more with gravity and the frame's motion), tick by tick, and is held\n"
-      "against a reference refined until it hardly moves. How much it still moves is told, and what is nearer than "
-      "ten\n"
-      "times that is marked uncertain. Costs are processor time of one thread with thousands of muscles, all ways in\n"
-      "turn; ratios are to the paper's choice, 81 nodes stepped explicitly by 2 ms.\n"
+      "against a reference refined until it hardly moves. How much it still moves is told, and what is nearer than\n"
+      "ten times that is marked uncertain. Costs are processor time of one thread with thousands of muscles, all ways\n"
+      "in turn; ratios are to the paper's choice, 81 nodes stepped explicitly by 2 ms.\n"
       "On the frontier is what nothing else beats in both: nearer and cheaper. A reduced muscle that nobody looks at\n"
       "has a state but no control points; its cost with them is given as well.\n"
       "Methods (mobil muscle --help says what they are): static, ecd, icd, caa; reduced: so many vectors of a finer\n"
@@ -98,7 +96,7 @@ Subcommand frontier_command() {
        "Instead: what accuracy costs where muscles pull and are shaken, against tissue that keeps its volume "
        "(finite.csv, "
        "living.csv, living.svg): four minutes"},
-      {"--out", &text->out, "Folder for frontier.csv, .svg and .json, made if missing"}};
+      {"--out", &text->out, "Folder for frontier.csv and .svg, made if missing"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("frontier", run_frontier(*text)); };
   return command;

@@ -90,10 +90,9 @@ PlotFigure frontier_figure(const Frontier& frontier) {
   PlotFigure figure{"What accuracy costs",
                     "Against a converged reference, over our own walks; one core. Numbers: vectors.",
                     frontier.change.size(),
-                    {},
-                    true,
                     430,
-                    340};
+                    340,
+                    true};
   for (const FrontierChange& change : frontier.change) {
     PlotPanel panel;
     panel.title = change.loads ? "line of action, gravity and the frame's motion" : "line of action alone";

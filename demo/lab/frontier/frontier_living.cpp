@@ -238,10 +238,9 @@ PlotFigure living_figure(const std::vector<LivingFrontier>& muscles) {
   PlotFigure figure{"What accuracy costs where muscles pull",
                     "Against tissue at finite strain, shaken by two jolts; one core.",
                     1,
-                    {},
-                    true,
                     640,
-                    400};
+                    400,
+                    true};
   PlotPanel panel;
   panel.title = "displacement across, all muscles";
   double least = 1e9, most = 0;

@@ -7,7 +7,6 @@
 
 #include <mobil/muscle_table.h>
 #include "demo/lab/frontier/frontier.h"
-#include "demo/program/json.h"
 
 namespace mobil {
 namespace {
@@ -23,14 +22,6 @@ std::string named(const FrontierRow& row) {
   if (row.vectors > 0) text += fmt::format(", {} vectors", row.vectors);
   if (row.method != "static" && row.vectors == 0) text += fmt::format(", {:.3g} ms", 1e3 * row.dt_s);
   return text;
-}
-
-std::string scene_name(bool loads) {
-  return loads ? "frame" : "line";
-}
-
-std::string walks_text(const FrontierWalk& walk) {
-  return fmt::format("{:.2f} m {:.0f} kg {:.1f} m/s", walk.body.height_m, walk.body.mass_kg, walk.speed_m_s);
 }
 
 void add_shown(const Frontier& frontier, bool loads, bool points, std::string& text) {
@@ -80,25 +71,15 @@ void add_scene(const Frontier& frontier, const FrontierChange& change, std::stri
       percent((*far)->error), (*far)->ratio, named(**near), percent((*near)->error), (*near)->ratio);
 }
 
-Json shown(const Frontier& frontier, bool loads, bool points) {
-  const FrontierRow* row = cheapest_within(frontier.rows, loads, points, close_enough);
-  if (row == nullptr) return nullptr;
-  return {{"row", named(*row)},
-          {"error_rel", row->error},
-          {"cost_us_per_tick", points ? row->points_us : row->cost_us},
-          {"cost_ratio_to_paper", points ? row->points_ratio : row->ratio}};
-}
-
-}  // namespace
-
 std::string reference_text(const Frontier& frontier) {
   const Cells& cells = frontier.request.reference;
   return fmt::format(
       "32 vectors made for each body alone on a mesh of {}x{}x{} cells, extrapolated from it and one of half its "
-      "cells; "
-      "each motion integrated exactly",
+      "cells; each motion integrated exactly",
       cells[0], cells[1], cells[2]);
 }
+
+}  // namespace
 
 std::string frontier_csv(const Frontier& frontier) {
   std::string csv =
@@ -109,7 +90,7 @@ std::string frontier_csv(const Frontier& frontier) {
   for (const FrontierRow& row : frontier.rows) {
     csv += fmt::format("{},{},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:d},{},{},{:.6g},{:.6g},{:d},{:d}", row.method,
                        row.nodes, row.dt_s, row.vectors, row.error, row.error_max_m, row.cost_us, row.ratio,
-                       row.memory_bytes, row.on_frontier, scene_name(row.loads), row.cells, row.points_us,
+                       row.memory_bytes, row.on_frontier, row.loads ? "frame" : "line", row.cells, row.points_us,
                        row.points_ratio, row.points_on_frontier, row.uncertain);
     for (const double error : row.error_of_muscle) csv += std::isfinite(error) ? fmt::format(",{:.6g}", error) : ",";
     std::string mark = row.mark;
@@ -117,58 +98,6 @@ std::string frontier_csv(const Frontier& frontier) {
     csv += fmt::format(",{}\n", mark);
   }
   return csv;
-}
-
-std::string frontier_json(const Frontier& frontier) {
-  const Machine& m = frontier.machine;
-  const FrontierRequest& request = frontier.request;
-  Json json;
-  json["form"] = request.form;
-  json["machine"] = machine_json(m);
-  json["machine"].update(
-      {{"l1_bytes", m.l1_bytes}, {"l2_bytes", m.l2_bytes}, {"l3_bytes", m.l3_bytes}, {"threads_of_costs", 1}});
-  auto& inputs = json["inputs"];
-  inputs["walks"] = Json::array();
-  for (const FrontierWalk& walk : request.walks) inputs["walks"].push_back(walks_text(walk));
-  for (const Muscle muscle : request.muscles) inputs["muscles"].push_back(muscle_name(muscle));
-  inputs["seconds_compared"] = request.seconds;
-  inputs["tick_s"] = frontier_tick_s;
-  inputs["loads"] =
-      "line: the far end follows the line of action; frame: gravity and the frame's acceleration besides,"
-      " held sideways by a foundation of 7 Hz. Linear between ticks, the same for every method";
-  auto& reference = json["reference"];
-  reference["made"] = reference_text(frontier);
-  reference["change"] = Json::array();
-  for (const FrontierChange& change : frontier.change) {
-    Json one = {{"loads", scene_name(change.loads)},
-                {"from_half_the_cells", change.mesh},
-                {"from_24_vectors", change.vectors},
-                {"own", change.own()}};
-    if (change.elements) one["from_plain_explicit_meshes_extrapolated"] = *change.elements;
-    for (std::size_t i = 0; i < change.mesh_of_muscle.size(); ++i) {
-      one["from_half_the_cells_by_muscle"][muscle_name(request.muscles[i])] = change.mesh_of_muscle[i];
-    }
-    reference["change"].push_back(std::move(one));
-  }
-  json["errors"] =
-      "error_rel: root mean square over the 81 control points, ticks, muscles and walks of the difference"
-      " over that of the reference's displacement; error_max_m: the largest distance. uncertain: the"
-      " reference's own change is more than a tenth of it";
-  auto& costs = json["costs"];
-  costs["what"] =
-      "one thread, sixteen individuals a block, no reports; least processor time of interleaved rounds;"
-      " of one muscle in a tick of 1/60 s. Ratios are to the paper's choice under the same loads";
-  costs["rounds"] = request.rounds;
-  costs["bytes_of_a_crowd"] = request.bytes;
-  costs["muscles_at_least"] = frontier.least_muscles;
-  costs["paper_shared_stiffness_us_per_tick"] = frontier.shared_us;
-  for (const FrontierChange& change : frontier.change) {
-    json["shown"][scene_name(change.loads)] = {{"error_at_most", close_enough},
-                                               {"state_alone", shown(frontier, change.loads, false)},
-                                               {"with_control_points", shown(frontier, change.loads, true)}};
-  }
-  json["left_out"] = frontier.notes;
-  return json.dump(2) + "\n";
 }
 
 std::string frontier_text(const Frontier& frontier) {

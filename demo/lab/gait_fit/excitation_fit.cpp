@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
 #include "assets/muscles/excitation_curves.h"
 #include "demo/lab/compare/reference_tables.h"
 #include "engine/eigen.h"

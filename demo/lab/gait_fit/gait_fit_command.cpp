@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 #include "demo/lab/gait_fit/excitation_fit.h"
 #include "demo/lab/gait_fit/step_grid.h"
 #include "demo/lab/gait_fit/step_quality.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/files/output_file.h"
+#include <mobil/assets/files/output_file.h>
 #include "demo/lab/man/manual.h"
 #include "demo/program/commands.h"
 #include "demo/program/named_entries.h"

@@ -86,7 +86,6 @@ std::string option_text(const Option& option) {
   if (const std::string usual = default_value(option); !usual.empty()) text += " (" + plain(usual) + ")";
   text += "\n" + text_line(option.help);
   if (!option.choices.empty()) text += text_line(fmt::format("One of {}.", fmt::join(option.choices, ", ")));
-  if (!option.excludes.empty()) text += text_line("Not with " + option.excludes + ".");
   return text;
 }
 

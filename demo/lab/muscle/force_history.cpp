@@ -6,7 +6,7 @@
 #include <array>
 #include <iterator>
 
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
 
 namespace mobil {
 namespace {

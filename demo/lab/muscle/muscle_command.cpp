@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
+#include <mobil/assets/files/output_file.h>
 #include "assets/fem/muscle_template.h"
-#include "assets/files/output_file.h"
 #include "demo/lab/muscle/muscle_contraction.h"
 #include "demo/lab/muscle/muscle_options.h"
 #include "demo/lab/muscle/muscle_run.h"

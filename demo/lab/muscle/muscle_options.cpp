@@ -238,13 +238,9 @@ std::vector<Option> muscle_options(MuscleText& text) {
   return {
       {"--cells", &text.cells, "Elements along x, y, z, 1 to 256 each", block},
       {"--cell-size", &text.cell_size, "Edge of a cubic element, 0.0001 to 1 m", block},
-      {"--element",
-       &text.element,
+      {"--element", &text.element,
        "full (2x2x2 points), bbar (mean dilatation: for Poisson's ratios near 0.5) or one-point (hourglass control)",
-       block,
-       {},
-       {},
-       words_of(element_name)},
+       block, words_of(element_name)},
       {"--young", &text.young, "Young's modulus, 1 to 1e12 Pa", block},
       {"--poisson", &text.poisson, "Poisson's ratio, -0.99 to 0.4999", block},
       {"--density", &text.density, "Density, 1 to 1e6 kg/m3", block},
@@ -253,20 +249,10 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--grading", &text.grading,
        "How long elements in the middle are against those at the edges and ends: across,along, 0.01 to 100 each",
        block},
-      {"--method",
-       &text.method,
-       "static, ecd, icd, caa, reduced or finite, see below",
-       time,
-       {},
-       {},
-       words_of(moving_methods)},
+      {"--method", &text.method, "static, ecd, icd, caa, reduced or finite, see below", time, words_of(moving_methods)},
       {"--vectors", &text.vectors, "Of reduced: how many of the block's own vectors move, 1 to 32", time},
-      {"--mass",
-       &text.mass,
-       "lumped or consistent: ecd and finite are lumped, icd consistent, caa either (default: consistent)",
-       time,
-       {},
-       {},
+      {"--mass", &text.mass,
+       "lumped or consistent: ecd and finite are lumped, icd consistent, caa either (default: consistent)", time,
        words_of(mass_name)},
       {"--dt", &text.dt,
        "Step, s; ecd, icd and finite refuse one above the critical step (default: just within 0.9 of it; caa and "
@@ -276,12 +262,8 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--damping", &text.damping, "alpha of C = alpha M + beta K, 0 to 1000 1/s: damps slow motion most", time},
       {"--stiffness-damping", &text.stiffness_damping,
        "beta, 0 to 1 s: damps fast motion most, and shortens the critical step", time},
-      {"--precision",
-       &text.precision,
-       "single: the kernels of the walk, sixteen lanes; double: the plain reference, one belly at a time",
-       time,
-       {},
-       {},
+      {"--precision", &text.precision,
+       "single: the kernels of the walk, sixteen lanes; double: the plain reference, one belly at a time", time,
        words_of(precisions)},
       {"--load", &text.load,
        "CSV time_s,force_x_n,force_y_n,force_z_n: total force, linear between rows, zero before the "
@@ -297,7 +279,7 @@ std::vector<Option> muscle_options(MuscleText& text) {
        "In place of a block: excite a muscle of somebody who stands, 0 to 1, from a tenth to six tenths of --seconds; "
        "--out gets fibre, tendon, force and section",
        contraction},
-      {"--of", &text.of, "Which muscle, by its name in mobil body", contraction, {}, {}, muscle_words()}};
+      {"--of", &text.of, "Which muscle, by its name in mobil body", contraction, muscle_words()}};
 }
 
 /// Vectors of the block itself, so that 32 of them come close to its full model.

@@ -12,8 +12,8 @@
 #include <system_error>
 #include <vector>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/schedule.h>
-#include "assets/files/output_file.h"
 #include "demo/lab/paper/paper.h"
 #include "demo/program/commands.h"
 #include "demo/program/named_entries.h"

@@ -145,7 +145,7 @@ Result<PaperCycle> walk_cycle(const CycleRequest& request) {
   const Human human = *simulation.human(*entity);
   Figure figure;
   if (!request.shown_at.empty()) {
-    auto made = make_figure(simulation, human, request.anatomy);
+    auto made = make_figure(human, request.anatomy);
     if (!made) return tl::unexpected(made.error());
     figure = std::move(*made);
   }

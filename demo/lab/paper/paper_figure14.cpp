@@ -161,12 +161,8 @@ PlotPanel curve_panel(const std::vector<Row>& rows, double Row::*quantity, const
 
 PlotFigure figure_of(const std::vector<Row>& rows, const Mesh& mesh, const std::vector<Moment>& moments) {
   PlotFigure figure{"Hamstrings at three moments of the gait cycle: 525 nodes, 320 hexahedra, CAA, steps of 1 ms",
-                    "1.80 m, 80 kg, 5 km/h. The far end is pulled by the spring force of the line of action.",
-                    3,
-                    {},
-                    false,
-                    panel_width,
-                    panel_height};
+                    "1.80 m, 80 kg, 5 km/h. The far end is pulled by the spring force of the line of action.", 3,
+                    panel_width, panel_height};
   for (const Moment& moment : moments) {
     const Row& now = rows[moment.row];
     const bool top = moment.name == 'A', bottom = moment.name == 'C';

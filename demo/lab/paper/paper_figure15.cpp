@@ -159,11 +159,7 @@ Result<void> paper_figure15(PaperRun& run) {
   PlotFigure figure{"Muscle lengths over the gait cycle, 1.80 m and 80 kg",
                     "Bands: gait2392 (Delp et al. 1990) on angles of Schwartz et al. 2008, their ± 1 SD carried over. "
                     "Hamstrings: mean of semimembranosus, semitendinosus and the long head of biceps femoris.",
-                    4,
-                    {},
-                    false,
-                    215,
-                    150};
+                    4, 215, 150};
   for (const Agreement& pair : pairs) figure.panels.push_back(panel_of(pair));
   for (std::size_t i = 0; i < walks.size(); ++i) {  // one scale for all hamstrings
     figure.panels[i].y.low = 0.92;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "assets/files/csv_table.h"
+#include <mobil/assets/files/csv_table.h>
 #include "demo/lab/compare/reference_tables.h"
 
 namespace mobil {

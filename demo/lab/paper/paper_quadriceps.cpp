@@ -79,11 +79,7 @@ PlotFigure quadriceps_figure(const std::vector<Variant>& variants) {
   PlotFigure figure{"The quadriceps of an athletic man of 1.80 m and 80 kg at 5 km/h",
                     "Force: the paper's visual one, k (L - L0). Thickness: diameter of a round bar of its volume and "
                     "length, as the mesh's widest section changes. Dashed: at rest.",
-                    3,
-                    {},
-                    false,
-                    240,
-                    150};
+                    3, 240, 150};
   figure.panels = {cycle_panel("knee", "flexion (deg)"),       cycle_panel("line of action", "length (mm)"),
                    cycle_panel("belly", "elongation (mm)"),    cycle_panel("force", "pull on its end (N)"),
                    cycle_panel("volume", "over that at rest"), cycle_panel("thickness", "diameter (mm)")};

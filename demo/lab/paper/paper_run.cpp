@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include <mobil/assets/files/output_file.h>
 #include <mobil/png.h>
-#include "assets/files/output_file.h"
 #include "demo/lab/paper/paper.h"
 #include "demo/program/progress.h"
 

@@ -74,12 +74,8 @@ PaperTable stature_table(const std::vector<PaperCycle>& walks) {
 PlotFigure stature_figure(const std::vector<PaperCycle>& walks) {
   PlotFigure figure{
       "Taller, shorter, thinner, heavier, all at 5 km/h",
-      "Thickness: diameter of a round bar of the muscle's volume and length, as its mesh's widest section changes.",
-      3,
-      {},
-      false,
-      250,
-      155};
+      "Thickness: diameter of a round bar of the muscle's volume and length, as its mesh's widest section changes.", 3,
+      250, 155};
   figure.panels = {cycle_panel("centre of mass", "height over its mean (mm)"),
                    cycle_panel("quadriceps", "elongation (mm)"),
                    cycle_panel("quadriceps", "thickness (mm)"),

@@ -40,7 +40,7 @@ PaperTable step_length_table(const std::vector<PaperCycle>& walks) {
 }
 
 PlotFigure step_length_figure(const std::vector<PaperCycle>& walks) {
-  PlotFigure figure{"Same speed, other steps: 1.80 m, 80 kg, 5 km/h", "", 3, {}, false, 260, 180};
+  PlotFigure figure{"Same speed, other steps: 1.80 m, 80 kg, 5 km/h", "", 3, 260, 180};
   figure.panels = {cycle_panel("height over the ground", "mm"), cycle_panel("to the left of the line walked", "mm"),
                    cycle_panel("seen from behind", "height (mm)")};
   figure.panels[2].x = {"to the right (mm)"};

@@ -47,7 +47,7 @@ PaperTable weight_table(const std::vector<PaperCycle>& walks) {
 }
 
 PlotFigure weight_figure(const std::vector<PaperCycle>& walks) {
-  PlotFigure figure{"Same speed, different weights: 1.80 m, 5 km/h", "", 2, {}, false, 320, 170};
+  PlotFigure figure{"Same speed, different weights: 1.80 m, 5 km/h", "", 2, 320, 170};
   figure.panels = {cycle_panel("centre of mass, height over the ground", "mm"),
                    cycle_panel("centre of mass, to the left of the line walked", "mm"),
                    cycle_panel("pelvis, height over the ground", "mm"), cycle_panel("right foot, vertical force", "N")};

@@ -42,8 +42,6 @@ class BulletWorld {
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
-  int bodies() const { return static_cast<int>(bodies_.size()); }
-
   /// A total traction over the far face of one body during the step that follows, N: along z, and a part of it along x.
   void pull(int number, double newton, double dt) {
     for (int i = 0; i < nodes_a_plane; ++i) {
@@ -53,11 +51,6 @@ class BulletWorld {
                            btScalar(newton * block_.share_z[at + 2]));
       node.m_v += load * (node.m_im * btScalar(dt));
     }
-  }
-  /// Damping of the mass, explicitly: of Bullet's own, conjugate gradients take longer than all else together.
-  void slow(int number, double factor) {
-    btSoftBody& body = *bodies_[static_cast<std::size_t>(number)];
-    for (int n = nodes_a_plane; n < nodes; ++n) body.m_nodes[n].m_v *= btScalar(factor);
   }
   void step(double dt) { world_.stepSimulation(btScalar(dt), 0); }
 

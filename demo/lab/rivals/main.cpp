@@ -47,10 +47,6 @@ int main(int argc, char** argv) {
   for (const std::string& name : names) {
     char* end = nullptr;
     const double dt = name.starts_with("bullet@") ? std::strtod(name.c_str() + std::strlen("bullet@"), &end) : 0;
-    const long humans =
-        name.starts_with("bullet_crowd@") ? std::strtol(name.c_str() + std::strlen("bullet_crowd@"), &end, 10) : 100;
-    const bool is_bullet_crowd = name == "bullet_crowd" || (name.starts_with("bullet_crowd@") && end != nullptr &&
-                                                            *end == '\0' && humans >= 2 && humans <= 1000);
     const bool is_bullet = name == "bullet" || (end != nullptr && *end == '\0' && dt >= 1e-5 && dt <= 0.1);
     if (name == "eigen") {
       print(rivals::eigen(limit_s));
@@ -60,17 +56,13 @@ int main(int argc, char** argv) {
       print(rivals::eigen_batched(limit_s));
     } else if (is_bullet && rivals::has_bullet()) {
       print(rivals::bullet(dt, limit_s));
-    } else if (is_bullet_crowd && rivals::has_bullet()) {
-      print(rivals::bullet_crowd(8 * static_cast<int>(humans), limit_s));
     } else {
-      std::fprintf(
-          stderr,
-          is_bullet || is_bullet_crowd
-              ? "mobil_rivals: '%s': built without Bullet; install libbullet-dev and configure again\n"
-              : "mobil_rivals: there is no measurement '%s'; there are: eigen, eigen_individual, "
-                "eigen_batched, bullet, bullet@SECONDS (a step of 1e-5 to 0.1 s), bullet_crowd, bullet_crowd@HUMANS (2 "
-                "to 1000)\n",
-          name.c_str());
+      std::fprintf(stderr,
+                   is_bullet ? "mobil_rivals: '%s': built without Bullet; install libbullet-dev and configure again\n"
+                             : "mobil_rivals: there is no measurement '%s'; there are: eigen, eigen_individual, "
+                               "eigen_batched, bullet, "
+                               "bullet@SECONDS (a step of 1e-5 to 0.1 s)\n",
+                   name.c_str());
       return 2;
     }
   }

@@ -43,10 +43,6 @@ Rival eigen_batched(double limit_s);
 /// Bullet's deformable body (linear corotated tetrahedra, explicit) at `dt_s`, or at its largest stable step when 0.
 Rival bullet(double dt_s, double limit_s);
 
-/// The muscles of a crowd, eight a person and so many bodies in all, each pulled otherwise, at 60 ticks a second in the
-/// fewest equal steps that are stable. Times are one body's a tick, `dt_s` the tick.
-Rival bullet_crowd(int bodies, double limit_s);
-
 /// Whether Bullet was found when this program was built.
 bool has_bullet();
 

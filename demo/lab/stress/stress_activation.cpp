@@ -93,12 +93,11 @@ Result<void> stress_tuned(StressRun& run) {
     keep_worst(grown, most_j[1] / most_j[0]);
   }
   constexpr const char* name = "tension on and off at 60, 30, 20, 12 and 7.5 times a second";
-  run.add({name, "control points' displacement walking, m", Promise::at_most, 0.1, "twice what these walks show",
-           walking.moved_m});
-  run.add({name, "control points' displacement standing, m", Promise::at_most, 0.03, "twice what a contraction takes",
-           standing.moved_m});
-  run.add({name, "kinetic energy of who stands after the first second, over that in it", Promise::at_most, 1,
-           "what pumps would grow; the first contraction is the largest", grown});
+  run.at_most(name, "control points' displacement walking, m", 0.1, walking.moved_m, "twice what these walks show");
+  run.at_most(name, "control points' displacement standing, m", 0.03, standing.moved_m,
+              "twice what a contraction takes");
+  run.at_most(name, "kinetic energy of who stands after the first second, over that in it", 1, grown,
+              "what pumps would grow; the first contraction is the largest");
   return {};
 }
 
@@ -117,10 +116,10 @@ Result<void> stress_excitation(StressRun& run) {
     for (std::size_t m = 0; m < muscle_group_count; ++m, ++asked)
       refused += simulation.set_excitation(*human, static_cast<Muscle>(m), Side::right, bad) ? 0 : 1;
   }
-  run.add({"excitations that are no numbers", "of them taken", Promise::at_most, 0, "each is refused",
-           static_cast<double>(asked - refused)});
-  run.add({"excitations that are no numbers", "words of the world changed", Promise::at_most, 0,
-           "a refusal changes nothing", static_cast<double>(different_words(before, world_words(simulation)))});
+  run.at_most("excitations that are no numbers", "of them taken", 0, static_cast<double>(asked - refused),
+              "each is refused");
+  run.at_most("excitations that are no numbers", "words of the world changed", 0,
+              static_cast<double>(different_words(before, world_words(simulation))), "a refusal changes nothing");
 
   Worst worst;
   const int ticks = run.quick ? 600 : 3600;
@@ -130,12 +129,12 @@ Result<void> stress_excitation(StressRun& run) {
     worst.look(simulation, *human);
     if (tick % 60 == 0) run.progress(0.5 * tick / ticks);
   }
-  run.add({"excitation 0, 1, 0, 1 … from tick to tick", "control points' displacement, m", Promise::at_most, 0.1,
-           "twice what these walks show", worst.moved_m});
-  run.add({"excitation 0, 1, 0, 1 … from tick to tick", "volume shown off rest", Promise::at_most, 0.06,
-           "the explicit method's vibration on top of a shape that keeps it within 0.6 %", worst.volume_off});
-  run.add({"excitation 0, 1, 0, 1 … from tick to tick", "end of the mesh off what the tendon leaves, m",
-           Promise::at_most, 1e-5, "single precision", worst.end_off_m});
+  run.at_most("excitation 0, 1, 0, 1 … from tick to tick", "control points' displacement, m", 0.1, worst.moved_m,
+              "twice what these walks show");
+  run.at_most("excitation 0, 1, 0, 1 … from tick to tick", "volume shown off rest", 0.06, worst.volume_off,
+              "the explicit method's vibration on top of a shape that keeps it within 0.6 %");
+  run.at_most("excitation 0, 1, 0, 1 … from tick to tick", "end of the mesh off what the tendon leaves, m", 1e-5,
+              worst.end_off_m, "single precision");
 
   Simulation still;
   const auto stands = still.spawn_posed({});
@@ -157,10 +156,10 @@ Result<void> stress_excitation(StressRun& run) {
   }
   double crept = 0;
   for (std::size_t m = 0; m < at_first.size(); ++m) keep_worst(crept, std::abs(belly(m) - at_first[m]));
-  run.add({fmt::format("{} minutes of tetanus", minutes), "bellies creep, m", Promise::at_most, 1e-6,
-           "a steady pull is steady", crept});
-  run.add({fmt::format("{} minutes of tetanus", minutes), "volume shown off rest", Promise::at_most, 0.01,
-           "the tables' promise", held.volume_off});
+  run.at_most(fmt::format("{} minutes of tetanus", minutes), "bellies creep, m", 1e-6, crept,
+              "a steady pull is steady");
+  run.at_most(fmt::format("{} minutes of tetanus", minutes), "volume shown off rest", 0.01, held.volume_off,
+              "the tables' promise");
   return stress_tuned(run);
 }
 
@@ -201,14 +200,14 @@ Result<void> stress_contraction(StressRun& run) {
       run.progress((static_cast<double>(m) + static_cast<double>(tick) / ticks) / (methods.size() + 1.0));
     }
   }
-  run.add({"squats at full activation, every method", "control points' displacement, m", Promise::at_most, 0.25,
-           "lines lengthen by up to 0.2 m", steady.moved_m});
-  run.add({"squats at full activation, every method", "force, N", Promise::at_least, 0, "tendons do not push",
-           least_force_n, fmt::format("{} times a member's tendon was slack", slack)});
-  run.add({"squats at full activation, every method", "volume shown off rest", Promise::at_most, 0.08,
-           "vibration on top of what keeps it", steady.volume_off});
-  run.add({"another method in every tick", "control points' displacement, m", Promise::at_most, 0.25,
-           "lines lengthen by up to 0.2 m", flickering.moved_m});
+  run.at_most("squats at full activation, every method", "control points' displacement, m", 0.25, steady.moved_m,
+              "lines lengthen by up to 0.2 m");
+  run.at_least("squats at full activation, every method", "force, N", 0, least_force_n, "tendons do not push",
+               fmt::format("{} times a member's tendon was slack", slack));
+  run.at_most("squats at full activation, every method", "volume shown off rest", 0.08, steady.volume_off,
+              "vibration on top of what keeps it");
+  run.at_most("another method in every tick", "control points' displacement, m", 0.25, flickering.moved_m,
+              "lines lengthen by up to 0.2 m");
   return {};
 }
 

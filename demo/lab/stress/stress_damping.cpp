@@ -76,13 +76,11 @@ Result<void> stress_damping(StressRun& run) {
       if (run.quick && beta > 0.01) continue;  // thousands of substeps a tick
       const auto result = decay(with(alpha, beta), method, run.quick ? 20 : 60);
       if (!result) return tl::unexpected(result.error());
-      run.add({.tried = fmt::format("sixteen sizes shaken, by {}, mass damping {} 1/s, stiffness damping {} s", name,
-                                    alpha, beta),
-               .quantity = "largest rise of energy from tick to tick, in parts of itself",
-               .bound = 0.01,
-               .reason = "damping takes energy away; rounding where 1e-9 of it is left",
-               .value = result->worst_rise,
-               .detail = fmt::format("{:.2g} of the first is left", result->left)});
+      run.at_most(
+          fmt::format("sixteen sizes shaken, by {}, mass damping {} 1/s, stiffness damping {} s", name, alpha, beta),
+          "largest rise of energy from tick to tick, in parts of itself", 0.01, result->worst_rise,
+          "damping takes energy away; rounding where 1e-9 of it is left",
+          fmt::format("{:.2g} of the first is left", result->left));
     }
   }
   WorstProbe worst;
@@ -99,18 +97,12 @@ Result<void> stress_damping(StressRun& run) {
     // the fastest mode alone keeps its size at the limit; nothing grows
     if (!(probe->drift_below <= rise)) rise = probe->drift_below;
   }
-  run.add({.tried = fmt::format("stiffness damping of 0.0001 to 1 s in double at {} of the critical step", just_below),
-           .quantity = "change of energy in parts of the first",
-           .bound = 1,
-           .reason = "it falls, to nothing at the least",
-           .value = rise,
-           .detail = fmt::format("least critical step {:.2g} s", least_s)});
-  run.add({.tried = fmt::format("stiffness damping of 0.0001 to 1 s, at {} of it", just_above),
-           .quantity = "growth of kinetic energy in 600 steps",
-           .promise = Promise::at_least,
-           .bound = 10,
-           .reason = "overdamped, the fastest mode grows by 0.2 % and more a step",
-           .value = worst.growth_above});
+  run.at_most(fmt::format("stiffness damping of 0.0001 to 1 s in double at {} of the critical step", just_below),
+              "change of energy in parts of the first", 1, rise, "it falls, to nothing at the least",
+              fmt::format("least critical step {:.2g} s", least_s));
+  run.at_least(fmt::format("stiffness damping of 0.0001 to 1 s, at {} of it", just_above),
+               "growth of kinetic energy in 600 steps", 10, worst.growth_above,
+               "overdamped, the fastest mode grows by 0.2 % and more a step");
   constexpr double none = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
   std::size_t accepted = 0, asked = 0;
   for (const double bad : {-1.0, 1001.0, none, endless, -endless}) {
@@ -121,12 +113,9 @@ Result<void> stress_damping(StressRun& run) {
       if (make_muscle_template(spindle({1, 1, 2}), Material{}, options)) ++accepted;
     }
   }
-  run.add({.tried = "damping of either kind or a foundation that is negative, too large, no number, infinite",
-           .quantity = "not refused",
-           .bound = 0,
-           .reason = "it would make energy, or nothing would be left of the motion",
-           .value = static_cast<double>(accepted),
-           .detail = fmt::format("{} refused", asked - accepted)});
+  run.at_most("damping of either kind or a foundation that is negative, too large, no number, infinite", "not refused",
+              0, static_cast<double>(accepted), "it would make energy, or nothing would be left of the motion",
+              fmt::format("{} refused", asked - accepted));
   return {};
 }
 

@@ -56,18 +56,12 @@ void WorstProbe::take(const LimitProbe& probe) {
 }
 
 void add_rows(StressRun& run, const std::string& tried, const WorstProbe& worst) {
-  run.add({.tried = tried + fmt::format(", in double at {} of the critical step", just_below),
-           .quantity = "change of energy in parts of itself",
-           .bound = 1e-8,
-           .reason = "conserved exactly below the limit; rounding is amplified by 1/(1 - 0.999^2) = 500",
-           .value = worst.drift_below,
-           .detail = fmt::format("{} bellies", worst.tried)});
-  run.add({.tried = tried + fmt::format(", at {} of it", just_above),
-           .quantity = "growth of kinetic energy in 600 steps",
-           .promise = Promise::at_least,
-           .bound = 1e6,
-           .reason = "at least e^0.15 a step; the computed limit is at most 0.1 % low",
-           .value = worst.growth_above});
+  run.at_most(tried + fmt::format(", in double at {} of the critical step", just_below),
+              "change of energy in parts of itself", 1e-8, worst.drift_below,
+              "conserved exactly below the limit; rounding is amplified by 1/(1 - 0.999^2) = 500",
+              fmt::format("{} bellies", worst.tried));
+  run.at_least(tried + fmt::format(", at {} of it", just_above), "growth of kinetic energy in 600 steps", 1e6,
+               worst.growth_above, "at least e^0.15 a step; the computed limit is at most 0.1 % low");
 }
 
 }  // namespace mobil

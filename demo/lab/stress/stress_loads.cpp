@@ -89,57 +89,10 @@ Result<void> stress_step_load(StressRun& run) {
     }
     const std::string tried =
         fmt::format("1 N all at once, undamped, {} steps by {}", steps, method_name[static_cast<std::size_t>(method)]);
-    run.add(
-        {.tried = tried,
-         .quantity = "largest elongation in parts of the static one",
-         .bound = 2.001,
-         .reason = "2: every mode's part of the displacement under its own load swings between 0 and twice its rest",
-         .value = most,
-         .detail = fmt::format("in double {:.6g}", in_double)});
-    run.add({.tried = tried,
-             .quantity = "least elongation in parts of the static one",
-             .promise = Promise::at_least,
-             .bound = -0.001,
-             .reason = "0, likewise",
-             .value = least});
-  }
-  return {};
-}
-
-Result<void> stress_impulse(StressRun& run) {
-  for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
-    auto pair = make_pair(method, 0);
-    if (!pair) return tl::unexpected(pair.error());
-    constexpr double blow_n = 1000;  // 1 N s in a millisecond, on 0.1 kg
-    step(*pair, blow_n, 0);
-    step(*pair, 0, 0);
-    const auto report = pair->reference.report();
-    const double given = report.kinetic_energy_j + report.strain_energy_j;
-    double error = 0, drift = 0;
-    const int steps = run.quick ? 1000 : 20000;
-    double first = 0;
-    for (int s = 0; s < steps; ++s) {
-      if (s > 0) step(*pair, 0, 0);
-      const double energy = pair->lanes.energy_j(3);
-      if (s == 0) {
-        first = energy;
-        error = std::fabs(energy / given - 1);
-      }
-      if (!(std::fabs(energy / first - 1) <= drift)) drift = std::fabs(energy / first - 1);
-    }
-    const std::string tried = fmt::format("a blow of {} N for one step of {} s by {}", blow_n, load_step_s,
-                                          method_name[static_cast<std::size_t>(method)]);
-    run.add({.tried = tried,
-             .quantity = "energy that it gives against double precision, relative",
-             .bound = 1e-5,
-             .reason = "linear: rounding alone",
-             .value = error,
-             .detail = fmt::format("{:.4g} J", given)});
-    run.add({.tried = tried,
-             .quantity = fmt::format("change of energy in the {} steps after it, in parts of itself", steps),
-             .bound = 1e-4,
-             .reason = "conserved; single precision, ten times what was measured",
-             .value = drift});
+    run.at_most(tried, "largest elongation in parts of the static one", 2.001, most,
+                "2: every mode's part of the displacement under its own load swings between 0 and twice its rest",
+                fmt::format("in double {:.6g}", in_double));
+    run.at_least(tried, "least elongation in parts of the static one", -0.001, least, "0, likewise");
   }
   return {};
 }
@@ -198,15 +151,13 @@ Result<void> stress_resonance(StressRun& run) {
       (s < steps / 2 ? early : late) = std::max(s < steps / 2 ? early : late, now);
       (s < steps / 2 ? early_double : late_double) = std::max(s < steps / 2 ? early_double : late_double, in_double);
     }
-    run.add({.tried = fmt::format("a sine of 1 N at the lowest stretch, {:.2f} Hz, undamped by {}",
-                                  own / (2 * std::numbers::pi), name),
-             .quantity = fmt::format("distance from 2 of the amplitude after {} periods over that after {}",
-                                     2 * periods, periods),
-             .bound = 0.02,
-             .reason = "it grows linearly; other modes and the steps' coarseness add a per cent",
-             .value = std::fabs(late / early - 2),
-             .detail = fmt::format("in double {:.3g}; {:.3g} times the static elongation is reached",
-                                   std::fabs(late_double / early_double - 2), late / undamped->at_rest_m)});
+    run.at_most(
+        fmt::format("a sine of 1 N at the lowest stretch, {:.2f} Hz, undamped by {}", own / (2 * std::numbers::pi),
+                    name),
+        fmt::format("distance from 2 of the amplitude after {} periods over that after {}", 2 * periods, periods), 0.02,
+        std::fabs(late / early - 2), "it grows linearly; other modes and the steps' coarseness add a per cent",
+        fmt::format("in double {:.3g}; {:.3g} times the static elongation is reached",
+                    std::fabs(late_double / early_double - 2), late / undamped->at_rest_m));
 
     constexpr double beta = 1e-3;
     const double ratio = 0.5 * beta * *omega;
@@ -224,16 +175,13 @@ Result<void> stress_resonance(StressRun& run) {
         most = std::max(most, std::fabs(static_cast<double>(damped->lanes.report.elongation_m[3])));
         in_double = std::max(in_double, std::fabs(damped->reference.report().elongation_m));
       }
-      run.add(
-          {.tried = fmt::format("a {} of 1 N at the lowest stretch, {:.2g} of critical damping, by {}",
-                                square ? "square wave" : "sine", ratio, name),
-           .quantity = "largest elongation in parts of the static one",
-           .bound = 1.02 * bound,
-           .reason = fmt::format("no load within 1 N drives a mode beyond coth(pi/2 xi/sqrt(1 - xi^2)) = {:.4g} of its "
-                                 "rest, and the lowest has the least damping; 2 % for the step's length",
-                                 bound),
-           .value = most / damped->at_rest_m,
-           .detail = fmt::format("in double {:.4g}", in_double / damped->at_rest_m)});
+      run.at_most(fmt::format("a {} of 1 N at the lowest stretch, {:.2g} of critical damping, by {}",
+                              square ? "square wave" : "sine", ratio, name),
+                  "largest elongation in parts of the static one", 1.02 * bound, most / damped->at_rest_m,
+                  fmt::format("no load within 1 N drives a mode beyond coth(pi/2 xi/sqrt(1 - xi^2)) = {:.4g} of its "
+                              "rest, and the lowest has the least damping; 2 % for the step's length",
+                              bound),
+                  fmt::format("in double {:.4g}", in_double / damped->at_rest_m));
     }
     run.progress(method == Method::ecd ? 0.5 : 1.0);
   }

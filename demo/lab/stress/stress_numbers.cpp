@@ -135,16 +135,12 @@ Result<void> stress_nan(StressRun& run) {
       }
       run.progress(++part / 12);
     }
-    run.add(
-        {.tried = fmt::format("not-a-number, infinity or minus infinity in one lane of every input of a block by {}: "
-                              "scales, far face, frame, displacement, velocity; three kinds of far face",
-                              name(method)),
-         .quantity = "words of the fifteen neighbours that are not the same bits",
-         .bound = 0,
-         .reason = "lanes never meet",
-         .value = static_cast<double>(different),
-         .detail =
-             fmt::format("of {}, in {} cases; {} of the sick lanes ended without a number", compared, tried, sick)});
+    run.at_most(fmt::format("not-a-number, infinity or minus infinity in one lane of every input of a block by {}: "
+                            "scales, far face, frame, displacement, velocity; three kinds of far face",
+                            name(method)),
+                "words of the fifteen neighbours that are not the same bits", 0, static_cast<double>(different),
+                "lanes never meet",
+                fmt::format("of {}, in {} cases; {} of the sick lanes ended without a number", compared, tried, sick));
   }
   return {};
 }
@@ -174,17 +170,10 @@ Result<void> stress_explosion(StressRun& run) {
       if (!(far <= reach)) reach = far;
     }
     const std::string tried = fmt::format("one lane by {} {}, {} ticks", name(method), how, ticks);
-    run.add({.tried = tried,
-             .quantity = "words of the fifteen neighbours that are not the same bits, over all ticks",
-             .bound = 0,
-             .reason = "lanes never meet",
-             .value = static_cast<double>(different)});
-    run.add({.tried = tried,
-             .quantity = "how far it flew, m",
-             .promise = Promise::at_least,
-             .bound = 1e6,
-             .reason = "else nothing was tried; no number counts as infinitely far",
-             .value = std::isnan(reach) ? std::numeric_limits<double>::infinity() : reach});
+    run.at_most(tried, "words of the fifteen neighbours that are not the same bits, over all ticks", 0,
+                static_cast<double>(different), "lanes never meet");
+    run.at_least(tried, "how far it flew, m", 1e6, std::isnan(reach) ? std::numeric_limits<double>::infinity() : reach,
+                 "else nothing was tried; no number counts as infinitely far");
   }
   return {};
 }
@@ -242,32 +231,19 @@ Result<void> stress_denormals(StressRun& run) {
     }
     const std::string tried = fmt::format(
         "a ring by {} that dies away within {} ticks, as systems run it and without that", name(method), ticks);
-    run.add({.tried = tried,
-             .quantity = "subnormal numbers left by the ticks as systems run them",
-             .bound = 0,
-             .reason = "systems take them for zero, so that no tick takes a hundred times as long",
-             .value = static_cast<double>(with)});
+    run.at_most(tried, "subnormal numbers left by the ticks as systems run them", 0, static_cast<double>(with),
+                "systems take them for zero, so that no tick takes a hundred times as long");
     // what conjugate gradients square must not underflow: they let forces below some 1e-19 N be
     const bool solves = method == Method::caa;
     if (!solves) {
-      run.add({.tried = tried,
-               .quantity = "subnormal numbers left without that",
-               .promise = Promise::at_least,
-               .bound = 1,
-               .reason = "else nothing was tried",
-               .value = static_cast<double>(without),
-               .detail = fmt::format("in {} ticks", ticks_with_subnormals)});
+      run.at_least(tried, "subnormal numbers left without that", 1, static_cast<double>(without),
+                   "else nothing was tried", fmt::format("in {} ticks", ticks_with_subnormals));
     }
-    run.add(
-        {.tried = tried,
-         .quantity = "largest difference between the two motions, m",
-         .bound = solves ? 1e-16 : 1e-34,
-         .reason =
-             solves
-                 ? "its conjugate gradients square the forces, take those below some 1e-19 N for none and leave what "
-                   "they would move"
-                 : "what is taken for zero is below 1.2e-38, and a motion is a sum of some thousand of such",
-         .value = apart});
+    run.at_most(
+        tried, "largest difference between the two motions, m", solves ? 1e-16 : 1e-34, apart,
+        solves ? "its conjugate gradients square the forces, take those below some 1e-19 N for none and leave what "
+                 "they would move"
+               : "what is taken for zero is below 1.2e-38, and a motion is a sum of some thousand of such");
   }
   return {};
 }

@@ -68,27 +68,19 @@ Result<void> stress_far(StressRun& run) {
     }
     const double spacing = spacing_m(far_m);
     const std::string tried = fmt::format("{:g} km from the origin along both axes", far_m / 1e3);
-    run.add({.tried = tried,
-             .quantity = "joints' distances from the pelvis off those at the origin, m",
-             .bound = 8 * spacing + 1e-5,
-             .reason = fmt::format(
-                 "floats are {:.2g} m apart there, and a place is a sum of up to thirty along the spine", spacing),
-             .value = limb_m});
-    run.add({.tried = tried,
-             .quantity = "control points off those at the origin, m",
-             .bound = 4 * spacing + 1e-4,
-             .reason = "lines of action are a few roundings off, and bellies follow them",
-             .value = points_m});
+    run.at_most(
+        tried, "joints' distances from the pelvis off those at the origin, m", 8 * spacing + 1e-5, limb_m,
+        fmt::format("floats are {:.2g} m apart there, and a place is a sum of up to thirty along the spine", spacing));
+    run.at_most(tried, "control points off those at the origin, m", 4 * spacing + 1e-4, points_m,
+                "lines of action are a few roundings off, and bellies follow them");
     if (auto moved = far.shift_origin(static_cast<float>(far_m), static_cast<float>(-far_m)); !moved) return moved;
     for (int tick = 0; tick < 240; ++tick) {
       near.tick();
       far.tick();
     }
-    run.add({.tried = tried + ", then the origin moved there and 4 s walked",
-             .quantity = "control points off those of who never left, m",
-             .bound = 1e-4,
-             .reason = "nothing is left of the way but e^-16 of what it excited",
-             .value = largest_difference(control_points(near, *here), control_points(far, *there))});
+    run.at_most(tried + ", then the origin moved there and 4 s walked", "control points off those of who never left, m",
+                1e-4, largest_difference(control_points(near, *here), control_points(far, *there)),
+                "nothing is left of the way but e^-16 of what it excited");
   }
   return {};
 }
@@ -115,31 +107,22 @@ Result<void> stress_day(StressRun& run) {
   const Vec3<float> to = awake.get<Pose>(*walks)->position_m[0];
   const double walked_m = distance_m(from, to), seconds = ticks / 60.0;
   const std::string tried = fmt::format("{:g} hours of walking, {:.1f} km", hours, walked_m / 1e3);
-  run.add({.tried = tried,
-           .quantity = "of the way too much or too little",
-           .bound = 1e-3,
-           .reason = "the step's length and duration are what was asked for to single precision; a step more or less",
-           .value = std::abs(walked_m / (1.4 * seconds) - 1)});
-  run.add({.tried = tried,
-           .quantity = "steps too many or too few",
-           .bound = 1 + 1e-6 * seconds / duration_s,
-           .reason = "the clock counts whole units of 2^-15 ticks",
-           .value = std::abs(awake.get<GaitState>(*walks)->steps - steps_before - seconds / duration_s)});
-  run.add({.tried = tried,
-           .quantity = "off the line aside, m",
-           .bound = 1,
-           .reason = "a straight line is anchor + k chord, not a sum",
-           .value = std::abs(double{to.x} - double{from.x})});
+  run.at_most(tried, "of the way too much or too little", 1e-3, std::abs(walked_m / (1.4 * seconds) - 1),
+              "the step's length and duration are what was asked for to single precision; a step more or less");
+  run.at_most(tried, "steps too many or too few", 1 + 1e-6 * seconds / duration_s,
+              std::abs(awake.get<GaitState>(*walks)->steps - steps_before - seconds / duration_s),
+              "the clock counts whole units of 2^-15 ticks");
+  run.at_most(tried, "off the line aside, m", 1, std::abs(double{to.x} - double{from.x}),
+              "a straight line is anchor + k chord, not a sum");
   if (auto done = asleep.wake({&*sleeps, 1}); !done) return done;
   for (int tick = 0; tick < 60; ++tick) {
     awake.tick();
     asleep.tick();
   }
-  run.add({.tried = fmt::format("{:g} hours asleep against the same awake", hours),
-           .quantity = "words of the person that differ, a second after waking",
-           .bound = 0,
-           .reason = "clock and place follow in closed form, to the bit",
-           .value = static_cast<double>(different_words(human_words(awake, *walks), human_words(asleep, *sleeps)))});
+  run.at_most(fmt::format("{:g} hours asleep against the same awake", hours),
+              "words of the person that differ, a second after waking", 0,
+              static_cast<double>(different_words(human_words(awake, *walks), human_words(asleep, *sleeps))),
+              "clock and place follow in closed form, to the bit");
   return {};
 }
 
@@ -167,16 +150,11 @@ Result<void> stress_ticks(StressRun& run) {
       keep_worst(speed_off, std::abs(speed / 1.4 - 1));
     }
     const std::string tried = fmt::format("{:g} ticks a second", rate_hz);
-    run.add({.tried = tried,
-             .quantity = "of the speed asked for, off",
-             .bound = run.quick ? 0.1 : 0.01,
-             .reason = "a step begins or ends within the time measured",
-             .value = speed_off});
-    run.add({.tried = tried,
-             .quantity = "largest displacement of a control point, m",
-             .bound = 1 / rate_hz >= longest_tick_s ? 0.15 : 0.1,
-             .reason = "twice what this walk shows at 60 ticks a second; steps within a tick stay below critical ones",
-             .value = worst_m});
+    run.at_most(tried, "of the speed asked for, off", run.quick ? 0.1 : 0.01, speed_off,
+                "a step begins or ends within the time measured");
+    run.at_most(tried, "largest displacement of a control point, m", 1 / rate_hz >= longest_tick_s ? 0.15 : 0.1,
+                worst_m,
+                "twice what this walk shows at 60 ticks a second; steps within a tick stay below critical ones");
   }
   return {};
 }
@@ -224,17 +202,11 @@ Result<void> stress_sleep(StressRun& run) {
     run.progress(round / static_cast<double>(rounds));
   }
   const std::string tried = fmt::format("{} people asleep and awake {} times, some turned meanwhile", people, rounds);
-  run.add({.tried = tried,
-           .quantity = "words that differ from those of people who never slept",
-           .bound = 0,
-           .reason = "a sleeper's walk is a function of its ticks",
-           .value = static_cast<double>(different)});
-  run.add({.tried = tried,
-           .quantity = "of them fell asleep when asked",
-           .promise = Promise::at_least,
-           .bound = 0.9,
-           .reason = "all but those who are still turning",
-           .value = static_cast<double>(slept) / (static_cast<double>(people) * rounds)});
+  run.at_most(tried, "words that differ from those of people who never slept", 0, static_cast<double>(different),
+              "a sleeper's walk is a function of its ticks");
+  run.at_least(tried, "of them fell asleep when asked", 0.9,
+               static_cast<double>(slept) / (static_cast<double>(people) * rounds),
+               "all but those who are still turning");
   return {};
 }
 

@@ -80,24 +80,14 @@ Result<void> stress_relevance(StressRun& run) {
       simulation.tick();
       for (const Entity human : *people) keep_worst(worst_m, largest(control_points(simulation, human)));
     }
-    run.add({.tried = scene.name,
-             .quantity = "refusals",
-             .bound = 0,
-             .reason = "every choice is one that the simulation takes",
-             .value = static_cast<double>(refused)});
-    run.add({.tried = scene.name,
-             .quantity = "largest displacement of a control point, m",
-             .bound = 0.1,
-             .reason = "twice what these walks show: changes of method do not kick",
-             .value = worst_m});
+    run.at_most(scene.name, "refusals", 0, static_cast<double>(refused),
+                "every choice is one that the simulation takes");
+    run.at_most(scene.name, "largest displacement of a control point, m", 0.1, worst_m,
+                "twice what these walks show: changes of method do not kick");
     std::size_t there = 0;
     for (const Entity human : *people) there += simulation.get<Pose>(human).has_value() ? 1 : 0;
-    run.add({.tried = scene.name,
-             .quantity = "people with a pose",
-             .promise = Promise::at_least,
-             .bound = static_cast<double>(crowd),
-             .reason = "awake, compact or asleep, everybody is somewhere",
-             .value = static_cast<double>(there)});
+    run.at_least(scene.name, "people with a pose", static_cast<double>(crowd), static_cast<double>(there),
+                 "awake, compact or asleep, everybody is somewhere");
     run.progress(++part / static_cast<double>(scenes.size()));
   }
   return {};
@@ -141,11 +131,9 @@ Result<void> stress_many(StressRun& run) {
     for (std::size_t i = 0; i < members->size(); ++i) {
       if (i != sick) different += different_words(row_words(sound, (*people)[i]), row_words(simulation, (*members)[i]));
     }
-    run.add({.tried = fmt::format("one of {} people has {}", crowd, bad.name),
-             .quantity = "words of the others that are not the same bits, a second later",
-             .bound = 0,
-             .reason = "lanes never meet",
-             .value = static_cast<double>(different)});
+    run.at_most(fmt::format("one of {} people has {}", crowd, bad.name),
+                "words of the others that are not the same bits, a second later", 0, static_cast<double>(different),
+                "lanes never meet");
   }
   return {};
 }

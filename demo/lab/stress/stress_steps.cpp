@@ -51,12 +51,10 @@ Result<void> ask_for_steps(StressRun& run) {
       example = above.error().message;
     }
   }
-  run.add({.tried = fmt::format("{} blocks of `mobil muscle` by ecd and icd at 1.0001 of the critical step", asked),
-           .quantity = "steps not refused with the limit named, or refused at 0.9999 of it",
-           .bound = 0,
-           .reason = "above it the solution grows without bound",
-           .value = static_cast<double>(3 * asked - refused - named - accepted),
-           .detail = fmt::format("\"{}\"", example)});
+  run.at_most(fmt::format("{} blocks of `mobil muscle` by ecd and icd at 1.0001 of the critical step", asked),
+              "steps not refused with the limit named, or refused at 0.9999 of it", 0,
+              static_cast<double>(3 * asked - refused - named - accepted), "above it the solution grows without bound",
+              fmt::format("\"{}\"", example));
   return {};
 }
 
@@ -128,17 +126,10 @@ Result<void> try_in_lanes(StressRun& run) {
     }
   }
   const std::string bellies = fmt::format("{} blocks of the 81-node spindle in lanes", tried / 2);
-  run.add({.tried = bellies + " at 0.999 of the tabulated critical step",
-           .quantity = "change of energy in parts of itself",
-           .bound = 1e-3,
-           .reason = "conserved; rounding in single precision is amplified by at most 500",
-           .value = drift});
-  run.add({.tried = bellies + " at 1.015 of it",
-           .quantity = "growth of kinetic energy in 600 steps",
-           .promise = Promise::at_least,
-           .bound = 1e6,
-           .reason = "the table is at most 1 % low, which leaves at least e^0.2 a step",
-           .value = growth});
+  run.at_most(bellies + " at 0.999 of the tabulated critical step", "change of energy in parts of itself", 1e-3, drift,
+              "conserved; rounding in single precision is amplified by at most 500");
+  run.at_least(bellies + " at 1.015 of it", "growth of kinetic energy in 600 steps", 1e6, growth,
+               "the table is at most 1 % low, which leaves at least e^0.2 a step");
   return {};
 }
 
@@ -224,18 +215,12 @@ Result<void> stress_caa(StressRun& run) {
       const std::string tried = fmt::format(
           "{} mass, {}, {} steps of 0.05 to 100 s each (critical 2 ms), 1 N all at once, undamped",
           mass_name[static_cast<std::size_t>(mass)], alike ? "all alike" : "sixteen sizes of one solver", steps);
-      run.add({.tried = tried,
-               .quantity = "largest elongation in parts of the static one",
-               .bound = alike ? 2.01 : 2.2,
-               .reason = alike ? "2 exactly: the method conserves energy and work at any step"
-                               : "2, and what eight sweeps on another body's factor leave",
-               .value = most,
-               .detail = alike ? fmt::format("in double {:.6g}", in_double) : std::string()});
-      run.add({.tried = tried,
-               .quantity = "largest strain energy in parts of the static one",
-               .bound = alike ? 4.04 : 4.4,
-               .reason = "4, by the same invariant: it bounds every part of the motion",
-               .value = energy});
+      run.at_most(tried, "largest elongation in parts of the static one", alike ? 2.01 : 2.2, most,
+                  alike ? "2 exactly: the method conserves energy and work at any step"
+                        : "2, and what eight sweeps on another body's factor leave",
+                  alike ? fmt::format("in double {:.6g}", in_double) : std::string());
+      run.at_most(tried, "largest strain energy in parts of the static one", alike ? 4.04 : 4.4, energy,
+                  "4, by the same invariant: it bounds every part of the motion");
     }
   }
   return {};

@@ -161,14 +161,13 @@ Result<void> stress_ways(StressRun& run) {
   for (const Trial& trial : trials) {
     // Of ωh ≫ 1 the trapezoidal rule keeps (1 − 4·α/(ω²·h)) a step: what rings faster than ticks hardly dies away.
     const bool keeps_ringing = trial.way->choice.method == Method::caa;
-    run.add(
-        {.tried = fmt::format("{}: {}", trial.way->name, trial.ordeal->name),
-         .quantity = fmt::format("control points off those of who stood still, {} s later, m", rest_s),
-         .bound = keeps_ringing ? std::max(1e-3, trial.worst_m) : 1e-3,
-         .reason = keeps_ringing ? "what rings faster than ticks this rule hardly damps; it never grows"
-                                 : "vibration falls by e^-4 a second or faster; nothing else is remembered",
-         .value = largest_difference(control_points(simulation, trial.human), control_points(simulation, trial.calm)),
-         .detail = fmt::format("up to {:.3g} m meanwhile", trial.worst_m)});
+    run.at_most(fmt::format("{}: {}", trial.way->name, trial.ordeal->name),
+                fmt::format("control points off those of who stood still, {} s later, m", rest_s),
+                keeps_ringing ? std::max(1e-3, trial.worst_m) : 1e-3,
+                largest_difference(control_points(simulation, trial.human), control_points(simulation, trial.calm)),
+                keeps_ringing ? "what rings faster than ticks this rule hardly damps; it never grows"
+                              : "vibration falls by e^-4 a second or faster; nothing else is remembered",
+                fmt::format("up to {:.3g} m meanwhile", trial.worst_m));
   }
   return {};
 }

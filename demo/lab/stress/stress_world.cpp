@@ -1,4 +1,4 @@
-// Whole simulations: a hitch, and one person whose state is NaN among sixteen who walk.
+// Whole simulations: one person whose state is NaN among sixteen who walk.
 
 #include "demo/lab/stress/stress_world.h"
 
@@ -110,75 +110,6 @@ GaitRequest nth_gait(int i) {
   gait.speed_m_s = 1.0F + 0.03F * static_cast<float>(i);
   return gait;
 }
-
-/// Largest step that any joint of a person took since `before`, m.
-double largest_step(const Pose<float>& before, const Pose<float>& now) {
-  double largest = 0;
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    const auto &a = before.position_m[s], &b = now.position_m[s];
-    const double step =
-        std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y), static_cast<double>(b.z - a.z));
-    keep_worst(largest, step);
-  }
-  return largest;
-}
-
-}  // namespace
-
-Result<void> stress_hitch(StressRun& run) {
-  Simulation hitched, smooth;
-  std::vector<Entity> people;
-  for (Simulation* simulation : {&hitched, &smooth}) {
-    for (int i = 0; i < 3; ++i) {
-      const auto human = simulation->spawn(nth_body(i), nth_gait(i));
-      if (!human) return tl::unexpected(human.error());
-      LegMuscles choice;
-      choice.inertia = i == 1;
-      if (auto added = simulation->add_leg_muscles(*human, choice); !added) return added;
-      if (simulation == &hitched) people.push_back(*human);
-    }
-    for (int tick = 0; tick < 90; ++tick) simulation->tick();
-  }
-  constexpr double frame_s = 2, longest_s = 0.25;
-  const auto before = hitched.get<Pose>(people[0]).value();
-  const std::uint32_t ticks_before = hitched.ticks();
-  const Ticks ticks = hitched.advance(frame_s);
-  const double told = ticks.dropped_s, run_s = hitched.tick_s() * (hitched.ticks() - ticks_before);
-  run.add({.tried = "a frame of 2 s while three people walk",
-           .quantity = "time that was neither run, nor reported as dropped, nor kept for the next frame, s",
-           .bound = 1e-12,
-           .reason = "a clock counts in units of 2^-50 s",
-           .value = std::fabs(frame_s - told - run_s - ticks.alpha * hitched.tick_s()),
-           .detail = fmt::format("{:.4g} s dropped and said so, {} ticks run", told, ticks.count)});
-  run.add({.tried = "a frame of 2 s while three people walk",
-           .quantity = "time that was run, s",
-           .bound = longest_s,
-           .reason = "the longest frame: a hitch may not cause the next one",
-           .value = run_s});
-  // nobody moves further in the time that was run than twice their walking speed
-  const auto after = hitched.get<Pose>(people[0]).value();
-  run.add({.tried = "a frame of 2 s while three people walk",
-           .quantity = "largest way of a joint, m",
-           .bound = 6 * 1.0 * longest_s,
-           .reason = "a foot swings at some four times the walking speed of 1 m/s",
-           .value = largest_step(before, after)});
-  for (std::uint32_t tick = 0; tick < ticks.count; ++tick) smooth.tick();
-  run.add({.tried = "a frame of 2 s, against the same ticks one by one",
-           .quantity = "words of the world that differ",
-           .bound = 0,
-           .reason = "a frame only says how many ticks to run",
-           .value = static_cast<double>(different_words(world_words(hitched), world_words(smooth)))});
-  for (int frame = 0; frame < 60; ++frame) hitched.advance(1.0 / 60);
-  while (smooth.ticks() < hitched.ticks()) smooth.tick();
-  run.add({.tried = "the second after it",
-           .quantity = "words of the world that differ from those of a world without a hitch",
-           .bound = 0,
-           .reason = "nothing remembers it but the clock",
-           .value = static_cast<double>(different_words(world_words(hitched), world_words(smooth)))});
-  return {};
-}
-
-namespace {
 
 using Poison = std::function<void(Simulation&, Entity, float)>;
 
@@ -305,21 +236,14 @@ Result<void> stress_walkers(StressRun& run) {
   }
   std::string names;
   for (const auto& name : touched) names += (names.empty() ? ", touched by a bad " : ", ") + name;
-  run.add(
-      {.tried = fmt::format("no number in one person's body, gait, plan, pose, lines or bellies, {} in all, among {} "
-                            "who walk on for {} ticks",
-                            tried, crowd - 1, ticks),
-       .quantity = "words of the others and their muscles that are not the same bits",
-       .bound = 0,
-       .reason = "lanes never meet",
-       .value = static_cast<double>(different),
-       .detail = fmt::format("of {}{}", compared, names)});
-  run.add(
-      {.tried = "no number in the displacement, the velocity or the motions of one of their bellies",
-       .quantity = "of these, how many did not begin anew, and words of control points that are not finite in the end",
-       .bound = 0,
-       .reason = "a belly that is not finite begins anew",
-       .value = static_cast<double>(still_ill + not_finite)});
+  run.at_most(fmt::format("no number in one person's body, gait, plan, pose, lines or bellies, {} in all, among {} "
+                          "who walk on for {} ticks",
+                          tried, crowd - 1, ticks),
+              "words of the others and their muscles that are not the same bits", 0, static_cast<double>(different),
+              "lanes never meet", fmt::format("of {}{}", compared, names));
+  run.at_most("no number in the displacement, the velocity or the motions of one of their bellies",
+              "of these, how many did not begin anew, and words of control points that are not finite in the end", 0,
+              static_cast<double>(still_ill + not_finite), "a belly that is not finite begins anew");
   return {};
 }
 

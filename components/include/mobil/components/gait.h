@@ -24,8 +24,8 @@ struct GaitChange {
   std::optional<GaitStyle> style{};
 };
 
-/// A walk that was found consistent and within range, by `resolve_gait` (systems/gait/gait.h): what a walker is to do.
-/// All zero but the style: to stand.
+/// A walk that was found consistent and within range, by `resolve_gait` (mobil/systems/gait/resolve_gait.h): what a
+/// walker is to do. All zero but the style: to stand.
 template <class F>
 struct Gait {
   F speed_m_s, step_length_m, step_frequency_hz;  // the mean of right and left steps

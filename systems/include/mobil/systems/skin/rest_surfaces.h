@@ -10,7 +10,7 @@
 #include <mobil/components/muscle.h>
 #include <mobil/engine/error.h>
 #include <mobil/systems/surfaces/body_surfaces.h>
-#include "systems/surfaces/surface_contacts.h"
+#include <mobil/systems/surfaces/surface_contacts.h>
 
 namespace mobil::inline v0_3 {
 

@@ -5,7 +5,7 @@
 
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/assets/skin/body_skin.h>
-#include "assets/skin/own_skin.h"
+#include <mobil/assets/skin/own_skin.h>
 
 namespace mobil::inline v0_3 {
 

@@ -8,9 +8,9 @@
 #include <mobil/components/fat.h>
 #include <mobil/components/pose.h>
 #include <mobil/systems/skinning/cover_muscles.h>
+#include <mobil/systems/skinning/skin_frames.h>
 #include <mobil/systems/skinning/skin_table.h>
-#include "systems/skinning/skin_frames.h"
-#include "systems/skinning/write_vertices.h"
+#include <mobil/systems/skinning/write_vertices.h>
 
 namespace mobil::inline v0_3 {
 

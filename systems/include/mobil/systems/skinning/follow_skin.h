@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "assets/skin/own_skin.h"
+#include <mobil/assets/skin/own_skin.h>
 
 namespace mobil::inline v0_3 {
 

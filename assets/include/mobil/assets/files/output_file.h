@@ -64,4 +64,9 @@ class OutputFolder {
   std::filesystem::path made_;  // the outermost folder that was not there before; empty where all were
 };
 
+/// For a program that is interrupted: removes what is not complete, here and of pictures and videos, and kills the
+/// programs that write them. The last thing that it does, on a thread of its own: not in a signal handler, for it
+/// allocates. Whoever writes after that waits for ever.
+void remove_unfinished() noexcept;
+
 }  // namespace mobil::inline v0_3

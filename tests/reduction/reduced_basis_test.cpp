@@ -2,7 +2,6 @@
 #include "assets/reduction/reduced_basis.h"
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>

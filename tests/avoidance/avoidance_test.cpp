@@ -8,7 +8,6 @@
 #include <cstring>
 #include <vector>
 
-#include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
@@ -56,10 +55,9 @@ double astray_m(Simulation& simulation, Entity one, std::uint32_t first, const f
 RC_GTEST_PROP(Claim, IsWhereWhoStopsWillBe, ()) {
   const float speed = static_cast<float>(*rc::gen::inRange(30, 220)) * 0.01F;
   const float turn = static_cast<float>(*rc::gen::inRange(-180, 180)) * pi / 180;
-  Simulation simulation;
-  const Entity one = walker(simulation, speed, 3, -2, 0.4F);
-  Avoidance avoidance(simulation);
-  RC_ASSERT(avoidance.manage(one).has_value());
+  Avoiders all;
+  Simulation& simulation = all.simulation;
+  const Entity one = all.come(speed, 3.0F, -2.0F, 0.4F);
   simulation.tick(60);
   RC_ASSERT(simulation.turn_to(one, turn).has_value());
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(0, 200)));
@@ -76,10 +74,9 @@ RC_GTEST_PROP(Claim, IsWhereWhoStopsWillBe, ()) {
 
 /// So a world that was restored, which makes its claims anew under way, goes on as one that was not.
 RC_GTEST_PROP(Claim, IsTheSameWheneverItIsMade, ()) {
-  Simulation simulation;
-  const Entity one = walker(simulation, static_cast<float>(*rc::gen::inRange(40, 130)) * 0.01F, 3, -2, 0.4F);
-  Avoidance avoidance(simulation);
-  RC_ASSERT(avoidance.manage(one).has_value());
+  Avoiders all;
+  Simulation& simulation = all.simulation;
+  const Entity one = all.come(static_cast<float>(*rc::gen::inRange(40, 130)) * 0.01F, 3.0F, -2.0F, 0.4F);
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(30, 150)));
   tick_to_strike(simulation, one);
   ClaimBook at_strike, later;
@@ -97,10 +94,9 @@ RC_GTEST_PROP(Claim, IsTheSameWheneverItIsMade, ()) {
 RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   const bool stands = *rc::gen::inRange(0, 3) == 0;
   const float speed = stands ? 0.0F : static_cast<float>(*rc::gen::inRange(40, 150)) * 0.01F;
-  Simulation simulation;
-  const Entity one = walker(simulation, stands ? 1.2F : speed, 1, 2, -0.7F);
-  Avoidance avoidance(simulation);
-  RC_ASSERT(avoidance.manage(one).has_value());
+  Avoiders all;
+  Simulation& simulation = all.simulation;
+  const Entity one = all.come(stands ? 1.2F : speed, 1.0F, 2.0F, -0.7F);
   simulation.tick(90);
   RC_ASSERT(simulation.turn_to(one, static_cast<float>(*rc::gen::inRange(-150, 150)) * pi / 180).has_value());
   if (stands) RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
@@ -144,25 +140,20 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
 }
 
 TEST(Avoidance, TwoWhoMeetPassWithoutStopping) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
-  const Entity a = walker(simulation, 1.3F, 0, -8, 0), b = walker(simulation, 1.3F, 0, 8, pi);
-  ASSERT_TRUE(avoidance.manage(a));
-  ASSERT_TRUE(avoidance.manage(b));
+  Avoiders all;
+  const Entity a = all.come(1.3F, 0.0F, -8.0F), b = all.come(1.3F, 0.0F, 8.0F, pi);
   const WalkWish wishes[] = {{a, 1.3F, 0}, {b, 1.3F, pi}};
-  ASSERT_TRUE(avoidance.want(wishes));
+  ASSERT_TRUE(all.avoidance.want(wishes));
   double least = 10;
   for (int k = 0; k < 900; ++k) {
-    avoidance.update();
-    simulation.tick();
-    const Root at = root_of(simulation, a), other = root_of(simulation, b);
-    least = std::min(least, std::hypot(at.x_m - other.x_m, at.z_m - other.z_m));
-    EXPECT_GT(simulation.get<StepPlan>(a)->to.speed_m_s, 0.25F);
+    all.run();
+    least = std::min(least, all.apart_m(a, b));
+    EXPECT_GT(all.simulation.get<StepPlan>(a)->to.speed_m_s, 0.25F);
   }
   EXPECT_GT(least, 0.42);
   EXPECT_LT(least, 2);
-  EXPECT_GT(root_of(simulation, a).z_m, 8);
-  EXPECT_LT(root_of(simulation, b).z_m, -8);
+  EXPECT_GT(all.root(a).z_m, 8);
+  EXPECT_LT(all.root(b).z_m, -8);
 }
 
 TEST(Avoidance, NobodyWalksIntoAnybodyInAFullRoom) {
@@ -218,68 +209,46 @@ TEST(Avoidance, ASteadyCrowdTakesNoMemory) {
 }
 
 TEST(Avoidance, WhoAvoidsNobodyIsAvoidedAndSoAreDiscs) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
-  const Entity a = walker(simulation, 1.2F, 0, -6, 0), b = walker(simulation, 1.2F, 0.1F, 6, pi);
-  ASSERT_TRUE(avoidance.manage(a));
+  Avoiders all;
+  const Entity a = all.come(1.2F, 0.0F, -6.0F), b = walker(all.simulation, 1.2F, 0.1F, 6, pi);
   double least = 10, least_disc = 10;
   for (int k = 0; k < 900; ++k) {
     const Disc pillar = {{-0.1F, 4}, 0.3F};
-    ASSERT_TRUE(avoidance.set_discs({&pillar, 1}));
-    avoidance.update();
-    simulation.tick();
-    const Root at = root_of(simulation, a), other = root_of(simulation, b);
-    least = std::min(least, std::hypot(at.x_m - other.x_m, at.z_m - other.z_m));
-    least_disc = std::min(least_disc, std::hypot(at.x_m + 0.1, at.z_m - 4));
+    ASSERT_TRUE(all.avoidance.set_discs({&pillar, 1}));
+    all.run();
+    least = std::min(least, all.apart_m(a, b));
+    least_disc = std::min(least_disc, std::hypot(all.root(a).x_m + 0.1, all.root(a).z_m - 4));
   }
   EXPECT_GT(least, 0.40);
   EXPECT_GT(least_disc, 0.51);
-  EXPECT_GT(root_of(simulation, a).z_m, 5);
+  EXPECT_GT(all.root(a).z_m, 5);
 }
 
 TEST(Avoidance, WhoIsPutIntoACrowdGetsOutOfIt) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
-  std::vector<Entity> all;
-  for (int i = 0; i < 5; ++i) {
-    all.push_back(walker(simulation, 0, 0.2F * static_cast<float>(i), 0.15F * static_cast<float>(i % 2)));
-    ASSERT_TRUE(avoidance.manage(all.back()));
-  }
+  Avoiders all;
   std::vector<WalkWish> wishes;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    wishes.push_back({all[i], 1, 2 * pi * static_cast<float>(i) / static_cast<float>(all.size())});
-  ASSERT_TRUE(avoidance.want(wishes));
-  for (int k = 0; k < 1200; ++k) {
-    avoidance.update();
-    simulation.tick();
+  for (int i = 0; i < 5; ++i) {
+    const auto number = static_cast<float>(i);
+    wishes.push_back({all.come(0, 0.2F * number, 0.15F * static_cast<float>(i % 2)), 1, 2 * pi * number / 5});
   }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Root a = root_of(simulation, all[i]), b = root_of(simulation, all[j]);
-      EXPECT_GT(std::hypot(a.x_m - b.x_m, a.z_m - b.z_m), 1) << i << " and " << j;
-    }
-  }
+  ASSERT_TRUE(all.avoidance.want(wishes));
+  all.run(1200);
+  for (const WalkWish& a : wishes)
+    for (const WalkWish& b : wishes) EXPECT_TRUE(a.human == b.human || all.apart_m(a.human, b.human) > 1);
 }
 
 TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
-  const Entity one = walker(simulation, 1.2F);
-  ASSERT_TRUE(avoidance.manage(one));
-  for (int k = 0; k < 300; ++k) {
-    avoidance.update();
-    simulation.tick();
-  }
+  Avoiders all;
+  Simulation& simulation = all.simulation;
+  Avoidance& avoidance = all.avoidance;
+  const Entity one = all.come(1.2F);
+  all.run(300);
   ASSERT_EQ(simulation.sleep({&one, 1}).value(), 1U);
-  for (int k = 0; k < 120; ++k) {
-    avoidance.update();
-    simulation.tick();
-  }
+  all.run(120);
   EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.2F, 1e-6F);
   EXPECT_FALSE(avoidance.want(std::array{WalkWish{one, 30, 0}})) << "nobody of that height walks so";
   ASSERT_TRUE(avoidance.want(std::array{WalkWish{one, 1.3F, 0}}));
-  const Entity entity = one;
-  ASSERT_TRUE(simulation.wake({&entity, 1}));
+  ASSERT_TRUE(simulation.wake({&one, 1}));
   EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.3F, 1e-6F);
   ASSERT_TRUE(avoidance.release(one));
   EXPECT_FALSE(simulation.get<Course>(one));
@@ -296,33 +265,25 @@ TEST(Avoidance, WhoComesFastIsSeenFromFarOff) {
     const auto draw = [&](std::uint64_t which) { return drawn(c, which); };
     const float speed = 0.8F + 1.4F * draw(0), faster = speed + (2.3F - speed) * draw(1), off = 3 * draw(4);
     const float heading = pi * (1 + 0.3F * (draw(2) - 0.5F)), half = 1.1F * speed + 0.8F + 1.5F * draw(3);
-    Simulation simulation;
-    Avoidance avoidance(simulation);
-    const Entity who[] = {walker(simulation, speed, off, off - half, 0, 1.9F),
-                          walker(simulation, speed, off - half * std::sin(heading), off + half, heading, 1.9F)};
-    ASSERT_TRUE(avoidance.manage(who));
-    ASSERT_TRUE(avoidance.want(std::array{WalkWish{who[0], faster, 0}, WalkWish{who[1], faster, heading}}));
-    const float radii_m = simulation.get<Course>(who[0])->radius_m + simulation.get<Course>(who[1])->radius_m;
+    Avoiders all;
+    const Entity a = all.come(speed, off, off - half, 0.0F, 1.9F),
+                 b = all.come(speed, off - half * std::sin(heading), off + half, heading, 1.9F);
+    ASSERT_TRUE(all.avoidance.want(std::array{WalkWish{a, faster, 0}, WalkWish{b, faster, heading}}));
+    const float radii_m = all.simulation.get<Course>(a)->radius_m + all.simulation.get<Course>(b)->radius_m;
     for (int k = 0; k < 150; ++k) {
-      avoidance.update();
-      simulation.tick();
-      const Root one = root_of(simulation, who[0]), other = root_of(simulation, who[1]);
-      ASSERT_GT(std::hypot(one.x_m - other.x_m, one.z_m - other.z_m), radii_m - 0.04F) << c;
+      all.run();
+      ASSERT_GT(all.apart_m(a, b), radii_m - 0.04F) << c;
     }
   }
 }
 
 TEST(Avoidance, AlonePeopleWalkAsTheyWouldWithout) {
-  Simulation with, without;
-  Avoidance avoidance(with);
-  const Entity a = walker(with, 1.25F), b = walker(without, 1.25F);
-  ASSERT_TRUE(avoidance.manage(a));
-  for (int k = 0; k < 600; ++k) {
-    avoidance.update();
-    with.tick();
-    without.tick();
-  }
-  const Root one = root_of(with, a), other = root_of(without, b);
+  Avoiders all;
+  Simulation without;
+  const Entity a = all.come(1.25F), b = walker(without, 1.25F);
+  all.run(600);
+  without.tick(600);
+  const Root one = all.root(a), other = root_of(without, b);
   EXPECT_EQ(one.x_m, other.x_m);
   EXPECT_NEAR(one.z_m, other.z_m, 1e-3);
 }
@@ -330,14 +291,12 @@ TEST(Avoidance, AlonePeopleWalkAsTheyWouldWithout) {
 /// Whoever stands and wants to go behind them or to a side turns and walks; nobody sidles all the way.
 TEST(Avoidance, WhoStandsTurnsAndWalksWhereTheyWant) {
   for (int degrees = -180; degrees < 180; degrees += 7) {
-    Simulation simulation;
-    Avoidance avoidance(simulation);
-    const Entity one = walker(simulation, 0.0F);
-    ASSERT_TRUE(avoidance.manage(one));
+    Avoiders all;
+    const Entity one = all.come(0);
     const float heading = static_cast<float>(degrees) * pi / 180;
-    ASSERT_TRUE(avoidance.want({{WalkWish{one, 1.3F, heading}}}));
-    for (int k = 0; k < 6 * 60; ++k) avoidance.update(), simulation.tick();
-    const Root at = root_of(simulation, one);
+    ASSERT_TRUE(all.avoidance.want({{WalkWish{one, 1.3F, heading}}}));
+    all.run(6 * 60);
+    const Root at = all.root(one);
     EXPECT_GT(at.x_m * std::sin(heading) + at.z_m * std::cos(heading), 2) << degrees;
     EXPECT_LT(std::fabs(std::remainder(at.heading_rad - heading, 2 * pi)), 0.05F) << degrees;
   }
@@ -346,39 +305,35 @@ TEST(Avoidance, WhoStandsTurnsAndWalksWhereTheyWant) {
 /// Also who had to wait before, boxed in.
 TEST(Avoidance, WhoWasBoxedInTurnsAndWalksOnceTheWayIsOpen) {
   for (const float heading : {pi, 1.2F, -2.0F}) {
-    Simulation simulation;
-    Avoidance avoidance(simulation);
-    const Entity one = walker(simulation, 0.0F);
-    ASSERT_TRUE(avoidance.manage(one));
+    Avoiders all;
+    const Entity one = all.come(0);
     constexpr float a = 0.3F;
-    ASSERT_TRUE(avoidance.set_walls(
+    ASSERT_TRUE(all.avoidance.set_walls(
         {{Wall{{-a, -a}, {a, -a}}, Wall{{a, -a}, {a, a}}, Wall{{a, a}, {-a, a}}, Wall{{-a, a}, {-a, -a}}}}));
-    ASSERT_TRUE(avoidance.want({{WalkWish{one, 1.3F, heading}}}));
-    for (int k = 0; k < 7 * 60; ++k) avoidance.update(), simulation.tick();
-    const Root from = root_of(simulation, one);
-    ASSERT_TRUE(avoidance.set_walls({}));
-    for (int k = 0; k < 6 * 60; ++k) avoidance.update(), simulation.tick();
-    const Root at = root_of(simulation, one);
+    ASSERT_TRUE(all.avoidance.want({{WalkWish{one, 1.3F, heading}}}));
+    all.run(7 * 60);
+    const Root from = all.root(one);
+    ASSERT_TRUE(all.avoidance.set_walls({}));
+    all.run(6 * 60);
+    const Root at = all.root(one);
     EXPECT_GT((at.x_m - from.x_m) * std::sin(heading) + (at.z_m - from.z_m) * std::cos(heading), 2) << heading;
   }
 }
 
 /// Even where every step along it is closed: they step back first.
 TEST(Avoidance, WhoStandsTooNearACornerGetsRoundIt) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
-  ASSERT_TRUE(avoidance.set_walls(
+  Avoiders all;
+  ASSERT_TRUE(all.avoidance.set_walls(
       {{Wall{{-0.12F, 0.23F}, {0.12F, 0.23F}}, Wall{{0.12F, 0.23F}, {0.12F, 3}}, Wall{{-0.12F, 0.23F}, {-0.12F, 3}}}}));
-  const Entity one = walker(simulation, 0.0F, -0.07F, 0, 0.8F, 1.86F);
-  ASSERT_TRUE(avoidance.manage(one));
+  const Entity one = all.come(0, -0.07F, 0.0F, 0.8F, 1.86F);
   for (int k = 0; k < 15 * 60; ++k) {
-    const Root at = root_of(simulation, one);
+    const Root at = all.root(one);
     const auto heading = static_cast<float>(std::atan2(0.45 - at.x_m, 0.4 - at.z_m));
     const bool past = at.x_m > 0.3;
-    ASSERT_TRUE(avoidance.want({{WalkWish{one, 1.2F, past ? 0 : heading}}}));
-    avoidance.update(), simulation.tick();
+    ASSERT_TRUE(all.avoidance.want({{WalkWish{one, 1.2F, past ? 0 : heading}}}));
+    all.run();
   }
-  EXPECT_GT(root_of(simulation, one).z_m, 3);
+  EXPECT_GT(all.root(one).z_m, 3);
 }
 
 TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
@@ -408,20 +363,16 @@ TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
 
 /// A snapshot may hold any number that is finite.
 TEST(Avoidance, AHeadingThatIsNoneHarmsNobodyElse) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
-  const Entity one = walker(simulation, 1.2F), other = walker(simulation, 1.2F, 0.3F, 3, pi);
-  for (const Entity each : {one, other}) ASSERT_TRUE(avoidance.manage(each));
+  Avoiders all;
+  Simulation& simulation = all.simulation;
+  const Entity one = all.come(1.2F), other = all.come(1.2F, 0.3F, 3.0F, pi);
   for (const float turn : {1e11F, -3e30F, 2e5F}) {
     GaitState<float> state = *simulation.get<GaitState>(other);
     state.turn_rad = turn;
     ASSERT_EQ(world_of(simulation).set(other, state), Status::ok);
-    for (int k = 0; k < 120; ++k) {
-      avoidance.update();
-      simulation.tick();
-    }
+    all.run(120);
   }
-  const Root at = root_of(simulation, one);
+  const Root at = all.root(one);
   EXPECT_TRUE(std::isfinite(at.x_m) && std::isfinite(at.z_m) && std::isfinite(at.heading_rad));
   EXPECT_GT(at.z_m, 2);
 }

@@ -9,9 +9,7 @@
 #include <ostream>
 #include <vector>
 
-#include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
-#include <mobil/simulation.h>
 #include "tests/avoidance/walkers.h"
 
 namespace mobil {
@@ -19,29 +17,26 @@ namespace {
 
 /// Who comes the other way is parted from: each flow keeps to its right.
 TEST(Avoidance, TwoFlowsPartIntoLanes) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
+  Avoiders crowd;
   constexpr float half_m = 2.5F, far_m = 60;
   const Wall walls[] = {{{-half_m, -far_m}, {-half_m, far_m}}, {{half_m, -far_m}, {half_m, far_m}}};
-  ASSERT_TRUE(avoidance.set_walls(walls));
+  ASSERT_TRUE(crowd.avoidance.set_walls(walls));
   constexpr std::size_t many = 48;
   std::vector<Entity> all;
   std::vector<WalkWish> wishes;
   for (std::size_t i = 0; i < many; ++i) {
     const bool back = i % 2 == 1;
     const float x = 3.6F * (drawn(i, 1) - 0.5F), z = (back ? 1.0F : -1.0F) * (4 + 0.5F * static_cast<float>(i));
-    all.push_back(walker(simulation, 1.3F, x, z, back ? pi : 0));
-    ASSERT_TRUE(avoidance.manage(all.back()));
+    all.push_back(crowd.come(1.3F, x, z, back ? pi : 0.0F));
     wishes.push_back({all.back(), 1.3F, back ? pi : 0});
   }
-  ASSERT_TRUE(avoidance.want(wishes));
+  ASSERT_TRUE(crowd.avoidance.want(wishes));
   std::vector<Root> at(many);
   double right = 0, passing = 0;
   for (int tick = 0; tick < 60 * 40; ++tick) {
-    avoidance.update();
-    simulation.tick();
+    crowd.run();
     if (tick % 30 != 0) continue;
-    ASSERT_TRUE(simulation.roots(all, at));
+    ASSERT_TRUE(crowd.simulation.roots(all, at));
     for (std::size_t i = 0; i < many; ++i) {
       if (std::fabs(at[i].z_m) > 4) continue;  // where they pass
       ++passing;
@@ -50,7 +45,6 @@ TEST(Avoidance, TwoFlowsPartIntoLanes) {
   }
   EXPECT_GT(passing, 300);
   EXPECT_GT(right / passing, 0.8);
-  ASSERT_TRUE(simulation.roots(all, at));
   for (std::size_t i = 0; i < many; ++i)
     EXPECT_GT(i % 2 == 1 ? -at[i].z_m : at[i].z_m, 4) << i << " did not get through";
 }
@@ -58,20 +52,13 @@ TEST(Avoidance, TwoFlowsPartIntoLanes) {
 /// Who stands beside a wall, facing into it a little, turns and goes along it.
 TEST(Avoidance, WhoStandsBesideAWallGoesAlongIt) {
   for (const float off : {0.0F, 0.2F, 0.45F, 0.9F}) {
-    Simulation simulation;
-    Avoidance avoidance(simulation);
-    const Wall wall[] = {{{0.225F, -50}, {0.225F, 50}}};
-    ASSERT_TRUE(avoidance.set_walls(wall));
-    const Entity one = walker(simulation, 0, 0, 0, off);
-    ASSERT_TRUE(avoidance.manage(one));
-    const WalkWish wish[] = {{one, 1.2F, 0}};
-    ASSERT_TRUE(avoidance.want(wish));
-    for (int k = 0; k < 600; ++k) {
-      avoidance.update();
-      simulation.tick();
-    }
-    EXPECT_GT(root_of(simulation, one).z_m, 7) << "facing " << off;
-    EXPECT_LT(root_of(simulation, one).x_m, 0.06);
+    Avoiders all;
+    ASSERT_TRUE(all.avoidance.set_walls({{Wall{{0.225F, -50}, {0.225F, 50}}}}));
+    const Entity one = all.come(0, 0.0F, 0.0F, off);
+    ASSERT_TRUE(all.avoidance.want({{WalkWish{one, 1.2F, 0}}}));
+    all.run(600);
+    EXPECT_GT(all.root(one).z_m, 7) << "facing " << off;
+    EXPECT_LT(all.root(one).x_m, 0.06);
   }
 }
 
@@ -92,8 +79,8 @@ TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
   const Flow& flow = GetParam();
   constexpr float round_m = 40, broad_m = 5, ring_m = round_m / (2 * pi);
   const int seconds = std::getenv("MOBIL_LONG") != nullptr ? 600 : 20;
-  Simulation simulation;
-  Avoidance avoidance(simulation);
+  Avoiders crowd;
+  Simulation& simulation = crowd.simulation;
   std::vector<Wall> walls;
   constexpr int sides = 24;
   for (const float radius : {ring_m - broad_m / 2, ring_m + broad_m / 2}) {
@@ -103,7 +90,7 @@ TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
     };
     for (int i = 0; i < sides; ++i) walls.push_back({corner(i), corner(i + 1)});
   }
-  ASSERT_TRUE(avoidance.set_walls(walls));
+  ASSERT_TRUE(crowd.avoidance.set_walls(walls));
 
   constexpr std::size_t across = 9;
   const auto many = static_cast<std::size_t>(flow.people_a_m2 * round_m * broad_m);
@@ -114,9 +101,8 @@ TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
     const float from_middle = (static_cast<float>(i % across) - 0.5F * (across - 1)) * 0.5F;
     const float angle = 2 * pi * place, at = ring_m + from_middle;
     way.push_back(flow.both_ways && i % 2 == 1 ? -1 : 1);
-    who.push_back(walker(simulation, 0, at * std::sin(angle), at * std::cos(angle), angle + way.back() * pi / 2,
-                         1.6F + 0.25F * drawn(i, 1)));
-    ASSERT_TRUE(avoidance.manage(who.back()));
+    who.push_back(crowd.come(0, at * std::sin(angle), at * std::cos(angle), angle + way.back() * pi / 2,
+                             1.6F + 0.25F * drawn(i, 1)));
     radius.push_back(simulation.get<Course>(who.back())->radius_m);
   }
   std::vector<Root> at(many);
@@ -135,10 +121,9 @@ TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
       if (tick <= 30 * seconds) walked[i] = 0;
     }
     if (tick % 6 == 0) {
-      ASSERT_TRUE(avoidance.want(wishes));
+      ASSERT_TRUE(crowd.avoidance.want(wishes));
     }
-    avoidance.update();
-    simulation.tick();
+    crowd.run();
     ASSERT_TRUE(simulation.roots(who, at));
     if (tick % 12 != 0) continue;
     for (std::size_t i = 0; i < many; ++i) {

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/components/body.h>
 #include <mobil/components/gait_style.h>
@@ -110,17 +109,15 @@ struct Section {
 };
 
 TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
+  Avoiders all;
+  const Simulation& simulation = all.simulation;
   const Wall walls[] = {{{-0.45F, -30}, {-0.45F, 30}}, {{0.45F, -30}, {0.45F, 30}}};
-  ASSERT_TRUE(avoidance.set_walls(walls));
-  const Entity who[] = {walker(simulation, 1.2F, 0.1F, -5, 0), walker(simulation, 1.2F, -0.1F, 5, pi)};
-  for (const Entity one : who) ASSERT_TRUE(avoidance.manage(one));
+  ASSERT_TRUE(all.avoidance.set_walls(walls));
+  const Entity who[] = {all.come(1.2F, 0.1F, -5.0F), all.come(1.2F, -0.1F, 5.0F, pi)};
   float most = 0;
   double overlap = 0;
   for (int k = 0; k < 60 * 30; ++k) {
-    avoidance.update();
-    simulation.tick();
+    all.run();
     Root at[2];
     ASSERT_TRUE(simulation.roots(who, at));
     const double x = at[1].x_m - at[0].x_m, z = at[1].z_m - at[0].z_m, apart = std::hypot(x, z);
@@ -188,21 +185,15 @@ TEST(Shoulders, WhoKeepsThemClearTurnsNone) {
 }
 
 /// Two who stand so near that they have turned their shoulders.
-struct NearPair {
-  NearPair() : avoidance(simulation) {
-    for (const Entity one : who) EXPECT_TRUE(avoidance.manage(one));
-    for (int k = 0; k < 90; ++k) {
-      avoidance.update();
-      simulation.tick();
-    }
+struct NearPair : Avoiders {
+  NearPair() {
+    run(90);
     EXPECT_GT(std::fabs(turned_rad()), 0.4F);
   }
   float turned_rad() const { return simulation.get<Course>(who[0])->turn_rad; }
   float chest_rad() const { return yaw(simulation.get<Pose>(who[0])->rotation[index(Segment::T1)]); }
 
-  Simulation simulation;
-  Avoidance avoidance;
-  const Entity who[2] = {walker(simulation, 0), walker(simulation, 0, 0.36F)};
+  const Entity who[2] = {come(0), come(0, 0.36F)};
 };
 
 TEST(Shoulders, WhoIsPlacedElsewhereFacesTheirWay) {
@@ -235,18 +226,14 @@ TEST(Shoulders, WhoSleepsFacesTheirWayAndWakesSo) {
 }
 
 TEST(Shoulders, WhoAvoidsNobodyIsGivenTheWholeBreadth) {
-  Simulation simulation;
-  Avoidance avoidance(simulation);
-  const Entity stands = walker(simulation, 0, 0.05F), comes = walker(simulation, 1.2F, 0, -5);
-  ASSERT_TRUE(avoidance.manage(comes));
+  Avoiders all;
+  const Entity stands = walker(all.simulation, 0, 0.05F), comes = all.come(1.2F, 0.0F, -5.0F);
   double nearest = 9;
   for (int k = 0; k < 900; ++k) {
-    avoidance.update();
-    simulation.tick();
-    const Root a = root_of(simulation, stands), b = root_of(simulation, comes);
-    nearest = std::min(nearest, std::hypot(a.x_m - b.x_m, a.z_m - b.z_m));
+    all.run();
+    nearest = std::min(nearest, all.apart_m(stands, comes));
   }
-  EXPECT_GT(root_of(simulation, comes).z_m, 3);
+  EXPECT_GT(all.root(comes).z_m, 3);
   EXPECT_GT(nearest, 2 * 0.128 * 1.72 - 0.035);
 }
 

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 
+#include <mobil/avoidance.h>
 #include <mobil/simulation.h>
 #include "engine/row_hash.h"
 
@@ -31,5 +33,26 @@ inline Root root_of(const Simulation& simulation, Entity one) {
   EXPECT_TRUE(simulation.roots({&one, 1}, {&root, 1}));
   return root;
 }
+
+/// A world whose people avoid each other.
+struct Avoiders {
+  Simulation simulation;
+  Avoidance avoidance{simulation};
+
+  template <class... Of>
+  Entity come(float speed_m_s, Of... of) {
+    const Entity one = walker(simulation, speed_m_s, of...);
+    EXPECT_TRUE(avoidance.manage(one));
+    return one;
+  }
+  void run(int ticks = 1) {
+    for (int k = 0; k < ticks; ++k) avoidance.update(), simulation.tick();
+  }
+  Root root(Entity one) const { return root_of(simulation, one); }
+  double apart_m(Entity a, Entity b) const {
+    const Root one = root(a), other = root(b);
+    return std::hypot(one.x_m - other.x_m, one.z_m - other.z_m);
+  }
+};
 
 }  // namespace mobil

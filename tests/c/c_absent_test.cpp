@@ -1,6 +1,5 @@
 // Who sleeps or is compact, asked through the C interface for what needs rows of their own.
 
-#include <functional>
 #include <vector>
 
 #include "tests/c/c_fixture.h"

@@ -1,6 +1,5 @@
 // What a host brings to the C interface: axes, memory that runs out, jobs.
 
-#include <array>
 #include <cstdlib>
 #include <functional>
 #include <map>

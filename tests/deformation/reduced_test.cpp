@@ -7,12 +7,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "assets/fem/muscle_template.h"
 #include "tests/deformation/reduced_block.h"
-#include "tests/engine/counting_heap.h"
 #include "tests/engine/instruction_sets.h"
 
 namespace mobil::reduced_test {

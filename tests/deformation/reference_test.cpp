@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "engine/eigen.h"

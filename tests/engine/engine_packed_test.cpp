@@ -7,15 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
-#include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <mobil/schedule.h>
-#include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"
 

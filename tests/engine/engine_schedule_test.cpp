@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <memory>
 #include <numeric>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "engine/schedule_order.h"

@@ -3,7 +3,6 @@
 #include <rapidcheck.h>
 
 #include <map>
-#include <set>
 #include <vector>
 
 #include <mobil/engine/world.h>

@@ -41,9 +41,7 @@ HWY_AFTER_NAMESPACE();
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <random>
-#include <vector>
 
 #include <mobil/engine/geometry.h>
 #include "tests/engine/instruction_sets.h"

@@ -8,12 +8,12 @@
 #include <cstring>
 #include <new>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include <mobil/engine/world.h>
 #include "engine/state_hash.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/engine/wilful_pool.h"
 
 namespace mobil::world_batch_test {
 template <class F>
@@ -29,15 +29,6 @@ struct Kind {};
 struct Mark {};
 
 constexpr std::uint32_t width = 5;
-
-/// A pool that takes the parts of a range last first, one by one.
-Jobs backward() {
-  return {nullptr,
-          [](void*, std::size_t count, Jobs::Body body, void* context) {
-            for (std::size_t i = count; i-- > 0;) body(context, i, i + 1);
-          },
-          3};
-}
 
 struct Values {
   float x;
@@ -128,7 +119,7 @@ RC_GTEST_PROP(WorldBatch, ManyAreWhatTheyWouldBeOneByOne, ()) {
   for (int round = 0; round < rounds; ++round) {
     const auto kind = static_cast<std::uint64_t>(*rc::gen::inRange(0, 3));
     const auto count = static_cast<std::size_t>(*rc::gen::inRange(0, 60));
-    const Jobs jobs = *rc::gen::arbitrary<bool>() ? backward() : Jobs{};
+    const Jobs jobs = *rc::gen::arbitrary<bool>() ? backwards(3) : Jobs{};
     for (const Entity entity : create(many, kind, seed, count, jobs)) in_many.push_back(entity);
     for (std::size_t i = 0; i < count; ++i) {
       in_single.push_back(create_one(single, kind, seed + static_cast<int>(i)));
@@ -217,7 +208,7 @@ RC_GTEST_PROP(WorldBatch, RemadeTogetherTheyAreAsOneByOne, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 90);
   const auto there = *rc::gen::inRange<std::size_t>(0, 40);
   World together, single;
-  const std::vector<Entity> all = create(together, 1, 0, count, backward());
+  const std::vector<Entity> all = create(together, 1, 0, count, backwards(3));
   RC_ASSERT(create(single, 1, 0, count, {}) == all);
   for (World* const world : {&together, &single}) {
     for (std::size_t i = 0; i < there; ++i)
@@ -230,7 +221,7 @@ RC_GTEST_PROP(WorldBatch, RemadeTogetherTheyAreAsOneByOne, ()) {
   for (std::size_t i = 0; i < some.size(); ++i)
     badge[i / lane_count].value[i % lane_count] = static_cast<float>(some[i].index) + 0.25F;
   constexpr std::array owned = {type_id<Points>()};
-  together.remake_many(some, std::array{PartValue{component_part<Badge>(), badge.data()}}, owned, backward());
+  together.remake_many(some, std::array{PartValue{component_part<Badge>(), badge.data()}}, owned, backwards(3));
   for (const Entity entity : some) {
     const Badge<float> own{static_cast<float>(entity.index) + 0.25F};
     RC_ASSERT(single.remake_from(entity, std::array{part_value(own)}, owned) == Status::ok);
@@ -262,7 +253,7 @@ TEST(WorldBatch, WhatIsGivenAndThereIsThereOnce) {
   const auto age = world.get<Age>(all[5])->ticks;
   world.remake_many(some,
                     std::array{PartValue{component_part<Age>(), nullptr}, PartValue{component_part<Badge>(), nullptr}},
-                    {}, backward());
+                    {}, backwards(3));
   EXPECT_EQ(world.get<Age>(all[3])->ticks, 77U);
   EXPECT_EQ(world.get<Age>(all[5])->ticks, age) << "what is there keeps its value";
   for (const Entity entity : some) {
@@ -281,7 +272,7 @@ RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 90), more = *rc::gen::inRange<std::size_t>(0, 40);
   const bool kept = *rc::gen::inRange(0, 2) == 1;
   World world, twin;
-  const std::vector<Entity> all = create(world, 1, 0, count, backward());
+  const std::vector<Entity> all = create(world, 1, 0, count, backwards(3));
   create(twin, 1, 0, count, {});
   std::vector<Entity> some;
   for (const Entity entity : all)
@@ -290,14 +281,14 @@ RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
     constexpr std::array owned = {type_id<Points>()};
     const std::size_t half = some.size() / 2;
     for (const auto piece : {std::span(some).first(half), std::span(some).subspan(half)})
-      of.remake_many(piece, std::array{PartValue{component_part<Badge>(), nullptr}}, owned, backward());
+      of.remake_many(piece, std::array{PartValue{component_part<Badge>(), nullptr}}, owned, backwards(3));
     for (std::size_t i = 0; i < some.size(); i += 3) of.add(some[i], TagValue<Mark>{7});
-    create(of, 3, 0, more, backward());
+    create(of, 3, 0, more, backwards(3));
     create(of, 4, 0, more, {});
   };
   const std::uint64_t before = state_hash(world, {});
   {
-    World::Attempt attempt(world, backward());
+    World::Attempt attempt(world, backwards(3));
     change(world);
     if (kept) attempt.keep();
   }
@@ -320,11 +311,11 @@ RC_GTEST_PROP(WorldBatch, AnAttemptWithinAnotherIsPartOfIt, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
   const bool outer_kept = *rc::gen::arbitrary<bool>(), inner_kept = *rc::gen::arbitrary<bool>();
   World world, twin;
-  const std::vector<Entity> all = create(world, 1, 0, count, backward());
+  const std::vector<Entity> all = create(world, 1, 0, count, backwards(3));
   create(twin, 1, 0, count, {});
   const std::size_t half = all.size() / 2;
   const auto mark = [&](World& of, std::span<const Entity> some) {
-    of.remake_many(some, std::array{PartValue{component_part<Badge>(), nullptr}}, {}, backward());
+    of.remake_many(some, std::array{PartValue{component_part<Badge>(), nullptr}}, {}, backwards(3));
   };
   const auto outer_change = [&](World& of) {
     create(of, 3, 0, 5, {});
@@ -335,10 +326,10 @@ RC_GTEST_PROP(WorldBatch, AnAttemptWithinAnotherIsPartOfIt, ()) {
     mark(of, std::span(all).subspan(half));
   };
   {
-    World::Attempt outer(world, backward());
+    World::Attempt outer(world, backwards(3));
     outer_change(world);
     {
-      World::Attempt inner(world, backward());
+      World::Attempt inner(world, backwards(3));
       inner_change(world);
       if (inner_kept) inner.keep();
     }

@@ -4,7 +4,6 @@
 
 #include <rapidcheck.h>
 
-#include <cmath>
 #include <vector>
 
 #include "assets/fem/stiffness_terms.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "assets/fem/element_size.h"

@@ -2,8 +2,6 @@
 // An independent finite-element model in double precision and dense matrices: Voigt strain-displacement matrices,
 // assembled directly on the mesh it is given. What the kernels are compared with.
 
-#include <array>
-#include <cstddef>
 #include <vector>
 
 #include <mobil/assets/fem/hexahedral_mesh.h>

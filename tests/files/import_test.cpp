@@ -9,10 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <map>
-#include <sstream>
 
 #include <mobil/fit_anatomy.h>
 #include <mobil/mesh_file.h>

@@ -12,7 +12,6 @@
 #include <assimp/Importer.hpp>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include <mobil/muscle_table.h>
 #include "assets/finite/control_points.h"

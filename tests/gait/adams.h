@@ -7,7 +7,6 @@
 // neither a restart nor interpolated derivatives, steps meet the end exactly, and the step follows the tolerance
 // smoothly.
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

@@ -4,7 +4,6 @@
 
 #include <cstring>
 #include <memory>
-#include <vector>
 
 #include "systems/gait/asleep.h"
 #include "tests/gait/walkers.h"

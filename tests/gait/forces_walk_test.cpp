@@ -1,7 +1,6 @@
 // Ground reactions and joint moments of people walking, against mechanics and against measured walks.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -5,7 +5,6 @@
 // positive, so that knee flexion is θ₃ − θ₄.
 
 #include <array>
-#include <cstddef>
 
 namespace mobil::step {
 

@@ -8,9 +8,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include <mobil/engine/geometry.h>

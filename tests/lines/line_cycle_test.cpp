@@ -16,6 +16,7 @@
 #include "tests/lines/leg_block.h"
 #include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
+#include "tests/simulation/people.h"
 
 namespace mobil::line_cycle_test {
 using test::Fit;
@@ -159,7 +160,7 @@ TEST(LineCycle, OurWalkLengthensMusclesAsMeasuredOnesDo) {
   const std::map<std::string, double> speeds = {{"slow", 0.2902}, {"free", 0.4294}, {"fast", 0.5599}};
   std::vector<std::string_view> members;
   for (const Curve& curve : group_curves) members.insert(members.end(), curve.members.begin(), curve.members.end());
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<Walker> walkers;
   for (const BodyRequest& request : {BodyRequest{1.55F, 50}, BodyRequest{1.80F, 80}, BodyRequest{1.95F, 95}}) {
     const Body body = make_body(request).value();

@@ -1,6 +1,5 @@
 // The check that the paper makes after the finite elements: the deformed mesh's end against the line of action.
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +21,7 @@ struct EndError {
 
 /// Of one person's muscles over a second of walking, by muscle: how far the mesh's end is from the line's.
 std::vector<EndError> end_errors(const Person& who, const LegMuscles& choice) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = simulation.spawn(who.body, who.gait).value();
   EXPECT_TRUE(simulation.add_leg_muscles(human, choice));
   const std::vector<OwnMuscle> muscles = simulation.muscles(human);

@@ -3,11 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <optional>
-
 #include <mobil/muscle_table.h>
 #include "systems/lines/line_of_action.h"
 #include "tests/engine/instruction_sets.h"

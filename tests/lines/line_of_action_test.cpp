@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include <mobil/muscle_table.h>
 #include "tests/lines/leg_block.h"

@@ -1,8 +1,6 @@
 // What muscles share, baked into bytes and loaded again.
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

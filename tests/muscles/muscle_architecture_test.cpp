@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_path.h>

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 

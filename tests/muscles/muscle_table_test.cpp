@@ -2,12 +2,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
-#include <vector>
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/fem/hexahedral_mesh.h>

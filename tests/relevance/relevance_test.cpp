@@ -10,7 +10,6 @@
 #include <memory>
 #include <numeric>
 #include <random>
-#include <string_view>
 #include <vector>
 
 #include "systems/simulation_world.h"

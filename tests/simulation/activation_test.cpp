@@ -33,7 +33,7 @@ void run(Simulation& simulation, int ticks) {
 
 /// Neither the walk nor the lines know of it, and the others' rows are what they were.
 TEST(Activation, WhoDoesNotAskIsAsBefore) {
-  Simulation with, without;
+  Simulation with(sharing()), without(sharing());
   const Entity asks = join_with(with, person(1), pulling(ExcitationSource::phase, Method::ecd));
   const Entity does_not = join_with(with, person(2), pulling(ExcitationSource::none, Method::ecd));
   const Entity same = join_with(without, person(1), pulling(ExcitationSource::none, Method::ecd));
@@ -51,7 +51,7 @@ TEST(Activation, BellyFollowsWhatTheTendonLeaves) {
   MOBIL_SLOW();
   for (const Method method :
        {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(3), pulling(ExcitationSource::phase, method));
     float apart = 0, by_tendon = 0;
     for (int tick = 0; tick < 90; ++tick) {
@@ -71,7 +71,7 @@ TEST(Activation, BellyFollowsWhatTheTendonLeaves) {
 }
 
 TEST(Activation, FollowsTheHost) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn_posed({});
   LegMuscles choice = pulling(ExcitationSource::host);
   choice.muscles |= muscle_members();
@@ -98,7 +98,7 @@ TEST(Activation, FollowsTheHost) {
 }
 
 TEST(Activation, BadRequestsSayWhat) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity walks = *simulation.spawn({}), hosted = *simulation.spawn({});
   ASSERT_TRUE(simulation.add_leg_muscles(walks, pulling(ExcitationSource::phase)));
   ASSERT_TRUE(simulation.add_leg_muscles(hosted, pulling(ExcitationSource::host)));
@@ -122,7 +122,7 @@ TEST(Activation, BadRequestsSayWhat) {
 
 /// Method changes, snapshots, batches, other sources.
 TEST(Activation, StateGoesOn) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join_with(simulation, person(4), pulling(ExcitationSource::phase, Method::reduced));
   run(simulation, 33);
   const auto before = pull(simulation, human, "triceps_surae", Side::right);
@@ -134,7 +134,7 @@ TEST(Activation, StateGoesOn) {
   ASSERT_TRUE(simulation.save(bytes));
   run(simulation, 20);
   const std::uint64_t later = simulation.state_hash();
-  Simulation other;
+  Simulation other(sharing());
   ASSERT_TRUE(other.restore(bytes, RestoreLimits::none()));
   run(other, 20);
   EXPECT_EQ(other.state_hash(), later);
@@ -155,7 +155,7 @@ TEST(Activation, StateGoesOn) {
 }
 
 TEST(Activation, LeftIsRightHalfACycleLater) {
-  Simulation simulation({.tick_s = 1.0 / 64});
+  Simulation simulation(sharing({.tick_s = 1.0 / 64}));
   // Two steps a second: 64 ticks a cycle.
   const auto human = simulation.spawn({}, {.speed_m_s = 1.4F, .step_frequency_hz = 2.0F});
   ASSERT_TRUE(human);
@@ -171,7 +171,7 @@ TEST(Activation, LeftIsRightHalfACycleLater) {
 
 /// The phase is that of the walk: at a heel strike of its own a leg's tibialis is strongly excited, its calf is not.
 TEST(Activation, IsInStepWithTheFeet) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn({}, {.speed_m_s = 1.3F});
   ASSERT_TRUE(simulation.add_leg_muscles(human, pulling(ExcitationSource::phase)));
   run(simulation, 120);

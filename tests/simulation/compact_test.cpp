@@ -31,7 +31,7 @@ LegMuscles unseen(std::uint32_t vectors) {
 /// The same people in two simulations: in one of them some are compact.
 struct Pair {
   explicit Pair(int count, const std::optional<LegMuscles>& muscles = std::nullopt, int threads = 1)
-      : compact({.threads = threads}), whole({.threads = threads}) {
+      : compact(sharing({.threads = threads})), whole(sharing({.threads = threads})) {
     for (int i = 0; i < count; ++i) {
       const Person one = person(i);
       for (Simulation* const simulation : {&compact, &whole}) {
@@ -147,7 +147,7 @@ TEST(Compact, MusclesGoOnWithinFourMicrometres) {
 }
 
 TEST(Compact, HandingOverAndBackChangesNothing) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 19; ++i) {
     people.push_back(*simulation.spawn(person(i).body, person(i).gait));
@@ -180,7 +180,7 @@ TEST(Compact, HandingOverAndBackChangesNothing) {
 }
 
 TEST(Compact, EachMuscleHasTheMethodThatItHad) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn({});
   ASSERT_TRUE(simulation.add_leg_muscles(human, unseen(4)));
   const auto reduced = [](std::uint32_t vectors, bool moving) {
@@ -264,7 +264,7 @@ TEST(Compact, NotWhoHasWhatACompactRowCannotHold) {
 }
 
 TEST(Compact, OtherCallsMakeWholeFirst) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn({});
   ASSERT_TRUE(simulation.add_leg_muscles(human, unseen(4)));
   const auto small = [&] { EXPECT_EQ(simulation.compact({&human, 1}).value(), 1U); };
@@ -307,7 +307,7 @@ TEST(Compact, FallsAsleepAndWakes) {
 }
 
 TEST(Compact, SnapshotsAndAnotherOriginKeepThem) {
-  Simulation simulation({.threads = 2});
+  Simulation simulation(sharing({.threads = 2}));
   std::vector<Entity> people;
   for (int i = 0; i < 21; ++i) {
     people.push_back(*simulation.spawn(person(i).body, person(i).gait));
@@ -319,7 +319,7 @@ TEST(Compact, SnapshotsAndAnotherOriginKeepThem) {
   ASSERT_EQ(*simulation.compact(people), people.size());
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
-  Simulation other;
+  Simulation other(sharing());
   const auto restored = other.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(restored) << restored.error().message;
   EXPECT_EQ(other.state_hash(), simulation.state_hash());

@@ -14,9 +14,9 @@
 
 #include <mobil/schedule.h>
 #include "tests/engine/instruction_sets.h"
+#include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
-#include "tests/simulation/crowd_pool.h"
 
 MOBIL_TEST_LABELS("threads;long");
 
@@ -28,7 +28,7 @@ constexpr play::Script script{};
 using Hashes = std::vector<std::map<int, std::uint64_t>>;
 
 Hashes run(const SimulationOptions& options, const std::vector<int>& order = play::Crowd::in_turn(script)) {
-  play::Crowd crowd(options, script, order);
+  play::Crowd crowd(sharing(options), script, order);
   Hashes all;
   for (int i = 1; i <= ticks; ++i) {
     crowd.tick();
@@ -44,7 +44,8 @@ const Hashes& alone() {
 
 TEST(CrowdDeterminism, EverythingIsUnderWay) {
   MOBIL_SLOW();
-  play::Crowd crowd({}, script);
+  play::Crowd crowd({}, script);  // with a library of its own
+  Hashes hashes;
   std::set<std::string_view> worked;
   std::set<int> seen;
   for (int i = 0; i < ticks; ++i) {
@@ -53,7 +54,9 @@ TEST(CrowdDeterminism, EverythingIsUnderWay) {
     for (const SystemReport& system : crowd.simulation().report().systems) {
       if (system.entities > 0) worked.insert(system.name);
     }
+    if ((i + 1) % apart == 0) hashes.push_back(crowd.hashes());
   }
+  EXPECT_EQ(hashes, alone());
   for (const System& system : crowd.simulation().schedule().systems())
     EXPECT_TRUE(worked.contains(system.name)) << system.name;
   EXPECT_EQ(seen.size(), static_cast<std::size_t>(script.everybody()));
@@ -69,7 +72,7 @@ TEST(CrowdDeterminism, EverythingIsUnderWay) {
 }
 
 TEST(CrowdDeterminism, ThreadsDoNotMatter) {
-  EXPECT_EQ(run({.threads = 2}), alone());
+  for (const int threads : {2, 0}) EXPECT_EQ(run({.threads = threads}), alone()) << threads;
   for (const std::size_t threads : {std::size_t{3}, std::size_t{8}}) {
     WilfulPool pool(threads);
     EXPECT_EQ(run({.jobs = pool.jobs()}), alone()) << threads << " threads";
@@ -104,10 +107,27 @@ TEST(CrowdDeterminism, OrderOfComingDoesNotMatter) {
   }
 }
 
+/// What others are asked and do is not to be seen in anybody's bits.
+TEST(CrowdDeterminism, CompanyDoesNotMatter) {
+  MOBIL_SLOW();
+  std::mt19937 random(5);
+  for (const std::size_t size : {std::size_t{17}, std::size_t{1}}) {
+    auto some = play::Crowd::in_turn(script);
+    std::shuffle(some.begin(), some.end(), random);
+    some.resize(size);
+    const Hashes hashes = run({}, some);
+    for (std::size_t i = 0; i < hashes.size(); ++i) {
+      for (const auto& [who, hash] : hashes[i])
+        EXPECT_TRUE(who < 0 || hash == alone()[i].at(who)) << "person " << who << ", tick " << (i + 1) * apart;
+    }
+  }
+}
+
 TEST(CrowdDeterminism, TwoWorldsAtOnceDoNotMeet) {
   MOBIL_SLOW();
   WilfulPool pool(2, 4);  // the same for both
-  play::Crowd a({.jobs = pool.jobs()}, script), b({.tick_s = 1.0 / 50, .jobs = pool.jobs()}, {.seed = 2});
+  play::Crowd a(sharing({.jobs = pool.jobs()}), script);
+  play::Crowd b(sharing({.tick_s = 1.0 / 50, .jobs = pool.jobs()}), {.seed = 2});
   Hashes in_a, in_b, b_alone;
   for (int i = 1; i <= ticks; ++i) {
     a.tick();
@@ -118,7 +138,7 @@ TEST(CrowdDeterminism, TwoWorldsAtOnceDoNotMeet) {
     }
   }
   EXPECT_EQ(in_a, alone());
-  play::Crowd same_as_b({.tick_s = 1.0 / 50}, {.seed = 2});
+  play::Crowd same_as_b(sharing({.tick_s = 1.0 / 50}), {.seed = 2});
   for (int i = 1; i <= ticks / 3 * 2; ++i) {
     same_as_b.tick();
     if (i % (apart / 3 * 2) == 0) b_alone.push_back(same_as_b.hashes());

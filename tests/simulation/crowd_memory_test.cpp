@@ -2,7 +2,6 @@
 // and so much a person.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -15,9 +14,9 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
-#include "tests/simulation/crowd_pool.h"
 
 MOBIL_TEST_LABELS("threads;long");
 
@@ -51,7 +50,7 @@ TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
   const std::vector<SimulationOptions> options = {
       {.memory = &memory}, {.threads = 2, .memory = &memory}, {.jobs = wilful.jobs(), .memory = &memory}};
   for (const SimulationOptions& o : options) {
-    Simulation simulation(o);
+    Simulation simulation(sharing(o));
     for (std::size_t i = 0; i < 2 * effects.size(); ++i) {
       const Effects& e = effects[i % effects.size()];
       const Entity human = join(simulation, person(static_cast<int>(i)), false);
@@ -83,7 +82,7 @@ TEST(CrowdMemory, AllComesFromTheCallerAndGoesBack) {
   CountingMemory memory;
   std::size_t people = 0;
   {
-    play::Crowd crowd({.memory = &memory}, {.at_first = 20, .comers = 20});
+    play::Crowd crowd(sharing({.memory = &memory}), {.at_first = 20, .comers = 20});
     // nothing of a world's own lies elsewhere: the default resource lends nothing
     std::pmr::memory_resource* before = std::pmr::set_default_resource(std::pmr::null_memory_resource());
     for (int i = 0; i < 90; ++i) crowd.tick();
@@ -111,6 +110,12 @@ void refuse_at_every_request(const Change& change, Refuses who) {
     SimulationOptions options;
     if (who == Refuses::resource) options.memory = &memory;
     auto simulation = std::make_unique<Simulation>(options);
+    static const std::vector<std::byte> usual = [] {
+      Simulation first;
+      join(first, person(0));
+      return first.bake();
+    }();
+    EXPECT_TRUE(simulation->load_baked(usual));  // and makes what else it needs itself
     people.reserve(32);
     for (int i = 0; i < 16; ++i) people.push_back(join(*simulation, person(i), i % 4 == 0));
     for (int i = 0; i < 5; ++i) simulation->tick();
@@ -223,7 +228,7 @@ TEST(CrowdMemory, SpawningManyWithMusclesIsAllOrNoneToo) {
 
 TEST(CrowdMemory, GoingTakesNone) {
   CountingMemory memory;
-  Simulation simulation({.memory = &memory});
+  Simulation simulation(sharing({.memory = &memory}));
   std::vector<Entity> people;
   for (int i = 0; i < 40; ++i) people.push_back(join(simulation, person(i), i % 2 == 0));
   const std::span<const Entity> all = people;
@@ -245,7 +250,7 @@ TEST(CrowdMemory, GoingTakesNone) {
 /// What is shared by bodies is on the heap, made once; what is somebody's own is in the caller's memory.
 TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
   CountingMemory memory;
-  Simulation simulation({.memory = &memory});
+  Simulation simulation(sharing({.memory = &memory}));
   const auto effects = every_effect();
   std::vector<Entity> people;
   const auto grow_to = [&](std::size_t count) {
@@ -268,15 +273,17 @@ TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
 TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
   MOBIL_SLOW();
   CountingMemory memory;
-  Simulation simulation({.memory = &memory});
+  Simulation simulation(sharing({.memory = &memory}));
   LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, false)};
   std::vector<Entity> people;
   const auto grow_to = [&](std::size_t count) {
-    while (people.size() < count) {
-      const Entity human = join(simulation, person(static_cast<int>(people.size() % 64)), false);
-      add(simulation, human, choice);
-      people.push_back(human);
+    std::vector<SpawnRequest> more(count - people.size());
+    for (std::size_t i = 0; i < more.size(); ++i) {
+      const Person p = person(static_cast<int>(i % 64));
+      more[i].body = p.body, more[i].gait = p.gait, more[i].muscles = choice;
     }
+    people.resize(count);
+    EXPECT_TRUE(simulation.spawn(more, std::span(people).last(more.size())));
     simulation.tick();
     return static_cast<double>(memory.lent_bytes());
   };

@@ -10,13 +10,12 @@
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
-#include <memory_resource>
 #include <vector>
 
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
-#include "tests/simulation/crowd_pool.h"
 
 MOBIL_TEST_LABELS("slow");
 

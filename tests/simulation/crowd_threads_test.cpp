@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <mobil/pose_writer.h>
+#include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
-#include "tests/simulation/crowd_pool.h"
 
 MOBIL_TEST_LABELS("threads;slow");
 
@@ -29,16 +29,6 @@ Hashes run(const SimulationOptions& options) {
 const Hashes& alone() {
   static const Hashes hashes = run({});
   return hashes;
-}
-
-TEST(CrowdThreads, TheBuiltInPool) {
-  EXPECT_EQ(run({.threads = 2}), alone());
-  EXPECT_EQ(run({.threads = 0}), alone());
-}
-
-TEST(CrowdThreads, MoreThanWerePromised) {
-  WilfulPool pool(4);
-  EXPECT_EQ(run({.jobs = pool.jobs(1)}), alone());
 }
 
 TEST(CrowdThreads, WorldsOnThreadsOfTheirOwn) {

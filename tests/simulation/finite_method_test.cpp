@@ -29,7 +29,7 @@ LegMuscles close_up(ExcitationSource source = ExcitationSource::phase) {
 
 /// Three people, the heaviest of whom takes the longest steps: two seconds of walking.
 TEST(FiniteMethod, KeepsVolumeAndItsLineInAWalk) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 3; ++i) people.push_back(join_with(simulation, person(i), close_up()));
   float least = 1, most = 1, farthest = 0;
@@ -55,7 +55,7 @@ TEST(FiniteMethod, KeepsVolumeAndItsLineInAWalk) {
 /// Beside the tables of finite shapes, which are of statics: standing, relaxed and pulling, once it is still.
 TEST(FiniteMethod, StandsAsTheTablesSay) {
   for (const float pull : {0.02F, 0.5F}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     std::vector<Entity> people;
     for (const Method method : {Method::finite, Method::reduced}) {
       people.push_back(*simulation.spawn_posed({}));
@@ -95,7 +95,7 @@ double middle_area(const Simulation& simulation, Entity muscle) {
 }
 
 TEST(FiniteMethod, FibresThatPullAreFeltAtTheEndAndThicken) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn_posed({});
   ASSERT_TRUE(simulation.add_leg_muscles(human, close_up(ExcitationSource::host)));
   const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
@@ -112,7 +112,7 @@ TEST(FiniteMethod, FibresThatPullAreFeltAtTheEndAndThicken) {
 }
 
 TEST(FiniteMethod, RefusesWhatItCannotDo) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn_posed({});
   LegMuscles choice = close_up();
   choice.stiffness_damping_s = 1e-3;

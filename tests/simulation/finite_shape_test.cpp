@@ -35,7 +35,7 @@ double volume_off(const Simulation& simulation, Entity human) {
 }
 
 TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
-  Simulation with, without;
+  Simulation with(sharing()), without(sharing());
   const Entity asks = join_with(with, person(1), finite(Method::ecd));
   const Entity does_not = join_with(with, person(2), {});
   const Entity alone = join_with(without, person(2), {});
@@ -44,7 +44,7 @@ TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
   // The method knows nothing of it either.
   LegMuscles linear = finite(Method::ecd);
   linear.finite_shape = false;
-  Simulation plain;
+  Simulation plain(sharing());
   const Entity same = join_with(plain, person(1), linear);
   run(plain, 60);
   const Entity one = with.muscle(asks, Muscle::hamstrings, Side::left);
@@ -57,7 +57,7 @@ TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
 TEST(FiniteShape, KeepsItsVolumeInAWalk) {
   MOBIL_SLOW();
   for (const Method method : {Method::reduced, Method::statics}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     LegMuscles choice = finite(method);
     choice.muscles |= muscle_members();
     const Entity human = join_with(simulation, person(5), choice);
@@ -79,7 +79,7 @@ TEST(FiniteShape, KeepsItsVolumeInAWalk) {
 TEST(FiniteShape, IsTheSameByEveryMethod) {
   std::vector<std::vector<float>> shown;
   for (const Method method : {Method::statics, Method::reduced, Method::ecd, Method::caa, Method::icd}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = *simulation.spawn_posed({});
     LegMuscles choice = finite(method, ExcitationSource::host);
     choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
@@ -102,7 +102,7 @@ TEST(FiniteShape, IsTheSameByEveryMethod) {
 
 /// Thicker where it pulls, and the more the harder.
 TEST(FiniteShape, BulgesAsItPulls) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn_posed({});
   LegMuscles choice = finite(Method::reduced, ExcitationSource::host);
   choice.muscles = MuscleSet{};
@@ -145,7 +145,7 @@ TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
   const auto method = [](Method to, bool moving) {
     return MuscleMethod{to, {.vectors = 12, .moving = moving, .cells = {4, 4, 16}}};
   };
-  Simulation simulation;
+  Simulation simulation(sharing());
   LegMuscles choice = finite(Method::ecd);
   choice.muscles = MuscleSet(3);
   const Entity human = join_with(simulation, person(6), choice);
@@ -175,7 +175,7 @@ TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
 
 /// A fade that is over leaves the shape, and rows that snapshots know.
 TEST(FiniteShape, GoesOnAfterAFade) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   LegMuscles choice = finite(Method::ecd);
   choice.muscles = MuscleSet(1);
   const Entity changed = join_with(simulation, person(6), choice);
@@ -204,7 +204,7 @@ TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
   unseen.reduced.control_points = unseen.reduced.reported = false;
   for (const MuscleMethod& to :
        {seen, MuscleMethod{Method::ecd}, MuscleMethod{Method::caa}, MuscleMethod{Method::finite}}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = *simulation.spawn_posed({});
     LegMuscles choice = finite(Method::reduced, ExcitationSource::host);
     choice.reduced = unseen.reduced;
@@ -231,7 +231,7 @@ TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
 /// Turned on and off under way, for all methods.
 TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
   for (const Method method : {Method::ecd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     LegMuscles pulls = finite(method);
     pulls.muscles = MuscleSet(4);
     LegMuscles linear = pulls;
@@ -256,7 +256,7 @@ TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
 }
 
 TEST(FiniteShape, TheForceDrivenEndIsRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn({});
   LegMuscles choice;
   choice.drive = Drive::force;

@@ -1,6 +1,5 @@
 // Snapshots that ask for too much or hold NaN, and hosts that err: refused, or harmless to others.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -52,7 +51,7 @@ void expect_refused(const Result<void>& done, const std::string& piece) {
 constexpr double any_time = std::numeric_limits<double>::infinity();
 
 TEST(RestoreLimitsOf, RowsAreCounted) {
-  Simulation simulation, other;
+  Simulation simulation(sharing()), other(sharing());
   people(simulation);
   const Bytes bytes = saved(simulation);
   const std::uint64_t before = other.state_hash();
@@ -63,7 +62,7 @@ TEST(RestoreLimitsOf, RowsAreCounted) {
 }
 
 TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   LegMuscles choice;
   choice.cells = {4, 4, 20};
   choice.method = Method::ecd;
@@ -71,7 +70,7 @@ TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
   ASSERT_TRUE(simulation.add_leg_muscles(*human, choice));
   const Bytes bytes = saved(simulation);
 
-  Simulation other;
+  Simulation other;  // that has nothing yet
   const std::uint64_t before = other.state_hash();
   const auto start = std::chrono::steady_clock::now();
   expect_refused(other.restore(bytes), "a mesh of 525 nodes");
@@ -88,7 +87,7 @@ TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
 }
 
 TEST(RestoreLimitsOf, StepsOfATickAreCounted) {
-  Simulation simulation, other;
+  Simulation simulation(sharing()), other(sharing());
   const std::uint64_t before = other.state_hash();
   LegMuscles choice;
   choice.muscles.reset();
@@ -112,7 +111,7 @@ TEST(RestoreLimitsOf, StepsOfATickAreCounted) {
 
 /// Sealed anew, any float of a row may be no number.
 TEST(RestoreLimitsOf, NumbersThatAreNotFiniteAreRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   people(simulation);
   const Bytes good = saved(simulation);
   std::uint64_t parts[3];
@@ -169,7 +168,7 @@ struct Throwing {
 
 TEST(Jobs, ThatThrowLeaveASimulationThatCanBeRestored) {
   Throwing host;
-  Simulation simulation({.jobs = host.jobs()}), twin;
+  Simulation simulation(sharing({.jobs = host.jobs()})), twin(sharing());
   people(simulation);
   people(twin);
   const Bytes bytes = saved(simulation);
@@ -197,10 +196,10 @@ TEST(Jobs, ThatThrowLeaveASimulationThatCanBeRestored) {
 /// Wherever a posed person is said to be, muscles stay finite, and other people do not notice.
 TEST(Posed, WildPosesAreRefusedOrFinite) {
   MOBIL_SLOW();
-  Simulation simulation;
+  Simulation simulation(sharing());
   const auto wild = *simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
   const auto calm = *simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
-  Simulation alone;
+  Simulation alone(sharing());
   const auto twin = *alone.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
   for (const Method method : {Method::reduced, Method::ecd, Method::icd, Method::caa, Method::statics}) {
     LegMuscles choice;

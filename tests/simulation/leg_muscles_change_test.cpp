@@ -1,31 +1,24 @@
-// Leg muscles that change under way, the bits that they have on any threads, and the memory they take.
+// Leg muscles that change under way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
-#include <numeric>
-#include <random>
 #include <vector>
 
 #include <mobil/muscle_table.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
-#include "tests/engine/counting_heap.h"
-#include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 
 MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::leg_muscles_change_test {
-// ------------------------------------------------------------------------------------------------ changes under way
-
 TEST(Change, OfMaterialMakesStepsAnewAndKeepsTheState) {
   for (const Method method : methods) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(6), {.method = method});
     for (int i = 0; i < 30; ++i) simulation.tick();
     const auto muscles = muscles_of(simulation, human);
@@ -70,7 +63,7 @@ std::vector<KeyPart> key_of(const Simulation& simulation, Entity entity) {
 }
 
 TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join_with(simulation, person(9), {});
   for (int i = 0; i < 20; ++i) simulation.tick();
   const auto muscles = muscles_of(simulation, human);
@@ -120,7 +113,7 @@ TEST(Change, OfDriveLeavesTheBellyWhereItIs) {
                                                           {close, pulled},
                                                           {drawn, pulled_close}}};
   for (std::size_t way = 0; way < ways.size(); ++way) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(9), ways[way][0]);
     for (int i = 0; i < 40; ++i) simulation.tick();
     ASSERT_TRUE(simulation.change_leg_muscles(human, ways[way][1]));
@@ -140,7 +133,7 @@ TEST(Change, OfDriveLeavesTheBellyWhereItIs) {
 }
 
 TEST(Change, ARefusedChangeChangesNothing) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join_with(simulation, person(9), {.inertia = true}), bare = join(simulation, person(1), false);
   for (int i = 0; i < 20; ++i) simulation.tick();
   const auto before = hash_world(simulation);
@@ -176,10 +169,8 @@ TEST(Change, ARefusedChangeChangesNothing) {
   EXPECT_TRUE(simulation.human(human)->leg_muscles.inertia);
 }
 
-// ----------------------------------------------------------------------------------------------- bits and memory
-
 TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join_with(simulation, person(3), {});
   for (int i = 0; i < 30; ++i) simulation.tick();
   const Entity stays = simulation.muscle(human, Muscle::hamstrings, Side::left),

@@ -18,7 +18,7 @@ MOBIL_TEST_LABELS("long");
 namespace mobil::leg_muscles_test {
 /// The same person with two sets of muscles, in two simulations.
 Difference walk_both(const Person& p, const LegMuscles& one, const LegMuscles& other, int ticks) {
-  Simulation a, b;
+  Simulation a(sharing()), b(sharing());
   const Entity in_a = join_with(a, p, one), in_b = join_with(b, p, other);
   Difference d;
   for (int i = 0; i < ticks; ++i) {
@@ -53,7 +53,7 @@ TEST(Methods, AgreeWhereTheStepIsShort) {
 TEST(Methods, RestInTheSameShapeUnderAStandingPerson) {
   MOBIL_SLOW();
   for (const bool inertia : {false, true}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     std::vector<Entity> people;
     for (const Method method : methods) {
       people.push_back(join_with(simulation, person(7), {.method = method, .damping_per_s = 20, .inertia = inertia}));
@@ -74,7 +74,7 @@ TEST(Methods, OfEveryKindFollowTheLineExactlyOrArePulled) {
   for (const Method method : methods) {
     for (const Element element : {Element::full, Element::bbar, Element::one_point}) {
       for (const Drive drive : {Drive::displacement, Drive::force}) {
-        Simulation simulation;
+        Simulation simulation(sharing());
         const Entity human =
             join_with(simulation, person(3), {.drive = drive, .method = method, .element = element, .inertia = true});
         double missed = 0;
@@ -103,7 +103,7 @@ TEST(Methods, OfEveryKindFollowTheLineExactlyOrArePulled) {
 
 TEST(Methods, OtherCellsDampingAndMassWalkToo) {
   MOBIL_SLOW();
-  Simulation simulation;
+  Simulation simulation(sharing());
   const LegMuscles choices[] = {
       {.stiffness_damping_s = 0.003, .cells = {1, 2, 5}},
       {.method = Method::icd, .stiffness_damping_s = 0.001, .foundation_hz = 12.0},
@@ -122,7 +122,7 @@ TEST(Methods, OtherCellsDampingAndMassWalkToo) {
 // ------------------------------------------------------------------------------------------------------------- steps
 
 TEST(Steps, AreTheLongestThatStayWithinNineTenthsOfEachLimit) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   for (const LegMuscles& choice :
        {LegMuscles{}, LegMuscles{.method = Method::icd}, LegMuscles{.method = Method::finite},
         LegMuscles{.stiffness_damping_s = 0.002, .inertia = true}}) {
@@ -142,7 +142,7 @@ TEST(Steps, AreTheLongestThatStayWithinNineTenthsOfEachLimit) {
 }
 
 TEST(Steps, AreTakenAsAsked) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const double tick = simulation.tick_s();
   const Entity explicitly = join_with(simulation, person(0), {.dt_s = tick / 20}),
                hardly_less = join_with(simulation, person(0), {.dt_s = tick / 20 * 0.999}),
@@ -162,7 +162,7 @@ TEST(Steps, AreTakenAsAsked) {
 
 TEST(Steps, AboveTheLimitAreRefusedByName) {
   for (const Method method : {Method::ecd, Method::icd}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity other = join_with(simulation, person(1), {.method = method});
     const Entity probe = join_with(simulation, person(2), {.method = method});
     std::array<double, muscle_group_count> limit{};
@@ -196,7 +196,7 @@ double size(const Vec3<float>& v) {
 
 TEST(Inertia, BeginsAsAWalkThatWasUnderWay) {
   for (const float speed : {0.7F, 1.5F}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = join_with(simulation, {{}, {.speed_m_s = speed}}, {.inertia = true});
     double first = 0, most = 0;
     for (int i = 0; i < 150; ++i) {
@@ -214,7 +214,7 @@ TEST(Inertia, BeginsAsAWalkThatWasUnderWay) {
 }
 
 TEST(Inertia, ShanksTurnAsFastAsTheyDo) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join_with(simulation, {{}, {.speed_m_s = 1.4F}}, {.method = Method::statics, .inertia = true});
   for (const Side side : {Side::right, Side::left}) {
     double turning = 0, swinging = 0;  // ω² and α times 0.4 m
@@ -235,7 +235,7 @@ TEST(Inertia, ShanksTurnAsFastAsTheyDo) {
 TEST(Inertia, TenSecondsStayWithinAFewCentimetres) {
   MOBIL_SLOW();
   for (const Method method : methods) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Person p = {{}, {.speed_m_s = 1.5F}};
     const Entity with = join_with(simulation, p, {.method = method, .inertia = true}),
                  without = join_with(simulation, p, {.method = method});

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -58,7 +57,7 @@ TEST(Limbs, AreAsLongAsAskedAndMoveWhatHangsOnThem) {
 }
 
 TEST(Limbs, OutOfRangeOrOfAWalkerAreRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const auto says = [&](const BodyRequest& body, const char* what) {
     const auto refused = simulation.spawn_posed(body);
     ASSERT_FALSE(refused) << what;
@@ -101,7 +100,7 @@ Pose<float> crouching(const Body& body, float hip_deg, float knee_deg) {
 /// Without the lengths muscles would be stretched by what the bones are longer.
 TEST(Limbs, MusclesAreAtRestWhereTheirBonesAre) {
   for (const float factor : {0.85F, 1.15F, 1.4F}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const BodyRequest own = long_limbed(factor, factor);
     const Entity knows = *simulation.spawn_posed(own);
     BodyRequest plain = own;
@@ -129,7 +128,7 @@ TEST(Limbs, MusclesAreAtRestWhereTheirBonesAre) {
 
 /// Bones that are longer are no thicker, and pelvis and feet no larger: so are the places that muscles are fixed to.
 TEST(Limbs, WhatLiesAcrossABoneIsAsTheHeightHasIt) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const BodyRequest own = long_limbed(1.3F, 1.2F);
   BodyRequest plain = own;
   plain.limbs = {};
@@ -154,7 +153,7 @@ TEST(Limbs, WhatLiesAcrossABoneIsAsTheHeightHasIt) {
 }
 
 TEST(Limbs, TheCentreOfMassIsTheBodys) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn_posed(long_limbed(1.3F, 0.8F, 1.4F, 1.2F));
   const Body body = simulation.human(human)->body;
   const auto expect = [&](const Pose<float>& pose) {
@@ -177,7 +176,7 @@ TEST(Limbs, TheCentreOfMassIsTheBodys) {
 }
 
 TEST(Limbs, AreKeptBySnapshotsAndToldByHuman) {
-  Simulation simulation, other;
+  Simulation simulation(sharing()), other(sharing());
   const BodyRequest asked = long_limbed(1.2F, 1.1F);
   const Entity human = *simulation.spawn_posed(asked);
   ASSERT_TRUE(simulation.add_leg_muscles(human));
@@ -214,7 +213,7 @@ TEST(Limbs, ARetargetedSkeletonKeepsItsJoints) {
   EXPECT_NEAR(limbs->thigh_m, game.request.limbs.thigh_m, 1e-5F);
   EXPECT_NEAR(limbs->forearm_m, game.request.limbs.forearm_m, 1e-5F);
   BodyRequest request{.height_m = 1.75F, .mass_kg = 72, .limbs = *limbs};
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity puppet = *simulation.spawn_posed(request);
   const auto map = Retarget::make(simulation.human(puppet)->body, numbers, rest);
   ASSERT_TRUE(map) << map.error().message;
@@ -233,7 +232,7 @@ TEST(Limbs, ARetargetedSkeletonKeepsItsJoints) {
 /// Surfaces bound to a usual body, shown by one with long limbs, against those drawn for that body.
 TEST(Limbs, SurfacesOfUsualBodiesFit) {
   const Body usual = *make_body({.height_m = 1.70F, .mass_kg = 68});
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity puppet = *simulation.spawn_posed(long_limbed(1.15F, 0.92F, 1.1F, 1.2F));
   ASSERT_EQ(simulation.set_pose(puppet, crouching(simulation.human(puppet)->body, 20, 30)), Status::ok);
   ASSERT_TRUE(simulation.add_leg_muscles(puppet));

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include <mobil/engine/error.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/people/limit_watch.h>
 #include <mobil/systems/people/walk_limits.h>

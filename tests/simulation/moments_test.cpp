@@ -8,6 +8,7 @@
 
 #include <mobil/forces.h>
 #include <mobil/simulation.h>
+#include "tests/simulation/people.h"
 
 namespace mobil::moments_test {
 namespace {
@@ -35,7 +36,7 @@ double off(const Pair& of) {
 
 /// Activation takes 10 to 40 ms to follow, so they are a little late.
 TEST(Moments, MusclesMakeThoseOfTheWalk) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = walker(simulation);
   ASSERT_TRUE(simulation.add_forces(human));
   LegMuscles choice = following();
@@ -67,7 +68,7 @@ TEST(Moments, MusclesMakeThoseOfTheWalk) {
 }
 
 TEST(Moments, NeedForces) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = walker(simulation);
   const auto refused = simulation.add_leg_muscles(human, following());
   ASSERT_FALSE(refused);
@@ -85,7 +86,7 @@ TEST(Moments, NeedForces) {
 
 /// The parts that they are asked by come and go with them, and with the forces that they are of.
 TEST(Moments, ComeAndGo) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = walker(simulation);
   ASSERT_TRUE(simulation.add_forces(human));
   ASSERT_TRUE(simulation.add_leg_muscles(human, following(Method::reduced)));
@@ -110,7 +111,7 @@ TEST(Moments, ComeAndGo) {
 }
 
 TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   LegMuscles plain = following(Method::reduced);
   plain.activation = ExcitationSource::none;
   plain.reduced.control_points = false;
@@ -133,7 +134,7 @@ TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
 }
 
 TEST(Moments, GoOnFromASnapshot) {
-  Simulation simulation, other;
+  Simulation simulation(sharing()), other(sharing());
   const Entity human = walker(simulation);
   ASSERT_TRUE(simulation.add_forces(human));
   ASSERT_TRUE(simulation.add_leg_muscles(human, following(Method::reduced)));
@@ -148,8 +149,8 @@ TEST(Moments, GoOnFromASnapshot) {
 
 /// A posed person's moments are a tick late; who stands still needs calves more than shins.
 TEST(Moments, OfPosedPeopleToo) {
-  Simulation simulation;
-  Simulation walking;
+  Simulation simulation(sharing());
+  Simulation walking(sharing());
   const Entity model = walker(walking);
   const auto posed = simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
   ASSERT_TRUE(posed);

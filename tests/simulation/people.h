@@ -1,14 +1,22 @@
 #pragma once
-// A crowd whose every member is another, by number.
+// A crowd whose every member is another, by number; and what muscles share, made once for all tests of a process.
 
 #include <cmath>
-#include <cstddef>
 
 #include <mobil/body_composition.h>
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
+#include <mobil/simulation.h>
 
 namespace mobil {
+
+/// `options`, with a library that all who ask here have in common. Not for tests of how what is shared is made,
+/// counted, restored or refused.
+inline SimulationOptions sharing(SimulationOptions options = {}) {
+  static const Simulation library;
+  options.library_of = &library;
+  return options;
+}
 
 /// From the least to the most that a living body of that height weighs, kg: `part` 0 to 1.
 inline float living_mass(float height_m, double part) {

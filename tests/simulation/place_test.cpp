@@ -51,7 +51,7 @@ TEST(Place, PoseAndMusclesGoAlongAndWalkOn) {
   std::mt19937 random(9);
   auto draw = [&](float low, float high) { return low + (high - low) * static_cast<float>(random() % 1000) / 1000; };
   for (const Method method : {Method::ecd, Method::reduced}) {
-    Simulation here, there;
+    Simulation here(sharing()), there(sharing());
     const Person person = mobil::person(3);
     const Entity stays = join_with(here, person, with_inertia(method)),
                  placed = join_with(there, person, with_inertia(method));
@@ -82,7 +82,7 @@ TEST(Place, PoseAndMusclesGoAlongAndWalkOn) {
 /// A pose far away, without inertia; the same as a jump, and as a way of ten metres in a tick.
 TEST(Place, APosedPersonFeelsAWayAndNoJump) {
   for (const auto arrival : {Arrival::jumped, Arrival::moved}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = simulation.spawn_posed(person(2).body).value();
     ASSERT_TRUE(simulation.add_leg_muscles(human, with_inertia(Method::reduced)));
     auto pose = *simulation.get<Pose>(human);
@@ -110,7 +110,7 @@ TEST(Place, APosedPersonFeelsAWayAndNoJump) {
 }
 
 TEST(Place, WhatIsNoPlaceIsRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity walker = join(simulation, person(1), false), posed = simulation.spawn_posed(person(2).body).value();
   simulation.tick();
   const std::uint64_t before = simulation.state_hash();
@@ -145,7 +145,7 @@ void expect_same_walk(const Simulation& a, Entity in_a, const Simulation& b, Ent
 
 /// Who is put somewhere is who was spawned there, to the bit, and stays so; whole, compact and asleep.
 TEST(Place, IsAsIfSpawnedThere) {
-  Simulation there, placed;
+  Simulation there(sharing()), placed(sharing());
   std::vector<SpawnRequest> requests(12), at_origin(12);
   std::vector<PlaceRequest> to(12);
   std::vector<Entity> spawned(12), people(12);
@@ -178,7 +178,7 @@ TEST(Place, IsAsIfSpawnedThere) {
 
 /// Asleep and awake, in the middle of a walk: to the bit where they walk steadily, else within what places hold.
 TEST(Place, SleepersGoAlong) {
-  Simulation awake, asleep;
+  Simulation awake(sharing()), asleep(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 8; ++i) {
     Person who = person(i);
@@ -229,7 +229,7 @@ TEST(Place, SleepersGoAlong) {
 }
 
 TEST(Place, ManyOrNobody) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<PlaceRequest> to;
   for (int i = 0; i < 6; ++i) {
     const auto n = static_cast<float>(i);
@@ -255,7 +255,7 @@ TEST(Place, ManyOrNobody) {
 
 /// The world's origin moves: nobody notices.
 TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
-  Simulation here, there;
+  Simulation here(sharing()), there(sharing());
   std::vector<Entity> walkers;
   for (int i = 0; i < 3; ++i) {
     const Person person = mobil::person(i);
@@ -300,7 +300,7 @@ TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
 
 /// Ten kilometres out bones are as long as floats allow; with the origin near them as long as they are.
 TEST(ShiftOrigin, BringsBackTheDigits) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity walker = join(simulation, person(1), false);
   ASSERT_TRUE(simulation.place(walker, 10240 + 1, 20480 + 2, 0.3F));
   const float thigh_m = simulation.human(walker)->body.thigh_length_m;
@@ -322,7 +322,7 @@ TEST(ShiftOrigin, BringsBackTheDigits) {
 
 /// A hundred kilometres on, by an origin that goes along: feet stand and bones are as long as at home.
 TEST(ShiftOrigin, AHundredKilometresOnNothingIsLost) {
-  Simulation home, far;
+  Simulation home(sharing()), far(sharing());
   const Person who = person(1);
   const Entity stays = join_with(home, who, with_inertia(Method::reduced)),
                goes = join_with(far, who, with_inertia(Method::reduced));

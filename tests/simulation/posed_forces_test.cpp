@@ -1,7 +1,6 @@
 // What the ground does to people whose host animates them, known from their poses alone.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>

@@ -18,7 +18,7 @@ Entity pose_person(Simulation& simulation, int i) {
 
 TEST(Posed, StandsInTheAnatomicalPosition) {
   for (int i = 0; i < 6; ++i) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = pose_person(simulation, i);
     const Human made = *simulation.human(human);
     EXPECT_TRUE(made.posed);
@@ -38,7 +38,7 @@ TEST(Posed, StandsInTheAnatomicalPosition) {
 
 /// One number that no skeleton can have, in any segment: the pose stays.
 TEST(Posed, APoseThatIsNoneIsRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = pose_person(simulation, 0);
   const auto sound = *simulation.get<Pose>(human);
   ASSERT_EQ(simulation.set_pose(human, sound), Status::ok);
@@ -62,7 +62,7 @@ TEST(Posed, APoseThatIsNoneIsRefused) {
 
 /// A walker, and somebody of the same body who is handed the walker's poses.
 struct Couple {
-  Simulation walking, posed;
+  Simulation walking(sharing()), posed(sharing());
   Entity walker, puppet;
 
   Couple(int i, const LegMuscles& choice) : walker(join(walking, person(i), false)), puppet(pose_person(posed, i)) {
@@ -121,7 +121,7 @@ TEST(Posed, WithInertiaTheWalkersPastIsSoonForgotten) {
 }
 
 TEST(Posed, BeginsWithGravityAloneWhateverItsHostDoesLater) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = pose_person(simulation, 2);
   ASSERT_TRUE(simulation.add_leg_muscles(human, {.inertia = true}));
   for (const Entity muscle : muscles_of(simulation, human)) {
@@ -137,7 +137,7 @@ TEST(Posed, BeginsWithGravityAloneWhateverItsHostDoesLater) {
 }
 
 TEST(Posed, RunsNoGaitAndNoKinematics) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   for (int i = 0; i < 3; ++i) {
     const Entity human = pose_person(simulation, i);
     ASSERT_TRUE(simulation.add_leg_muscles(human));
@@ -153,7 +153,7 @@ TEST(Posed, RunsNoGaitAndNoKinematics) {
 }
 
 TEST(Posed, RequestsForAGaitAreRefusedAndChangeNothing) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = pose_person(simulation, 1), walker = join(simulation, person(2), false);
   simulation.tick();
   const auto before = hash_world(simulation);
@@ -203,7 +203,7 @@ TEST(Posed, WithChangedMethodsHasTheWalkersMusclesAtEveryTick) {
 
 /// Of a standing person, when methods have come and gone and all is at rest again.
 TEST(Posed, StandingComesToTheSameRestAfterAnyMethods) {
-  Simulation changed, steady;
+  Simulation changed(sharing()), steady(sharing());
   const Entity a = pose_person(changed, 5), b = pose_person(steady, 5);
   const ReducedChoice coarse = {.vectors = 10, .cells = {2, 2, 8}};
   ASSERT_TRUE(changed.add_leg_muscles(a, {.inertia = true}));

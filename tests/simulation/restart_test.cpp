@@ -69,7 +69,7 @@ std::vector<Way> ways() {
 
 /// Three people alike, so that their muscles share blocks; a muscle of the first alone is ever poisoned.
 struct Scene {
-  Simulation simulation{SimulationOptions{.threads = 2, .modules = {poisoning()}}};
+  Simulation simulation{sharing({.threads = 2, .modules = {poisoning()}})};
   std::vector<Entity> people;
 
   explicit Scene(const LegMuscles& choice) {

@@ -100,7 +100,7 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
   for (const PoseAxes axes : {PoseAxes::y_up, PoseAxes::y_up_left_handed, PoseAxes::z_up, PoseAxes::z_up_left_handed,
                               PoseAxes::y_up_z_back}) {
     const BoneUnits units{axes, axes == PoseAxes::y_up ? 1.0F : 100.0F};
-    Simulation walking, posed;
+    Simulation walking(sharing()), posed(sharing());
     const Entity walker = *walking.spawn(person(1).body, {.speed_m_s = 1.3F});
     const Entity puppet = *posed.spawn_posed(person(1).body);
     const auto map =
@@ -142,7 +142,7 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
 
 /// What a pose alone tells of joints, soles and the centre of mass is what walkers have.
 TEST(Retarget, PosedPeopleHaveAnglesSolesAndACentreOfMass) {
-  Simulation walking, posed;
+  Simulation walking(sharing()), posed(sharing());
   const Entity walker = *walking.spawn(person(2).body, {.speed_m_s = 1.5F});
   const Entity puppet = *posed.spawn_posed(person(2).body);
   constexpr float degree = 0.01745F;
@@ -170,7 +170,7 @@ TEST(Retarget, PosedPeopleHaveAnglesSolesAndACentreOfMass) {
 }
 
 TEST(Retarget, SkeletonsThatAreNoneAreRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Body body = simulation.human(*simulation.spawn_posed({}))->body;
   const std::vector<BonePlace> rest = bones_of(t_pose(body), {});
   const auto says = [&](const SkeletonBones& bones, const std::vector<BonePlace>& at, const char* what,
@@ -217,7 +217,7 @@ TEST(Retarget, SkeletonsThatAreNoneAreRefused) {
 
 /// A game without arms, toes or head bones, and with a single bone of the spine.
 TEST(Retarget, AFewBonesAreEnough) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity puppet = *simulation.spawn_posed({});
   const Body body = simulation.human(puppet)->body;
   const std::vector<BonePlace> rest = bones_of(t_pose(body), {});

@@ -2,9 +2,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <map>
 #include <type_traits>
 #include <vector>
@@ -38,7 +35,7 @@ void steer(Simulation& simulation, const std::vector<Entity>& people) {
 }
 
 TEST(Rollback, GoneBackAnyNumberOfTicksItRunsAgainWithTheSameBits) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const auto people = fill(simulation, 7, play::choice_of(4));
   Rollback window(8);
   std::map<std::uint32_t, std::uint64_t> hashes;
@@ -63,7 +60,7 @@ TEST(Rollback, GoneBackAnyNumberOfTicksItRunsAgainWithTheSameBits) {
 }
 
 TEST(Rollback, FartherThanWasKeptIsRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const auto people = fill(simulation, 2, play::choice_of(5));
   Rollback window(3);
   EXPECT_FALSE(window.back(simulation, 1));
@@ -82,7 +79,7 @@ TEST(Rollback, FartherThanWasKeptIsRefused) {
 }
 
 TEST(Rollback, KeepingAndGoingBackTakesNoMemoryWithTheSamePeople) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   fill(simulation, 5, play::choice_of(4));
   Rollback window(4);
   const auto round = [&] {

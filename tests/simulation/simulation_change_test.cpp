@@ -1,4 +1,4 @@
-// Requests to people under way: what a change costs, who refuses it, and that it shows in the same bits on any threads.
+// Requests to people under way: what a change costs, who refuses it, and when it shows.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,10 +19,6 @@ std::uint64_t solved(const Simulation& simulation) {
   return simulation.schedule().timing("replan")->rows;
 }
 
-void walk(Simulation& simulation, int ticks) {
-  for (int i = 0; i < ticks; ++i) simulation.tick();
-}
-
 template <template <class> class C>
 bool has_column(const Simulation& simulation, Entity entity) {
   const auto place = simulation.world().find(entity);
@@ -34,7 +30,7 @@ bool has_column(const Simulation& simulation, Entity entity) {
 TEST(Change, StaleHandlesChangeNothing) {
   Simulation simulation;
   const Entity gone = join(simulation, person(0)), stays = join(simulation, person(1));
-  walk(simulation, 10);
+  simulation.tick(10);
   ASSERT_EQ(simulation.despawn(gone), Status::ok);
   const Entity muscle = simulation.muscle(stays, Muscle::quadriceps, Side::left);
   ASSERT_TRUE(simulation.world().alive(muscle));
@@ -53,7 +49,7 @@ TEST(Change, StaleHandlesChangeNothing) {
 TEST(Change, RequestsOutOfRangeChangeNothing) {
   Simulation simulation;
   const Entity human = join(simulation, person(2)), other = join(simulation, person(3), false);
-  walk(simulation, 45);
+  simulation.tick(45);
   const auto before = hash_world(simulation);
   const std::size_t tables = simulation.world().tables().size();
   std::vector<GaitRequest> bad = {{.speed_m_s = 9.0F},
@@ -82,38 +78,11 @@ TEST(Change, RequestsOutOfRangeChangeNothing) {
   // Nor does it show later.
   Simulation unasked;
   const Entity same = join(unasked, person(2)), beside = join(unasked, person(3), false);
-  walk(unasked, 45);
-  walk(simulation, 60);
-  walk(unasked, 60);
+  unasked.tick(45);
+  simulation.tick(60);
+  unasked.tick(60);
   EXPECT_EQ(hash_human(simulation, human), hash_human(unasked, same));
   EXPECT_EQ(hash_human(simulation, other), hash_human(unasked, beside));
-}
-
-TEST(Change, OthersKeepTheirBits) {
-  Simulation asked, unasked;
-  std::vector<Entity> in_asked, in_unasked;
-  for (int i = 0; i < 20; ++i) {
-    in_asked.push_back(join(asked, person(i), false));
-    in_unasked.push_back(join(unasked, person(i), false));
-  }
-  for (int tick = 0; tick < 240; ++tick) {
-    if (tick % 30 == 20) {
-      ASSERT_TRUE(asked.change_gait(in_asked[7], {.speed_m_s = tick % 60 == 20 ? 0.0F : 1.2F}));
-      EXPECT_TRUE(asked.turn_to(in_asked[12], static_cast<float>(tick)));
-    }
-    if (tick == 50) {
-      EXPECT_EQ(asked.add_forces(in_asked[3]), Status::ok);
-    }
-    if (tick == 150) {
-      EXPECT_EQ(asked.remove_forces(in_asked[3]), Status::ok);
-    }
-    asked.tick();
-    unasked.tick();
-  }
-  for (std::size_t i = 0; i < in_asked.size(); ++i) {
-    const bool changed = i == 7 || i == 12;  // forces do not change the walk
-    EXPECT_EQ(hash_human(asked, in_asked[i]) == hash_human(unasked, in_unasked[i]), !changed) << "person " << i;
-  }
 }
 
 // ------------------------------------------------------------------------------------------------------- costs
@@ -129,7 +98,7 @@ TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
     EXPECT_TRUE(has_column<GroundReaction>(simulation, human));
     EXPECT_TRUE(has_column<JointMoments>(simulation, human));
     EXPECT_FALSE(has_column<JointMoments>(simulation, other));
-    walk(simulation, 20);
+    simulation.tick(20);
     EXPECT_TRUE(simulation.get<GroundReaction>(human).has_value());
     EXPECT_EQ(simulation.get<GroundReaction>(other).error(), Status::missing);
     EXPECT_EQ(simulation.remove_forces(human), Status::ok);
@@ -146,33 +115,33 @@ TEST(Change, SteadyWalkersAreNotSolvedAgain) {
   Simulation simulation;
   std::vector<Entity> crowd;
   for (int i = 0; i < 40; ++i) crowd.push_back(join(simulation, person(i), false));
-  walk(simulation, 120);  // the first step was solved at spawn; one may show that the next is like it
+  simulation.tick(120);  // the first step was solved at spawn; one may show that the next is like it
   EXPECT_LE(solved(simulation), 2 * crowd.size());
   auto before = solved(simulation);
-  walk(simulation, 300);
+  simulation.tick(300);
   EXPECT_EQ(solved(simulation), before);
 
   // One who changes is solved a few times: as many steps as the change takes, and one to find that it is done.
   for (const float speed : {1.9F, 0.6F, 0.0F, 1.3F}) {
     ASSERT_TRUE(simulation.change_gait(crowd[11], {.speed_m_s = speed}));
     before = solved(simulation);
-    walk(simulation, 600);
+    simulation.tick(600);
     EXPECT_GE(solved(simulation), before + 1) << speed;
     EXPECT_LE(solved(simulation), before + 6) << speed;
     before = solved(simulation);
-    walk(simulation, 300);
+    simulation.tick(300);
     EXPECT_EQ(solved(simulation), before) << speed;
   }
   // Who turns is solved step by step, for steps that turn are nearer to the usual ones; not who walks as is usual.
   EXPECT_TRUE(simulation.turn_to(crowd[11], 2));
-  walk(simulation, 600);
+  simulation.tick(600);
   EXPECT_GE(solved(simulation), before + 4);
   EXPECT_LE(solved(simulation), before + 9);
   ASSERT_TRUE(simulation.change_gait(crowd[11], {.style = GaitStyle{}}));
-  walk(simulation, 600);
+  simulation.tick(600);
   before = solved(simulation);
   EXPECT_TRUE(simulation.turn_to(crowd[11], 0));
-  walk(simulation, 600);
+  simulation.tick(600);
   EXPECT_EQ(solved(simulation), before);
   // Several requests within a step are solved once.
   const auto stance = simulation.get<GaitState>(crowd[20])->steps;
@@ -180,17 +149,15 @@ TEST(Change, SteadyWalkersAreNotSolvedAgain) {
   before = solved(simulation);
   for (int i = 0; i < 5; ++i)
     ASSERT_TRUE(simulation.change_gait(crowd[20], {.speed_m_s = 1.2F + 0.01F * static_cast<float>(i)}));
-  walk(simulation, 600);
+  simulation.tick(600);
   EXPECT_LE(solved(simulation), before + 4);
 }
-
-// ------------------------------------------------------------------------------------------------- determinism
 
 TEST(Change, ARequestShowsFromTheNextStepOn) {
   Simulation changed, unchanged;
   const Entity a = join(changed, person(4), false), b = join(unchanged, person(4), false);
-  walk(changed, 50);
-  walk(unchanged, 50);
+  changed.tick(50);
+  unchanged.tick(50);
   ASSERT_TRUE(changed.change_gait(a, {.speed_m_s = 0.7F}));
   EXPECT_TRUE(changed.turn_to(a, 1));
   const auto step = changed.get<GaitState>(a)->steps;
@@ -201,8 +168,8 @@ TEST(Change, ARequestShowsFromTheNextStepOn) {
     const auto p = *changed.get<Pose>(a), q = *unchanged.get<Pose>(b);
     ASSERT_EQ(std::memcmp(&p, &q, sizeof p), 0) << i;
   }
-  walk(changed, 60);
-  walk(unchanged, 60);
+  changed.tick(60);
+  unchanged.tick(60);
   EXPECT_LT(changed.get<Pose>(a)->position_m[0].z, unchanged.get<Pose>(b)->position_m[0].z);
   EXPECT_GT(changed.get<GaitState>(a)->heading_rad, 0.1F);
 }

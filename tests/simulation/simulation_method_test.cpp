@@ -9,8 +9,6 @@
 #include <cstdint>
 #include <iostream>
 #include <map>
-#include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -69,7 +67,7 @@ std::size_t rows_of(const World& world) {
 struct Twins {
   static constexpr double tick_s = 1.0 / 960;
   static constexpr int people = 4;
-  Simulation switched{{.tick_s = tick_s}}, steady{{.tick_s = tick_s}};
+  Simulation switched{sharing({.tick_s = tick_s})}, steady{sharing({.tick_s = tick_s})};
   std::vector<Entity> who, twin;
 
   explicit Twins(bool inertia) {
@@ -190,7 +188,7 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
 }
 
 TEST(Switching, IsForgottenAfterTheFade) {
-  Simulation simulation, whole;
+  Simulation simulation(sharing()), whole(sharing());
   const Entity human = join_with(simulation, person(5), {}),
                same = join_with(whole, person(5), {.method = Method::statics});
   for (int i = 0; i < 40; ++i) {
@@ -217,7 +215,7 @@ TEST(Switching, IsForgottenAfterTheFade) {
 
 TEST(Switching, PlacingControlPointsChangesNoState) {
   for (const bool inertia : {false, true}) {
-    Simulation looked, unseen;
+    Simulation looked(sharing()), unseen(sharing());
     const LegMuscles choice{.method = Method::reduced, .reduced = {.cells = coarse}, .inertia = inertia};
     const Entity a = join_with(looked, person(7), choice), b = join_with(unseen, person(7), choice);
     for (int i = 0; i < 60; ++i) {
@@ -242,7 +240,7 @@ TEST(Switching, PlacingControlPointsChangesNoState) {
 
 TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
   for (const bool inertia : {false, true}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(2), {.inertia = inertia});
     for (int i = 0; i < 30; ++i) simulation.tick();
     for (const MuscleMethod& to : every_method) {
@@ -261,7 +259,7 @@ TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
 // ----------------------------------------------------------------------------------------------------- refusals
 
 TEST(SetMethod, ARefusedChangeChangesNothing) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join_with(simulation, person(9), {.method = Method::caa, .inertia = true, .dt_s = 1.0 / 60}),
                damped = join_with(simulation, person(4), {.stiffness_damping_s = 0.001}),
                bare = join(simulation, person(1), false);
@@ -294,7 +292,7 @@ TEST(SetMethod, ARefusedChangeChangesNothing) {
 }
 
 TEST(SetMethod, IsForgottenByAChangeOfLegMuscles) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join_with(simulation, person(8), {});
   for (int i = 0; i < 10; ++i) simulation.tick();
   ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none}));
@@ -313,40 +311,6 @@ TEST(SetMethod, IsForgottenByAChangeOfLegMuscles) {
   EXPECT_EQ(rows_with<Fade>(simulation.world()), 0U);
 }
 
-// -------------------------------------------------------------------------------------------------- determinism
-
-std::map<int, std::uint64_t> switch_crowd(int threads, const std::vector<int>& who) {
-  Simulation simulation({.threads = threads});
-  std::map<int, Entity> crowd;
-  for (const int i : who) {
-    crowd[i] = join_with(simulation, person(i), {.reduced = {.cells = coarse}, .inertia = i % 2 == 0});
-  }
-  for (int tick = 0; tick < 40; ++tick) {
-    for (const int i : who) {  // in whatever order
-      const auto draw = static_cast<std::size_t>(7 * i + 13 * tick);
-      if (draw % 5 != 0) continue;
-      const auto muscle = static_cast<Muscle>(draw % muscle_group_count);
-      EXPECT_TRUE(simulation.set_method(crowd[i], muscle, every_method[draw * 31 % every_method.size()]));
-    }
-    simulation.tick();
-  }
-  std::map<int, std::uint64_t> hashes;
-  for (const auto& [i, human] : crowd) hashes[i] = hash_human(simulation, human);
-  return hashes;
-}
-
-TEST(Switching, NeitherThreadsNorOrderNorCompanyMatter) {
-  MOBIL_SLOW();
-  std::vector<int> who = {0, 1, 2, 3, 4, 5, 6};
-  const auto reference = switch_crowd(1, who);
-  EXPECT_EQ(switch_crowd(2, who), reference);
-  std::mt19937 random(5);
-  std::shuffle(who.begin(), who.end(), random);
-  EXPECT_EQ(switch_crowd(2, who), reference);
-  who.resize(2);
-  for (const auto& [i, hash] : switch_crowd(1, who)) EXPECT_EQ(hash, reference.at(i));
-}
-
 // --------------------------------------------------------------------------------------------------------- costs
 
 /// Entities that systems whose names begin so worked on in the last tick; no time where there are none.
@@ -363,7 +327,7 @@ std::uint64_t worked(const Simulation& simulation, std::string_view begins) {
 }
 
 TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<Entity> crowd;
   for (int i = 0; i < 5; ++i) crowd.push_back(join(simulation, person(i), false));
   simulation.tick();
@@ -407,7 +371,7 @@ TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
 }
 
 TEST(Cost, LinesAreTheSameWhateverTheBelliesDo) {
-  Simulation all, none;
+  Simulation all(sharing()), none(sharing());
   const Entity a = join_with(all, person(3), {.line_motion = true}),
                b = join_with(none, person(3), {.method = Method::none, .line_motion = true});
   for (int i = 0; i < 20; ++i) {
@@ -427,7 +391,7 @@ TEST(Cost, LinesAreTheSameWhateverTheBelliesDo) {
 TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
   std::map<std::string, std::uint32_t> bytes;
   for (const bool inertia : {false, true}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(3), {.inertia = inertia});
     for (const MuscleMethod& method : every_method) {
       ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, method));
@@ -445,7 +409,7 @@ TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
 /// What fades is no motion: handed over from change to change it grew until it was no number, within a quarter of a
 /// second.
 TEST(Switching, InEveryTickStaysStable) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join_with(simulation, person(2), {.reduced = {.cells = {2, 2, 8}}});
   constexpr std::array order = {Method::ecd,     Method::icd,     Method::caa,
                                 Method::statics, Method::reduced, Method::finite};

@@ -1,5 +1,4 @@
-// The facade: same bits however the work is cut and whoever else is there, bodies and gaits of all kinds, effects
-// that come and go without a trace, time, memory.
+// The facade: bodies and gaits of all kinds, effects that come and go without a trace, time, memory.
 #include <mobil/simulation.h>
 
 #include <gtest/gtest.h>
@@ -7,13 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <map>
-#include <numeric>
-#include <random>
 #include <vector>
 
-#include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
@@ -22,71 +16,6 @@
 MOBIL_TEST_LABELS("threads");
 
 namespace mobil::simulation_test {
-constexpr int crowd_size = 40;
-
-/// Hash of each person of the crowd, by its number, after those ticks.
-std::vector<std::uint64_t> walk_crowd(const SimulationOptions& options, std::vector<int> who, int ticks) {
-  Simulation simulation(options);
-  std::map<int, Entity> crowd;
-  for (const int i : who) crowd[i] = join(simulation, person(i));
-  EXPECT_EQ(rows(simulation.world()),
-            (1 + 2 * muscle_group_count) * who.size());  // a row a person and a muscle: the hash leaves none out
-  for (int i = 0; i < ticks; ++i) simulation.tick();
-  std::vector<std::uint64_t> hashes(crowd_size);
-  for (const auto& [i, human] : crowd) hashes[static_cast<std::size_t>(i)] = hash_human(simulation, human);
-  return hashes;
-}
-
-std::vector<int> everybody() {
-  std::vector<int> who(crowd_size);
-  std::iota(who.begin(), who.end(), 0);
-  return who;
-}
-
-/// The same person's bits in ever the same crowd, on one thread.
-const std::vector<std::uint64_t>& reference() {
-  static const auto hashes = walk_crowd({}, everybody(), 120);
-  return hashes;
-}
-
-TEST(Determinism, PeopleDiffer) {
-  auto hashes = reference();
-  std::ranges::sort(hashes);
-  EXPECT_EQ(std::ranges::adjacent_find(hashes), hashes.end());
-}
-
-TEST(Determinism, NeitherOrderNorCompanyMatters) {
-  std::mt19937 random(5);
-  for (const std::size_t size : {std::size_t{crowd_size}, std::size_t{17}, std::size_t{1}}) {
-    auto who = everybody();
-    std::shuffle(who.begin(), who.end(), random);
-    who.resize(size);
-    const auto hashes = walk_crowd({}, who, 120);
-    for (const int i : who) {
-      EXPECT_EQ(hashes[static_cast<std::size_t>(i)], reference()[static_cast<std::size_t>(i)]) << "person " << i;
-    }
-  }
-}
-
-TEST(Determinism, ComersAndGoersLeaveOthersAlone) {
-  Simulation simulation;
-  const Entity stayer = join(simulation, person(3));
-  std::vector<Entity> others;
-  for (int i = 0; i < 120; ++i) {
-    if (i % 4 == 0) others.push_back(join(simulation, person(i % crowd_size), i % 8 == 0));
-    if (i % 12 == 5) {
-      const bool has_some = !simulation.muscles(others.front()).empty();
-      EXPECT_EQ(simulation.remove_leg_muscles(others.front()), has_some ? Status::ok : Status::missing);
-    }
-    if (i % 12 == 11) {
-      EXPECT_EQ(simulation.despawn(others.front()), Status::ok);
-      others.erase(others.begin());
-    }
-    simulation.tick();
-  }
-  EXPECT_EQ(hash_human(simulation, stayer), reference()[3]);
-}
-
 // ------------------------------------------------------------------------------------------------------- physics
 
 double length(const Vec3<float>& a, const Vec3<float>& b) {
@@ -159,7 +88,7 @@ Person any_person() {
 }
 
 TEST(Simulation, BodiesOfAllKindsWalkAndTheirMusclesFollow) {
-  Simulation simulation;  // templates are made once
+  Simulation simulation(sharing());  // templates are made once
   EXPECT_TRUE(rc::check("walks", [&] {
     const Person p = any_person();
     const auto human = simulation.spawn(p.body, p.gait);
@@ -181,7 +110,7 @@ TEST(Simulation, BodiesOfAllKindsWalkAndTheirMusclesFollow) {
 }
 
 TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   for (const int who : {0, 7, 19}) {
     const auto human = *simulation.spawn(person(who).body, person(who).gait);
     ASSERT_TRUE(simulation.add_leg_muscles(human, {.drive = Drive::force}));
@@ -210,7 +139,7 @@ TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
 // ------------------------------------------------------------------------------------------------------- effects
 
 TEST(Effects, EveryBodyInRangeGetsMuscles) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   for (const float height : {1.2F, 2.2F}) {
     for (const float mass : {living_mass(height, 0), living_mass(height, 1)}) {
       for (const float meso : {0.1F, 12.0F}) {
@@ -227,7 +156,7 @@ TEST(Effects, EveryBodyInRangeGetsMuscles) {
 }
 
 TEST(Effects, MusclesComeAndGoWithTheirRows) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join(simulation, person(0), false);
   const Entity other = join(simulation, person(1), false);
   EXPECT_EQ(rows(simulation.world()), 2U);
@@ -260,7 +189,7 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
 }
 
 TEST(Effects, MusclesDoNotChangeTheWalkNorATickBefore) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity with = join(simulation, person(5)), without = join(simulation, person(5), false);
   for (int i = 0; i < 40; ++i) simulation.tick();
   EXPECT_EQ(hash_row(simulation.world(), with, 1), hash_row(simulation.world(), without, 1));
@@ -270,7 +199,7 @@ TEST(Effects, MusclesDoNotChangeTheWalkNorATickBefore) {
 }
 
 TEST(Effects, AddingTwiceIsAnErrorAndChangesNothing) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join(simulation, person(2));
   for (int i = 0; i < 10; ++i) simulation.tick();
   const auto before = hash_world(simulation);
@@ -283,7 +212,7 @@ TEST(Effects, AddingTwiceIsAnErrorAndChangesNothing) {
 }
 
 TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join(simulation, person(2), false);
   const auto before = hash_world(simulation);
   for (const Material& bad : {Material{1000, 1e4, 0.5}, Material{0, 1e4, 0.3}, Material{1000, NAN, 0.3},
@@ -295,7 +224,7 @@ TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
 }
 
 TEST(Handles, OfTheGoneAreStaleEverywhere) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join(simulation, person(0)), other = join(simulation, person(1));
   const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::right);
   const auto before = hash_human(simulation, other);
@@ -323,7 +252,7 @@ TEST(Handles, OfTheGoneAreStaleEverywhere) {
 }
 
 TEST(Handles, BadSpawnsChangeNothing) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   join(simulation, person(0));
   const auto before = hash_world(simulation);
   const std::size_t tables = simulation.world().tables().size();
@@ -349,7 +278,7 @@ TEST(Handles, BadSpawnsChangeNothing) {
 // ------------------------------------------------------------------------------------------------ time and memory
 
 TEST(Time, AdvanceRunsWholeTicksAndReportsTheRest) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = join(simulation, person(0), false);
   EXPECT_EQ(simulation.advance(0.5 / 60).count, 0U);
   Ticks ticks = simulation.advance(1.0 / 60);
@@ -366,7 +295,7 @@ TEST(Time, AdvanceRunsWholeTicksAndReportsTheRest) {
     EXPECT_FALSE(simulation.advance(bad).valid);
     EXPECT_EQ(hash_world(simulation), before);
   }
-  Simulation ticked;
+  Simulation ticked(sharing());
   const Entity same = join(ticked, person(0), false);
   for (int i = 0; i < 16; ++i) ticked.tick();
   EXPECT_EQ(hash_human(simulation, human), hash_human(ticked, same));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"
 #include "tests/engine/counting_heap.h"
+#include "tests/simulation/people.h"
 
 namespace mobil::sleep_test {
 namespace {
@@ -84,7 +84,7 @@ struct Twins {
     return static_cast<std::size_t>(std::ranges::count_if(dozers, [&](Entity one) { return dozing.is_asleep(one); }));
   }
 
-  Simulation dozing, waking;
+  Simulation dozing{sharing()}, waking{sharing()};
   std::vector<Entity> dozers, wakers;
   std::vector<std::uint32_t> changes;
 };
@@ -166,7 +166,7 @@ TEST(Sleep, AHostsOwnPartsStay) {
 }
 
 TEST(Sleep, ForcesAndMusclesComeBack) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn({});
   LegMuscles choice;
   choice.method = Method::reduced;
@@ -192,7 +192,7 @@ TEST(Sleep, ForcesAndMusclesComeBack) {
 
 /// One who sleeps, and one alike who never does, with muscles.
 struct MuscleTwins {
-  Simulation dozes, wakes;
+  Simulation dozes{sharing()}, wakes{sharing()};
   Entity sleeper, waker;
 
   MuscleTwins(const SpawnRequest& request) {
@@ -285,7 +285,7 @@ TEST(Sleep, ASnapshotHasSleepersInIt) {
   twins.tick(5);
   std::vector<std::byte> bytes(twins.dozing.snapshot_bytes());
   ASSERT_TRUE(twins.dozing.save(bytes));
-  Simulation other;
+  Simulation other(sharing());
   const auto restored = other.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(restored) << restored.error().message;
   EXPECT_EQ(other.state_hash(), twins.dozing.state_hash());
@@ -298,7 +298,7 @@ TEST(Sleep, ASnapshotHasSleepersInIt) {
 }
 
 TEST(Sleep, WhoCannotSleepStaysAwake) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity posed = *simulation.spawn_posed({});
   GaitRequest limps;
   limps.style.step_asymmetry = 0.1F;
@@ -323,7 +323,7 @@ TEST(Sleep, WhoCannotSleepStaysAwake) {
 }
 
 TEST(Sleep, WhatASleeperCannotFollowWakesThem) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const auto asleep = [&] {
     const Entity human = *simulation.spawn({}, {.speed_m_s = 0.0F});
     EXPECT_EQ(simulation.sleep({&human, 1}).value(), 1U);

@@ -46,7 +46,7 @@ void fill(Simulation& simulation) {
 }
 
 TEST_F(SnapshotFile, AnotherSimulationGoesOnFromIt) {
-  Simulation first, second({.threads = 2});
+  Simulation first(sharing()), second(sharing({.threads = 2}));
   fill(first);
   first.tick();
   ASSERT_TRUE(save_file(first, file()));
@@ -61,7 +61,7 @@ TEST_F(SnapshotFile, AnotherSimulationGoesOnFromIt) {
 }
 
 TEST_F(SnapshotFile, CutAlteredOrMissingItIsRefusedByName) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   fill(simulation);
   const std::uint64_t state = simulation.state_hash();
   const auto expect_refused = [&] {
@@ -85,7 +85,7 @@ TEST_F(SnapshotFile, CutAlteredOrMissingItIsRefusedByName) {
 }
 
 TEST_F(SnapshotFile, WhereItCannotBeWrittenWhatWasThereStays) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   fill(simulation);
   const auto nowhere = save_file(simulation, folder_ / "none" / "crowd.snapshot");
   ASSERT_FALSE(nowhere);
@@ -97,7 +97,7 @@ TEST_F(SnapshotFile, WhereItCannotBeWrittenWhatWasThereStays) {
 }
 
 TEST_F(SnapshotFile, KilledAtAnyMomentTheLastGoodOneIsThere) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   fill(simulation);
   ASSERT_TRUE(save_file(simulation, file()));
   std::mt19937 random(5);

@@ -4,7 +4,6 @@
 #include <rapidcheck.h>
 
 #include <cstring>
-#include <random>
 #include <vector>
 
 #include <mobil/components/gait.h>
@@ -86,7 +85,7 @@ Told run(Simulation& simulation, std::vector<Entity> people, int ticks, std::uin
 }
 
 TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
-  Simulation simulation({.threads = 2});
+  Simulation simulation(sharing({.threads = 2}));
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     std::vector<Entity> people = simulation.people();
     people = run(simulation, people, 25, seed).people;
@@ -103,7 +102,7 @@ TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
     EXPECT_EQ(again.hashes, first.hashes);
     EXPECT_EQ(again.people, first.people);
 
-    Simulation fresh;
+    Simulation fresh;  // which makes what is shared anew
     restore(fresh, bytes);
     EXPECT_EQ(fresh.state_hash(), before);
     const Told elsewhere = run(fresh, people, 20, seed + 10);
@@ -126,7 +125,7 @@ std::vector<Entity> few(Simulation& simulation) {
 }
 
 TEST(Snapshot, TimeFedGoesWithIt) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   few(simulation);
   simulation.advance(0.03);
   const Bytes bytes = saved(simulation);
@@ -138,7 +137,7 @@ TEST(Snapshot, TimeFedGoesWithIt) {
 }
 
 TEST(Snapshot, HandlesOfThoseWhoCameLaterAreStaleAfterGoingBack) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const auto people = few(simulation);
   const Bytes bytes = saved(simulation);
   ASSERT_EQ(simulation.despawn(people[3]), Status::ok);
@@ -164,7 +163,7 @@ void expect_refused(Simulation& simulation, std::span<const std::byte> bytes, co
 }
 
 TEST(Snapshot, OneBitMoreOrLessIsRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   few(simulation);
   Bytes bytes = saved(simulation);
   rc::check([&] {
@@ -183,7 +182,7 @@ TEST(Snapshot, OneBitMoreOrLessIsRefused) {
 }
 
 TEST(Snapshot, CutOrPaddedItIsRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   few(simulation);
   Bytes bytes = saved(simulation);
   rc::check([&] {
@@ -195,7 +194,7 @@ TEST(Snapshot, CutOrPaddedItIsRefused) {
 }
 
 TEST(Snapshot, OtherVersionsAndByteOrdersAreRefusedByName) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   few(simulation);
   Bytes bytes = saved(simulation);
   const std::byte own = bytes[8];
@@ -210,16 +209,16 @@ TEST(Snapshot, OtherVersionsAndByteOrdersAreRefusedByName) {
 }
 
 TEST(Snapshot, TooLittleRoomAndOtherTicksAreRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   few(simulation);
   Bytes bytes = saved(simulation);
   EXPECT_FALSE(simulation.save(std::span(bytes).first(bytes.size() - 1)));
-  Simulation faster({.tick_s = 1.0 / 120});
+  Simulation faster(sharing({.tick_s = 1.0 / 120}));
   expect_refused(faster, bytes, "tick_s");
 }
 
 TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
-  Simulation simulation, fresh;
+  Simulation simulation(sharing()), fresh;
   few(simulation);
   Bytes bytes = saved(simulation);
   FrontHeader header;
@@ -236,7 +235,7 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
 /// Control points of reduced muscles are left out, and made again with their bits: also of muscles that have just begun
 /// or changed, before any tick.
 TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 20; ++i) {
     people.push_back(*simulation.spawn(person(1).body, person(i).gait));
@@ -247,7 +246,7 @@ TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
     ASSERT_TRUE(simulation.add_leg_muscles(people.back(), choice));
   }
   const auto expect_same = [&](const char* when) {
-    Simulation other;
+    Simulation other(sharing());
     restore(other, saved(simulation));
     EXPECT_EQ(other.state_hash(), simulation.state_hash()) << when;
     const Entity one = simulation.muscle(people[1], Muscle::quadriceps, Side::left);
@@ -277,7 +276,7 @@ TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
 
 /// A snapshot is refused if it marks a stored column as left out, or the left-out column as stored.
 TEST(Snapshot, OnlyWhatIsMadeAgainMayBeLeftOut) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity one = *simulation.spawn(person(1).body, person(1).gait);
   LegMuscles choice;
   choice.method = Method::reduced;
@@ -291,7 +290,7 @@ TEST(Snapshot, OnlyWhatIsMadeAgainMayBeLeftOut) {
   std::memcpy(&world_bytes, &bytes[40], sizeof world_bytes);
   const auto refused = [&](Bytes altered) {
     EXPECT_TRUE(reseal_snapshot(altered));
-    Simulation other;
+    Simulation other(sharing());
     const auto done = other.restore(altered);
     EXPECT_FALSE(done);
     EXPECT_EQ(other.ticks(), 0U);

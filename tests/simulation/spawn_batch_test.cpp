@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <new>
 #include <vector>
 
 #include <mobil/simulation.h>
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
@@ -47,17 +47,9 @@ Entity spawn_alone(Simulation& simulation, const SpawnRequest& request) {
   return human.value_or(Entity{});
 }
 
-Jobs backward() {
-  return {nullptr,
-          [](void*, std::size_t count, Jobs::Body body, void* context) {
-            for (std::size_t i = count; i-- > 0;) body(context, i, i + 1);
-          },
-          2};
-}
-
 /// Empty worlds, which keep the bases that are dear to make.
 Simulation& empty_world(bool by_threads) {
-  static Simulation threads({.threads = 2}), jobs({.jobs = backward()});
+  static Simulation threads(sharing({.threads = 2})), jobs(sharing({.jobs = backwards(2)}));
   Simulation& of = by_threads ? threads : jobs;
   const std::vector<Entity> all = of.people();
   EXPECT_EQ(of.despawn(all), Status::ok);
@@ -66,7 +58,7 @@ Simulation& empty_world(bool by_threads) {
 
 /// Of persons 0 to 35 after some ticks, each alone in the world.
 std::uint64_t hash_alone(int i) {
-  static Simulation simulation;
+  static Simulation simulation(sharing());
   static std::map<int, std::uint64_t> known;
   const auto at = known.find(i);
   if (at != known.end()) return at->second;
@@ -90,7 +82,7 @@ RC_GTEST_PROP(SpawnBatch, EverybodyIsWhoTheyWouldBeAloneInAnyOrderByAnyJobs, ())
 }
 
 TEST(SpawnBatch, PeopleStandWhereAndAsTheyWereAsked) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<SpawnRequest> people(40);
   for (std::size_t i = 0; i < people.size(); ++i) {
     people[i] = request(static_cast<int>(i));
@@ -114,7 +106,7 @@ TEST(SpawnBatch, PeopleStandWhereAndAsTheyWereAsked) {
 }
 
 TEST(SpawnBatch, OneWhoCannotBeKeepsAllAwayAndIsNamed) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<SpawnRequest> people(70);
   for (std::size_t i = 0; i < people.size(); ++i) people[i] = request(static_cast<int>(i % 3));
   std::vector<Entity> made(people.size());
@@ -156,7 +148,7 @@ TEST(SpawnBatch, OneWhoCannotBeKeepsAllAwayAndIsNamed) {
 }
 
 TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<SpawnRequest> people(20);
   for (std::size_t i = 0; i < people.size(); ++i) people[i] = request(static_cast<int>(i % 3));
   std::vector<Entity> made(people.size());
@@ -174,7 +166,7 @@ TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
 
 TEST(SpawnBatch, PreparingChangesNobodysBits) {
   for (const int kind : {2, 3}) {
-    Simulation simulation({.threads = 2});
+    Simulation simulation(sharing({.threads = 2}));
     ASSERT_TRUE(simulation.prepare(muscles_of_kind(kind)));
     std::vector<SpawnRequest> people = {request(kind), request(8 + kind), request(16 + kind)};
     std::vector<Entity> made(people.size());
@@ -187,7 +179,7 @@ TEST(SpawnBatch, PreparingChangesNobodysBits) {
 }
 
 TEST(SpawnBatch, NothingIsPreparedForAChoiceOutOfRange) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   LegMuscles wrong = muscles_of_kind(1);
   wrong.reduced.vectors = 40;
   const auto refused = simulation.prepare(wrong);

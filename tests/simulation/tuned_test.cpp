@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -40,7 +39,7 @@ double apart(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 TEST(TunedPeople, WithoutActivationItIsRefused) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn({});
   LegMuscles choice = pulling(true);
   choice.activation = ExcitationSource::none;
@@ -62,7 +61,7 @@ TEST(TunedPeople, WithoutActivationItIsRefused) {
 /// stiffness with it: control points were no numbers from the first pull on.
 TEST(TunedPeople, CoarseMeshesPullAsWell) {
   for (const std::uint32_t vectors : {4U, 8U, 12U}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = *simulation.spawn_posed({});
     LegMuscles choice = pulling(true, false);
     choice.reduced.cells = {2, 2, 8};
@@ -91,7 +90,7 @@ struct Shaken {
 };
 
 Shaken shaken(bool tuned, float level) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity human = *simulation.spawn_posed({});
   LegMuscles choice = pulling(tuned);
   choice.activation = ExcitationSource::host;
@@ -128,7 +127,7 @@ TEST(TunedPeople, WhoPullsIsShakenLessAndForAShorterTime) {
 /// Tension stiffens a belly against gravity, so a new one begins where its own activation has it at rest.
 TEST(TunedPeople, WhoJoinsIsAtRest) {
   for (const bool seen : {true, false}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     LegMuscles choice = pulling(true);
     choice.activation = ExcitationSource::host;
     choice.finite_shape = false;
@@ -152,7 +151,7 @@ TEST(TunedPeople, WhoJoinsIsAtRest) {
 
 TEST(TunedPeople, NothingJumpsWhereItComesAndGoes) {
   for (const bool inertia : {false, true}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(6), pulling(false, inertia));
     const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::right);
     run(simulation, 30);

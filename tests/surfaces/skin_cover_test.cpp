@@ -18,6 +18,7 @@
 #include <mobil/surfaces.h>
 #include "assets/body/bent_legs.h"
 #include "tests/labels.h"
+#include "tests/simulation/people.h"
 #include "tests/surfaces/skin_placed.h"
 
 MOBIL_TEST_LABELS("long");
@@ -202,7 +203,7 @@ void expect_covered(const Outside& found, double most_beyond, double most_m, dou
 
 TEST(SkinCover, HoldsTheMusclesThroughAStride) {
   for (const Somebody& somebody : people) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     SpawnRequest walker;
     walker.body = somebody.body();
     std::array<Entity, 1> one{};
@@ -225,7 +226,7 @@ TEST(SkinCover, HoldsTheMusclesInAnyPose) {
   std::mt19937 random(4);
   const auto within = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
   for (const Somebody& somebody : people) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity one = *simulation.spawn_posed(somebody.body());
     LegMuscles choice;
     choice.method = Method::statics;

@@ -15,6 +15,7 @@
 #include <mobil/surfaces.h>
 #include "assets/body/bent_legs.h"
 #include "tests/engine/instruction_sets.h"
+#include "tests/simulation/people.h"
 #include "tests/surfaces/skin_oracle.h"
 #include "tests/surfaces/skin_placed.h"
 
@@ -27,7 +28,7 @@ double length_of(const Vec3<double>& v) {
 }
 
 TEST(SkinLanes, IsWhatOneVertexAtATimeComesTo) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity one = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.6F});
   ASSERT_TRUE(simulation.add_leg_muscles(one));
   const Human human = *simulation.human(one);
@@ -108,7 +109,7 @@ TEST(SkinLanes, CoversEitherLegInAnyPoseAsPlainCodeDoes) {
 }
 
 TEST(SkinLanes, HoldsTheSameBitsOnEveryInstructionSet) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity one = *simulation.spawn({});
   simulation.advance(0.4);
   const Pose<float> pose = *simulation.get<Pose>(one);

@@ -17,6 +17,7 @@
 #include "assets/body/bent_legs.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/labels.h"
+#include "tests/simulation/people.h"
 
 MOBIL_TEST_LABELS("long");
 
@@ -37,7 +38,7 @@ TEST(SkinTable, IsNearTheSkinOverMusclesInWalks) {
     const auto table = tables.of(body);
     ASSERT_TRUE(table) << table.error().message;
     EXPECT_EQ(*tables.of(body), *table);
-    Simulation simulation;
+    Simulation simulation(sharing());
     const Entity person = *simulation.spawn(body, {.speed_m_s = walker.speed_m_s});
     ASSERT_TRUE(simulation.add_leg_muscles(person));
     const Human human = *simulation.human(person);
@@ -113,7 +114,7 @@ TEST(SkinTable, SaysWhatItsTermsAndModesSay) {
 TEST(SkinTable, MovesOnlyLegsWithoutMuscles) {
   SkinTables tables;
   BodySkins skins;
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity person = *simulation.spawn({});
   simulation.advance(0.5);
   const SkinShape shape = *skins.of({}, SkinDetail::far);

@@ -6,9 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <map>
-#include <set>
 #include <vector>
 
 #include <mobil/anthropometry.h>

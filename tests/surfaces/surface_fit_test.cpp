@@ -1,9 +1,6 @@
 // Surfaces that were bound to one body, shown by others.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <vector>
 
@@ -11,6 +8,7 @@
 #include <mobil/engine/geometry.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include "tests/simulation/people.h"
 
 namespace mobil {
 namespace {
@@ -18,7 +16,7 @@ namespace {
 using geometry::operator-;
 
 struct Walker {
-  Simulation simulation;
+  Simulation simulation(sharing());
   Entity person;
   Human human;
   std::vector<SurfaceMuscle> muscles;

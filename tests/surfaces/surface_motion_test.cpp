@@ -22,6 +22,7 @@
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/files/reference_data.h"
 #include "tests/labels.h"
+#include "tests/simulation/people.h"
 #include "tests/surfaces/skinned.h"
 
 MOBIL_TEST_LABELS("slow");
@@ -55,7 +56,7 @@ struct Drawn {
 
 /// Binds a person's surfaces, lets them walk a stride, and keeps what there is to see.
 std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std::vector<Drawn> (*draw)(const Body&)) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   const Entity entity = simulation.spawn(body).value();
   LegMuscles choice;
   choice.muscles = muscles;

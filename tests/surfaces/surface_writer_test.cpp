@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,8 +15,9 @@
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/instruction_sets.h"
+#include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
-#include "tests/simulation/crowd_pool.h"
+#include "tests/simulation/people.h"
 #include "tests/surfaces/skinned.h"
 
 MOBIL_TEST_LABELS("threads;long");
@@ -119,7 +118,7 @@ const std::vector<BodyRequest>& bodies() {
 
 TEST(SurfaceWriter, PositionsAreTheFormulasOnEveryBody) {
   for (const BodyRequest& body : bodies()) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     Shown shown = show(simulation, body);
     simulation.advance(0.2);
     write(simulation, shown);
@@ -130,7 +129,7 @@ TEST(SurfaceWriter, PositionsAreTheFormulasOnEveryBody) {
 TEST(SurfaceWriter, PositionsAreTheFormulasWithEveryMethodAndMesh) {
   for (const Method method :
        {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced, Method::finite}) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     LegMuscles muscles;
     muscles.method = method;
     if (method == Method::statics) muscles.cells = {3, 3, 9};
@@ -143,7 +142,7 @@ TEST(SurfaceWriter, PositionsAreTheFormulasWithEveryMethodAndMesh) {
 }
 
 TEST(SurfaceWriter, ShowsWhatFadesAfterAChangeOfMethod) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   Shown shown = show(simulation, {}, {}, false);
   simulation.advance(0.2);
   ASSERT_TRUE(simulation.set_method(shown.person, Muscle::hamstrings, {.method = Method::statics}));
@@ -156,7 +155,7 @@ TEST(SurfaceWriter, ShowsWhatFadesAfterAChangeOfMethod) {
 
 TEST(SurfaceWriter, NormalsAreThoseOfTheTriangles) {
   for (const BodyRequest& body : bodies()) {
-    Simulation simulation;
+    Simulation simulation(sharing());
     Shown shown = show(simulation, body);
     simulation.advance(0.3);
     write(simulation, shown);
@@ -173,7 +172,7 @@ TEST(SurfaceWriter, NormalsAreThoseOfTheTriangles) {
 }
 
 TEST(SurfaceWriter, LayoutsHoldTheSameFloatsAndNothingElseIsTouched) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   Shown shown = show(simulation, {});
   simulation.advance(0.1);
   write(simulation, shown);
@@ -218,7 +217,7 @@ TEST(SurfaceWriter, LayoutsHoldTheSameFloatsAndNothingElseIsTouched) {
 }
 
 TEST(SurfaceWriter, ThreadsAndInstructionSetsDoNotMatter) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<Shown> people;
   for (const BodyRequest& body : bodies()) people.push_back(show(simulation, body));
   people.push_back(people.front());  // shares a body's surfaces and muscles
@@ -250,7 +249,7 @@ TEST(SurfaceWriter, ThreadsAndInstructionSetsDoNotMatter) {
 }
 
 TEST(SurfaceWriter, AMuscleWithoutControlPointsIsDrawnAsLongAsItsLine) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   LegMuscles muscles;
   Shown shown = show(simulation, {}, muscles, false);
   for (const Muscle m : {Muscle::hamstrings, Muscle::quadriceps})
@@ -284,7 +283,7 @@ TEST(SurfaceWriter, AMuscleWithoutControlPointsIsDrawnAsLongAsItsLine) {
 }
 
 TEST(SurfaceWriter, AnOriginIsSubtracted) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   Shown shown = show(simulation, {});
   simulation.advance(0.5);
   write(simulation, shown);
@@ -300,7 +299,7 @@ TEST(SurfaceWriter, AnOriginIsSubtracted) {
 }
 
 TEST(SurfaceWriter, SidesAndBonesAreAChoice) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   Shown shown = show(simulation, {});
   simulation.advance(0.1);
   write(simulation, shown);
@@ -327,7 +326,7 @@ TEST(SurfaceWriter, SidesAndBonesAreAChoice) {
 }
 
 TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
-  Simulation simulation;
+  Simulation simulation(sharing());
   Shown shown = show(simulation, {}), other = show(simulation, {}), gone = show(simulation, {});
   ASSERT_EQ(simulation.despawn(gone.person), Status::ok);
   SurfaceWriter writer;
@@ -382,7 +381,7 @@ TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
 
 TEST(SurfaceWriter, ASteadyCallTakesNoMemory) {
   if (!counts_malloc) GTEST_SKIP() << "malloc is not counted in this build";
-  Simulation simulation;
+  Simulation simulation(sharing());
   std::vector<Shown> people;
   for (const BodyRequest& body : bodies()) people.push_back(show(simulation, body));
   std::vector<SurfaceRequest> requests;

@@ -17,6 +17,7 @@
 #include <mobil/surfaces.h>
 #include <mobil/systems/skinning/write_vertices.h>
 #include "tests/engine/instruction_sets.h"
+#include "tests/simulation/people.h"
 
 namespace mobil::texture_test {
 using namespace geometry;
@@ -104,7 +105,7 @@ double from_triangle(const Vec3<float>& p, const Vec3<float>& a, const Vec3<floa
 }
 
 struct Walker {
-  Simulation simulation;
+  Simulation simulation(sharing());
   Entity person;
   Human human;
   std::vector<SurfaceMuscle> muscles;

@@ -79,11 +79,13 @@ class WilfulPool {
   std::vector<std::jthread> workers_;  // last: gone first
 };
 
-/// One thread, one block at a time, the last one first.
-inline Jobs backwards() {
-  return {nullptr, [](void*, std::size_t count, Jobs::Body body, void* context) {
+/// One thread, whatever it promises, one part at a time, the last one first.
+inline Jobs backwards(std::size_t promised = 1) {
+  return {nullptr,
+          [](void*, std::size_t count, Jobs::Body body, void* context) {
             for (std::size_t i = count; i-- > 0;) body(context, i, i + 1);
-          }};
+          },
+          promised};
 }
 
 }  // namespace mobil

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/reduction/dense.h"
 #include "engine/eigen.h"
 
 namespace mobil::oracle {
@@ -41,8 +42,8 @@ Shape shape_at(const HexahedralMesh& mesh, const Hexahedron& h, double x, double
 
 namespace {
 
-Eigen::Matrix<double, 6, 24> strain_matrix(const Shape& s) {
-  Eigen::Matrix<double, 6, 24> b = Eigen::Matrix<double, 6, 24>::Zero();
+Matrix strain_matrix(const Shape& s) {
+  Matrix b = Matrix::Zero(6, 24);
   for (int a = 0; a < 8; ++a) {
     const double x = s.dn(a, 0), y = s.dn(a, 1), z = s.dn(a, 2);
     b.block<6, 3>(0, 3 * a) << x, 0, 0, 0, y, 0, 0, 0, z, y, x, 0, 0, z, y, z, 0, x;
@@ -56,9 +57,8 @@ namespace {
 
 /// Hourglass stiffness of Flanagan and Belytschko: `share`·4μ·V·Σ|b|²/8 on each pattern's part orthogonal to linear
 /// fields; `mean` the mean strain matrix.
-Eigen::Matrix<double, 24, 24> hourglass_stiffness(const HexahedralMesh& mesh, const Hexahedron& h,
-                                                  const Eigen::Matrix<double, 6, 24>& mean, double volume_m3,
-                                                  const Material& material, double share) {
+Matrix hourglass_stiffness(const HexahedralMesh& mesh, const Hexahedron& h, const Matrix& mean, double volume_m3,
+                           const Material& material, double share) {
   Eigen::Matrix<double, 8, 3> b, place;
   for (int a = 0; a < 8; ++a) {
     const auto& p = mesh.node[h[static_cast<std::size_t>(a)]];
@@ -72,8 +72,8 @@ Eigen::Matrix<double, 24, 24> hourglass_stiffness(const HexahedralMesh& mesh, co
   pattern.col(3) << -1, 1, -1, 1, 1, -1, 1, -1;
   const Eigen::Matrix<double, 8, 4> gamma = pattern - b * (place.transpose() * pattern);
   const double mu = material.young_pa / (2 * (1 + material.poisson));
-  const Eigen::Matrix<double, 8, 8> k = share * 4 * mu * volume_m3 * b.squaredNorm() / 8 * gamma * gamma.transpose();
-  Eigen::Matrix<double, 24, 24> all = Eigen::Matrix<double, 24, 24>::Zero();
+  const Matrix k = share * 4 * mu * volume_m3 * b.squaredNorm() / 8 * gamma * gamma.transpose();
+  Matrix all = Matrix::Zero(24, 24);
   for (int a = 0; a < 8; ++a) {
     for (int c = 0; c < 8; ++c) all.block<3, 3>(3 * a, 3 * c) = k(a, c) * Eigen::Matrix3d::Identity();
   }
@@ -89,7 +89,7 @@ ElementMatrices element_matrices(const HexahedralMesh& mesh, const Hexahedron& h
   const double g = 1 / std::sqrt(3.0);
   std::vector<Shape> points;
   double volume_m3 = 0;
-  Eigen::Matrix<double, 6, 24> mean = Eigen::Matrix<double, 6, 24>::Zero();
+  Matrix mean = Matrix::Zero(6, 24);
   for (const double x : {-g, g}) {
     for (const double y : {-g, g}) {
       for (const double z : {-g, g}) {
@@ -103,7 +103,7 @@ ElementMatrices element_matrices(const HexahedralMesh& mesh, const Hexahedron& h
   Eigen::Matrix<double, 6, 1> unit;
   unit << 1, 1, 1, 0, 0, 0;
   for (const Shape& s : points) {
-    Eigen::Matrix<double, 6, 24> b = strain_matrix(s);
+    Matrix b = strain_matrix(s);
     if (kind == Element::bbar) b += unit * unit.transpose() * (mean - b) / 3;
     if (kind == Element::one_point) b = mean;
     element.stiffness += s.jacobian * b.transpose() * d * b;
@@ -201,7 +201,7 @@ void Belly::step(const Vector& f, double dt) {
 }
 
 Vector solve(const Matrix& symmetric, const Vector& right) {
-  return symmetric.ldlt().solve(right);
+  return solved(symmetric, right);
 }
 
 Vector eigenvalues(const Matrix& symmetric) {

@@ -33,8 +33,8 @@ struct Model {
 
 /// One element: stiffness of its 24 displacements, N/m, and consistent mass of its 8 corners, kg.
 struct ElementMatrices {
-  Eigen::Matrix<double, 24, 24> stiffness = Eigen::Matrix<double, 24, 24>::Zero();
-  Eigen::Matrix<double, 8, 8> mass = Eigen::Matrix<double, 8, 8>::Zero();
+  Matrix stiffness = Matrix::Zero(24, 24);
+  Matrix mass = Matrix::Zero(8, 8);
 };
 
 ElementMatrices element_matrices(const HexahedralMesh& mesh, const Hexahedron& h, const Material& material,

@@ -247,8 +247,8 @@ TEST(House, TheVersionIsOne) {
     for (const auto& file : sources(room)) {
       for (const auto& line : lines(file)) {
         std::smatch match;
-        if (std::regex_search(line, match, opened))
-          EXPECT_TRUE(match[1].str().starts_with(space)) << file << ": " << line;
+        if (!std::regex_search(line, match, opened)) continue;
+        EXPECT_TRUE(match[1].str().starts_with(space)) << file << ": " << line;
       }
     }
   }

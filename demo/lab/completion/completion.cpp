@@ -19,13 +19,6 @@ bool is_argument(const Option& option) {
   return !option.name.starts_with("-");
 }
 
-std::vector<Option> all_options(const Program& program, const Subcommand& command) {
-  std::vector<Option> all = command.options;
-  all.insert(all.end(), program.options.begin(), program.options.end());
-  all.push_back(help_option);
-  return all;
-}
-
 /// Each of `marks` with a backslash before it.
 std::string escaped(std::string_view text, std::string_view marks) {
   std::string out;

@@ -159,7 +159,10 @@ Subcommand town_command() {
                         {"--seconds", &text->seconds, "How long"},
                         {"--seed", &text->seed, "Who they are and where they go"},
                         {"--threads", &text->threads, "Threads that work, 1 to 256; 0: as many as the machine has"},
-                        {"--view", &text->view, "From where pictures are taken", {}, {"follow", "above"}},
+                        {.name = "--view",
+                         .target = &text->view,
+                         .help = "From where pictures are taken",
+                         .choices = {"follow", "above"}},
                         {"--capture", &text->capture, "FILE.mp4: a film of it; FILE.png: a picture of the end"},
                         {"--report", &text->report, "FILE for what happened, as JSON"}});
   command.empty_refused = true;

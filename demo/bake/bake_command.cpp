@@ -76,10 +76,12 @@ Subcommand bake_command() {
       "\nExamples: mobil bake\n"
       "          mobil bake --inertia --out game/assets/mobil.baked\n"
       "          mobil crowd --humans 5000 --baked mobil.baked";
-  add_options(command, {{"--out", &text->out, "FILE to write"},
-                        {"--muscles", &text->muscles, "Which muscles", {}, {"groups", "members"}},
-                        {"--inertia", &text->inertia, "For muscles that feel gravity and their frame's acceleration"},
-                        {"--threads", &text->threads, "Threads that work, 1 to 256; 0: as many as the machine has"}});
+  add_options(
+      command,
+      {{"--out", &text->out, "FILE to write"},
+       {.name = "--muscles", .target = &text->muscles, .help = "Which muscles", .choices = {"groups", "members"}},
+       {"--inertia", &text->inertia, "For muscles that feel gravity and their frame's acceleration"},
+       {"--threads", &text->threads, "Threads that work, 1 to 256; 0: as many as the machine has"}});
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("bake", bake(*text)); };
   return command;

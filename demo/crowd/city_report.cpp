@@ -98,18 +98,11 @@ std::string city_text(const CityRun& run, const CrowdOptions& options) {
                                  options.alive ? options.alive->seed : options.crowd.seed);
   text += ticks_line(run.ticks, run.tick_s, run.missed, ranks == 1 ? "" : ", of the slowest rank");
   text += processor_line(run.ticks, "ranks");
-  text += fmt::format("a tick, mean: host's decisions {:.3f} ms, choosing of methods {:.3f} ms",
-                      mean_ms(run.ticks, &CrowdTick::host_ms), mean_ms(run.ticks, &CrowdTick::relevance_ms));
-  for (const CrowdSystem& system : run.systems) {
-    if (system.mean_ms >= 5e-3) text += fmt::format(", {} {:.3f} ms", system.name, system.mean_ms);
-  }
+  text += parts_line(run.ticks, run.systems, 5e-3);
   if (!options.alive) {
     text += "\nmuscles:";
-    for (std::size_t r = 0; r < run.state.muscles_by_rung.size(); ++r) {
-      if (run.state.muscles_by_rung[r] == 0) continue;
-      text += fmt::format(" {} {}", run.state.muscles_by_rung[r],
-                          r < rung_count ? rungs_of(options.crowd.effects.activation)[r].name : "other");
-    }
+    for (const auto& [method, count] : by_method(run.state.muscles_by_rung, options.crowd.effects.activation))
+      text += fmt::format(" {} {}", count, method);
     text +=
         fmt::format("\n{} came, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.counts.spawned,
                     run.counts.despawned, run.counts.turned, run.counts.changed_speed, 2 * run.counts.switched);
@@ -158,11 +151,8 @@ std::string city_json(const CityRun& run, const CrowdOptions& options) {
   json["wall_ms_mean"] = mean_wall_ms(run);
   add_systems(run.systems, json);
   json["muscles_by_method"] = Json::object();
-  for (std::size_t r = 0; r < run.state.muscles_by_rung.size(); ++r) {
-    if (run.state.muscles_by_rung[r] == 0) continue;
-    const auto name = r < rung_count ? rungs_of(options.crowd.effects.activation)[r].name : "other";
-    json["muscles_by_method"][std::string(name)] = run.state.muscles_by_rung[r];
-  }
+  for (const auto& [method, count] : by_method(run.state.muscles_by_rung, options.crowd.effects.activation))
+    json["muscles_by_method"][method] = count;
   json["spawns"] = run.counts.spawned;
   json["despawns"] = run.counts.despawned;
   json["turns"] = run.counts.turned;

@@ -64,8 +64,7 @@ class CrowdShard : public CityShard {
     CityState state{.people = scene_->walkers().size(), .bytes = scene_->bytes_of_people()};
     state.awake = state.people;
     for (const CrowdWalker& walker : scene_->walkers()) state.seen += walker.near ? 1 : 0;
-    const auto muscles = scene_->muscles_by_rung();
-    for (std::size_t rung = 0; rung < muscles.size(); ++rung) state.muscles_by_rung[rung] = muscles[rung];
+    state.muscles_by_rung = scene_->muscles_by_rung();
     return state;
   }
 

@@ -24,7 +24,7 @@ struct CityCounts {
 /// What a shard is like now.
 struct CityState {
   std::uint64_t people = 0, bytes = 0, awake = 0, seen = 0;
-  std::array<std::uint64_t, rung_count + 1> muscles_by_rung{};
+  std::array<std::size_t, rung_count + 1> muscles_by_rung{};
 };
 
 /// The sums of both.

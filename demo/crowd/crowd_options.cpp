@@ -22,12 +22,6 @@ std::string with_unit(const std::string& text, std::string_view unit) {
   return bare ? text + std::string(unit) : text;
 }
 
-Result<std::uint64_t> read_count(std::string_view option, const std::string& text, std::uint64_t least,
-                                 std::uint64_t most) {
-  if (const auto count = parse_count(text, least, most)) return *count;
-  return fail(fmt::format("{} {}: give a whole number of {} to {}", option, text, least, most));
-}
-
 struct NamedEffect {
   std::string_view name;
   bool CrowdEffects::*on;
@@ -56,10 +50,8 @@ Result<CrowdEffects> read_effects(const std::string& text) {
 }
 
 /// What a scene for other programs needs, before minutes of work are done for nothing.
-Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options) {
-  const auto seconds = read_value("--export-seconds", with_unit(text.export_seconds, "s"), Quantity::time, 0.1, 60);
-  if (!seconds) return tl::unexpected(seconds.error());
-  options.export_s = *seconds;
+Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options, OptionReader& read) {
+  options.export_s = read(read_value("--export-seconds", with_unit(text.export_seconds, "s"), Quantity::time, 0.1, 60));
   if (text.exports.empty()) return {};
   options.exports.assign(text.exports.begin(), text.exports.end());
   if (options.raise) return fail("--raise: measures alone; leave --export out");
@@ -76,16 +68,13 @@ Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options) {
 }
 
 /// Those of whom most sleep.
-Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
+Result<void> read_alive(const CrowdText& text, CrowdOptions& options, OptionReader& read) {
   if (text.alive.empty()) return {};
   const CrowdText usual;
   AliveRequest alive;
-  const auto count = read_count("--people", text.alive, 100, most_alive);
-  if (!count) return tl::unexpected(count.error());
-  const auto seen = read_count("--in-view", text.in_view, 1, most_crowd);
-  if (!seen) return tl::unexpected(seen.error());
-  alive.alive = *count;
-  alive.in_view = text.in_view == usual.in_view ? std::min<std::size_t>(*seen, *count / 10) : *seen;
+  alive.alive = read(read_count("--people", text.alive, 100, most_alive));
+  alive.in_view = read(read_count("--in-view", text.in_view, 1, most_crowd));
+  if (text.in_view == usual.in_view) alive.in_view = std::min(alive.in_view, alive.alive / 10);
   if (alive.in_view > alive.alive / 4)
     return fail(fmt::format("--in-view {}: is more than a quarter of those alive", alive.in_view));
   alive.threads = options.crowd.threads;
@@ -116,14 +105,10 @@ std::string about_run(const CrowdOptions& options) {
 }
 
 /// Several shards or ranks, and runs that are saved.
-Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
+Result<void> read_city(const CrowdText& text, CrowdOptions& options, OptionReader& read) {
   const bool ranks = started_as_rank();
   std::uint64_t shards = !text.resume.empty() ? 0 : ranks ? usual_shards : 1;
-  if (!text.shards.empty()) {
-    const auto count = read_count("--shards", text.shards, 1, most_shards);
-    if (!count) return tl::unexpected(count.error());
-    shards = *count;
-  }
+  if (!text.shards.empty()) shards = read(read_count("--shards", text.shards, 1, most_shards));
   if (!text.save.empty() && !text.resume.empty())
     return fail("--save: a run that goes on by --resume saves where it was; leave --save out");
   const bool several = ranks || shards > 1 || !text.save.empty() || !text.resume.empty();
@@ -144,17 +129,15 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
   if (options.frames > 0)
     return fail("--frames: are of a crowd in one piece; leave --shards, --save, --resume and mpirun out");
   const double tick_s = 1.0 / 60;
-  const auto save_every = read_value("--save-every", with_unit(text.save_every, "s"), Quantity::time, 0.1, 3600);
-  if (!save_every) return tl::unexpected(save_every.error());
-  const auto balance = read_value("--balance-every", with_unit(text.balance_every, "s"), Quantity::time, 0, 3600);
-  if (!balance) return tl::unexpected(balance.error());
-  const auto silence = read_value("--silence", with_unit(text.silence, "s"), Quantity::time, 1, 3600);
-  if (!silence) return tl::unexpected(silence.error());
-  options.silence_s = *silence;
   ClusterOptions& cluster = options.cluster;
+  const auto ticks = [&](const char* option, const std::string& given, double low) {
+    const double seconds = read(read_value(option, with_unit(given, "s"), Quantity::time, low, 3600));
+    return static_cast<std::uint32_t>(std::lround(seconds / tick_s));
+  };
+  cluster.save_every = ticks("--save-every", text.save_every, 0.1);
+  cluster.balance_every = ticks("--balance-every", text.balance_every, 0);
+  options.silence_s = read(read_value("--silence", with_unit(text.silence, "s"), Quantity::time, 1, 3600));
   cluster.shards = static_cast<std::uint32_t>(shards);
-  cluster.save_every = static_cast<std::uint32_t>(std::lround(*save_every / tick_s));
-  cluster.balance_every = static_cast<std::uint32_t>(std::lround(*balance / tick_s));
   cluster.resume = !text.resume.empty();
   cluster.folder = cluster.resume ? text.resume : text.save;
   cluster.about = about_run(options);
@@ -242,65 +225,40 @@ std::vector<Option> city_options(CrowdText& text) {
 Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
   CrowdOptions options;
   CrowdRequest& crowd = options.crowd;
-  const auto count = [](std::string_view option, const std::string& given, std::uint64_t least, std::uint64_t most,
-                        auto& into) -> Result<void> {
-    const auto value = read_count(option, given, least, most);
-    if (!value) return tl::unexpected(value.error());
-    into = static_cast<std::remove_reference_t<decltype(into)>>(*value);
-    return {};
-  };
-  const auto quantity = [](std::string_view option, const std::string& given, std::string_view unit, Quantity kind,
-                           double low, double high, double& into) -> Result<void> {
-    const auto value = read_value(option, with_unit(given, unit), kind, low, high);
-    if (!value) return tl::unexpected(value.error());
-    into = *value;
-    return {};
-  };
-  if (auto done = count("--humans", text.humans, 1, most_crowd, crowd.humans); !done)
-    return tl::unexpected(done.error());
-  if (auto done = quantity("--seconds", text.seconds, "s", Quantity::time, 0.1, 3600, options.seconds); !done)
-    return tl::unexpected(done.error());
-  if (auto done = count("--threads", text.threads, 0, 256, crowd.threads); !done) return tl::unexpected(done.error());
-  if (auto done = count("--seed", text.seed, 0, 999'999'999'999'999'999, crowd.seed); !done)
-    return tl::unexpected(done.error());
-  if (auto done = quantity("--churn", text.churn, "", Quantity::rate, 0, 100'000, crowd.churn_per_s); !done)
-    return tl::unexpected(done.error());
-  if (auto done = count("--burst", text.burst, 0, crowd.humans, crowd.burst); !done)
-    return tl::unexpected(done.error());
-  const auto chosen = read_effects(text.effects);
-  if (!chosen) return tl::unexpected(chosen.error());
-  crowd.effects = *chosen;
-  if (auto done = quantity("--tolerance", text.tolerance, "mm", Quantity::length, 1e-5, 1, crowd.tolerance_m); !done)
-    return tl::unexpected(done.error());
-  if (auto done =
-          quantity("--near-tolerance", text.near_tolerance, "mm", Quantity::length, 1e-5, 1, crowd.near_tolerance_m);
-      !done)
-    return tl::unexpected(done.error());
-  if (auto done = count("--near", text.near, 0, most_crowd, crowd.near); !done) return tl::unexpected(done.error());
+  OptionReader read;
+  const auto quantity = [&](std::string_view option, const std::string& given, std::string_view unit, Quantity kind,
+                            double low,
+                            double high) { return read(read_value(option, with_unit(given, unit), kind, low, high)); };
+  crowd.humans = read(read_count("--humans", text.humans, 1, most_crowd));
+  options.seconds = quantity("--seconds", text.seconds, "s", Quantity::time, 0.1, 3600);
+  crowd.threads = static_cast<int>(read(read_count("--threads", text.threads, 0, 256)));
+  crowd.seed = read(read_count("--seed", text.seed, 0, 999'999'999'999'999'999));
+  crowd.churn_per_s = quantity("--churn", text.churn, "", Quantity::rate, 0, 100'000);
+  crowd.burst = read(read_count("--burst", text.burst, 0, crowd.humans));
+  crowd.effects = read(read_effects(text.effects));
+  crowd.tolerance_m = quantity("--tolerance", text.tolerance, "mm", Quantity::length, 1e-5, 1);
+  crowd.near_tolerance_m = quantity("--near-tolerance", text.near_tolerance, "mm", Quantity::length, 1e-5, 1);
+  crowd.near = read(read_count("--near", text.near, 0, most_crowd));
   if (text.near == CrowdText{}.near) crowd.near = std::min(crowd.near, crowd.humans / 2);
   if (!text.budget.empty()) {
-    double budget_s = 0;
-    if (auto done = quantity("--budget", text.budget, "ms", Quantity::time, 1e-6, 10, budget_s); !done)
-      return tl::unexpected(done.error());
-    crowd.budget_s = budget_s;
-    if (!crowd.effects.muscles) return fail("--budget: is of muscles; add muscles to --effects");
+    crowd.budget_s = quantity("--budget", text.budget, "ms", Quantity::time, 1e-6, 10);
+    if (!crowd.effects.muscles) read.refuse("--budget: is of muscles; add muscles to --effects");
   }
-  if (auto done = count("--frames", text.frames, 0, 100'000, options.frames); !done)
-    return tl::unexpected(done.error());
+  options.frames = read(read_count("--frames", text.frames, 0, 100'000));
   crowd.all_seen = text.all_seen;
   options.raise = text.raise;
   crowd.baked = text.baked;
   options.report = text.report;
   options.capture = text.capture;
-  if (options.frames > 0 && options.capture.empty()) return fail("--frames: name a folder by --capture");
+  if (options.frames > 0 && options.capture.empty()) read.refuse("--frames: name a folder by --capture");
   if (options.frames == 0 && !options.capture.empty() && options.capture.extension() != ".png")
-    return fail(
+    read.refuse(
         fmt::format("--capture {}: a picture's name must end in .png; for a folder give --frames too", text.capture));
-  if (options.raise && !options.capture.empty()) return fail("--raise: measures alone; leave --capture out");
-  if (auto done = read_crowd_exports(text, options); !done) return tl::unexpected(done.error());
-  if (auto done = read_alive(text, options); !done) return tl::unexpected(done.error());
-  if (auto done = read_city(text, options); !done) return tl::unexpected(done.error());
-  return options;
+  if (options.raise && !options.capture.empty()) read.refuse("--raise: measures alone; leave --capture out");
+  read(read_crowd_exports(text, options, read));
+  read(read_alive(text, options, read));
+  read(read_city(text, options, read));
+  return read.result(std::move(options));
 }
 
 }  // namespace mobil

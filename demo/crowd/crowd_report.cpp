@@ -11,10 +11,6 @@
 namespace mobil {
 namespace {
 
-std::string rung_label(const CrowdRun& run, std::size_t rung) {
-  return rung < rung_count ? std::string(rungs_of(run.living)[rung].name) : "other";
-}
-
 Json options_json(const CrowdOptions& options) {
   const CrowdRequest& crowd = options.crowd;
   Json json;
@@ -63,9 +59,8 @@ CrowdMemory crowd_memory(const CrowdScene& scene) {
 std::string crowd_live_line(const CrowdRun& run, std::size_t of) {
   std::string line = fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms  missed {}", run.ticks.size(), of,
                                  percentile_ms(run.ticks, 0.5), percentile_ms(run.ticks, 0.99), run.missed);
-  for (std::size_t r = 0; r < run.muscles_by_rung.size(); ++r) {
-    if (run.muscles_by_rung[r] > 0) line += fmt::format("  {} {}", rung_label(run, r), run.muscles_by_rung[r]);
-  }
+  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+    line += fmt::format("  {} {}", method, count);
   return line;
 }
 
@@ -75,15 +70,9 @@ std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const Cro
       fmt::format("{} humans on {:.0f} m x {:.0f} m, {} thread{}, seed {}\n", scene.walkers().size(), scene.side_m(),
                   scene.side_m(), threads_of(crowd), threads_of(crowd) == 1 ? "" : "s", crowd.seed);
   text += ticks_line(run.ticks, run.tick_s, run.missed) + processor_line(run.ticks, "threads");
-  text += fmt::format("a tick, mean: host's decisions {:.3f} ms, choosing of methods {:.3f} ms",
-                      mean_ms(run.ticks, &CrowdTick::host_ms), mean_ms(run.ticks, &CrowdTick::relevance_ms));
-  for (const CrowdSystem& system : run.systems) {
-    if (system.mean_ms >= 5e-4) text += fmt::format(", {} {:.3f} ms", system.name, system.mean_ms);
-  }
-  text += "\nmuscles:";
-  for (std::size_t r = 0; r < run.muscles_by_rung.size(); ++r) {
-    if (run.muscles_by_rung[r] > 0) text += fmt::format(" {} {}", run.muscles_by_rung[r], rung_label(run, r));
-  }
+  text += parts_line(run.ticks, run.systems, 5e-4) + "\nmuscles:";
+  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+    text += fmt::format(" {} {}", count, method);
   text += fmt::format("\n{} came, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.spawned,
                       run.despawned, run.turned, run.changed_speed, 2 * run.switched);
   text += fmt::format("memory: {} bytes a human, {} of those far away; {:.0f} MB at most\n", memory.per_human,
@@ -105,6 +94,23 @@ std::string processor_line(const std::vector<CrowdTick>& ticks, std::string_view
   return fmt::format("processor time of all {}: p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms a tick\n", of,
                      percentile_ms(ticks, 0.5, &CrowdTick::cpu_ms), percentile_ms(ticks, 0.99, &CrowdTick::cpu_ms),
                      percentile_ms(ticks, 1, &CrowdTick::cpu_ms));
+}
+
+std::string parts_line(const std::vector<CrowdTick>& ticks, const std::vector<CrowdSystem>& systems, double least_ms) {
+  std::string line = fmt::format("a tick, mean: host's decisions {:.3f} ms, choosing of methods {:.3f} ms",
+                                 mean_ms(ticks, &CrowdTick::host_ms), mean_ms(ticks, &CrowdTick::relevance_ms));
+  for (const CrowdSystem& system : systems) {
+    if (system.mean_ms >= least_ms) line += fmt::format(", {} {:.3f} ms", system.name, system.mean_ms);
+  }
+  return line;
+}
+
+std::vector<std::pair<std::string, std::size_t>> by_method(const MusclesByRung& muscles, bool living) {
+  std::vector<std::pair<std::string, std::size_t>> all;
+  for (std::size_t r = 0; r < muscles.size(); ++r) {
+    if (muscles[r] > 0) all.emplace_back(r < rung_count ? rungs_of(living)[r].name : "other", muscles[r]);
+  }
+  return all;
 }
 
 void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& json) {
@@ -130,9 +136,8 @@ std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const Cro
   Json json;
   json["humans"] = scene.walkers().size();
   json["muscles_by_method"] = Json::object();
-  for (std::size_t r = 0; r < run.muscles_by_rung.size(); ++r) {
-    if (run.muscles_by_rung[r] > 0) json["muscles_by_method"][rung_label(run, r)] = run.muscles_by_rung[r];
-  }
+  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+    json["muscles_by_method"][method] = count;
   json["tick_s"] = run.tick_s;
   add_ticks(run.ticks, run.missed, json);
   add_systems(run.systems, json);

@@ -1,8 +1,10 @@
 #pragma once
 // A crowd's figures: on the terminal and as JSON.
 
+#include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "demo/crowd/crowd_options.h"
@@ -34,6 +36,11 @@ std::string ticks_line(const std::vector<CrowdTick>& ticks, double tick_s, std::
                        std::string_view of = "");
 /// A line of what they took of the processor.
 std::string processor_line(const std::vector<CrowdTick>& ticks, std::string_view of);
+/// A line of what a tick's parts took, with the systems that took `least_ms` or more; its end is the reader's.
+std::string parts_line(const std::vector<CrowdTick>& ticks, const std::vector<CrowdSystem>& systems, double least_ms);
+/// Muscles by their method's name, those that there are.
+using MusclesByRung = std::array<std::size_t, rung_count + 1>;
+std::vector<std::pair<std::string, std::size_t>> by_method(const MusclesByRung& muscles, bool living);
 /// Ticks, those missed, and what they took.
 void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& json);
 /// What systems took, by name.

@@ -26,24 +26,11 @@ double text_width(std::string_view text) {
 }
 
 std::string escaped(std::string_view text) {
+  constexpr std::string_view marks = "&<>\"", names[] = {"&amp;", "&lt;", "&gt;", "&quot;"};
   std::string out;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
+    const std::size_t mark = marks.find(c);
+    out += mark == std::string_view::npos ? std::string(1, c) : std::string(names[mark]);
   }
   return out;
 }

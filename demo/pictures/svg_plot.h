@@ -52,7 +52,7 @@ struct PlotPanel {
 /// Panels fill rows of `columns` from the top left. `shared_y`: one vertical range a row, its axis that of the left
 /// panel and labelled there alone; for rows of one quantity. Sizes are pixels and do not count titles and labels.
 struct PlotFigure {
-  std::string title, footnote;
+  std::string title{}, footnote{};
   std::size_t columns = 1;
   double panel_width = 240, panel_height = 150;
   bool shared_y = false;

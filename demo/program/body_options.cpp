@@ -29,22 +29,13 @@ std::vector<Option> body_options(BodyText& text) {
 
 Result<BodyRequest> read_body_options(const BodyText& text) {
   BodyRequest request;
-  const auto height = read_value("--height", text.height, Quantity::length, 1.2, 2.2);
-  if (!height) return tl::unexpected(height.error());
-  request.height_m = static_cast<float>(*height);
-  const auto mass = read_value("--mass", text.mass, Quantity::mass, 30, 200);
-  if (!mass) return tl::unexpected(mass.error());
-  request.mass_kg = static_cast<float>(*mass);
-  const auto biotype = read_biotype(text.biotype);
-  if (!biotype) return tl::unexpected(biotype.error());
-  request.biotype = *biotype;
-  const auto constitution = choose<Constitution>("--constitution", text.constitution, constitution_name);
-  if (!constitution) return tl::unexpected(constitution.error());
-  request.constitution = *constitution;
-  const auto sex = choose<Sex>("--sex", text.sex, sex_name);
-  if (!sex) return tl::unexpected(sex.error());
-  request.sex = *sex;
-  return request;
+  OptionReader read;
+  request.height_m = static_cast<float>(read(read_value("--height", text.height, Quantity::length, 1.2, 2.2)));
+  request.mass_kg = static_cast<float>(read(read_value("--mass", text.mass, Quantity::mass, 30, 200)));
+  request.biotype = read(read_biotype(text.biotype));
+  request.constitution = read(choose<Constitution>("--constitution", text.constitution, constitution_name));
+  request.sex = read(choose<Sex>("--sex", text.sex, sex_name));
+  return read.result(request);
 }
 
 }  // namespace mobil

@@ -112,6 +112,13 @@ void say(const std::string& line) {
 
 const Option help_option = {"-h,--help", static_cast<bool*>(nullptr), "Print this help message and exit"};
 
+std::vector<Option> all_options(const Program& program, const Subcommand& command) {
+  std::vector<Option> all = {help_option};
+  all.insert(all.end(), command.options.begin(), command.options.end());
+  all.insert(all.end(), program.options.begin(), program.options.end());
+  return all;
+}
+
 bool takes_value(const Option& option) {
   return !std::holds_alternative<bool*>(option.target);
 }

@@ -54,6 +54,9 @@ struct Program {
 
 void add_options(Subcommand& command, const std::vector<Option>& options);
 
+/// A subcommand's, with those that every subcommand has.
+std::vector<Option> all_options(const Program& program, const Subcommand& command);
+
 /// Whether a value follows it.
 bool takes_value(const Option& option);
 

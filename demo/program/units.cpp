@@ -110,6 +110,12 @@ std::optional<std::uint64_t> parse_count(std::string_view text, std::uint64_t le
   return count >= least && count <= most ? std::optional(count) : std::nullopt;
 }
 
+Result<std::uint64_t> read_count(std::string_view option, const std::string& text, std::uint64_t least,
+                                 std::uint64_t most) {
+  if (const auto count = parse_count(text, least, most)) return *count;
+  return fail(fmt::format("{} {}: give a whole number of {} to {}", option, text, least, most));
+}
+
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;
   for (std::size_t from = 0; from <= text.size();) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <mobil/engine/error.h>
@@ -29,8 +30,40 @@ Result<double> read_value(std::string_view name, const std::string& text, Quanti
 /// The same; also fails outside `low` to `high` (base unit).
 Result<double> read_value(std::string_view name, const std::string& text, Quantity quantity, double low, double high);
 
+/// The first error of several options. What is read after it is worthless.
+class OptionReader {
+ public:
+  /// The value; of a failure an empty one.
+  template <class T>
+  T operator()(Result<T> read) {
+    if (read) return std::move(*read);
+    refuse(std::move(read.error().message));
+    return T{};
+  }
+  void operator()(Result<void> done) {
+    if (!done) refuse(std::move(done.error().message));
+  }
+  void refuse(std::string message) {
+    if (!error_) error_ = Error{std::move(message)};
+  }
+
+  /// `value` where nothing failed; the first error otherwise.
+  template <class T>
+  Result<T> result(T value) const {
+    if (error_) return tl::unexpected(*error_);
+    return value;
+  }
+
+ private:
+  std::optional<Error> error_;
+};
+
 /// Digits alone, 18 at most, that make `least` to `most`; nothing otherwise.
 std::optional<std::uint64_t> parse_count(std::string_view text, std::uint64_t least, std::uint64_t most);
+
+/// The same of an option; fails where parse_count has nothing.
+Result<std::uint64_t> read_count(std::string_view option, const std::string& text, std::uint64_t least,
+                                 std::uint64_t most);
 
 /// The parts between separators, empty ones too: always one more than there are separators.
 std::vector<std::string> split(std::string_view text, char separator);

@@ -38,36 +38,23 @@ constexpr int width = 1280, height = 720, ticks_a_picture = 2;
 
 Result<TownRun> read_options(const TownText& text) {
   TownRun run;
-  const auto count = [](const char* name, const std::string& given, std::uint64_t low,
-                        std::uint64_t high) -> Result<std::uint64_t> {
-    const auto value = parse_count(given, low, high);
-    if (!value) return fail(fmt::format("{} {}: give a whole number of {} to {}", name, given, low, high));
-    return *value;
-  };
-  const auto humans = count("--humans", text.humans, 1, 300);
-  if (!humans) return tl::unexpected(humans.error());
-  const auto seed = count("--seed", text.seed, 0, 999'999'999'999'999'999);
-  if (!seed) return tl::unexpected(seed.error());
-  const auto threads = count("--threads", text.threads, 0, 256);
-  if (!threads) return tl::unexpected(threads.error());
-  const auto seconds = read_value("--seconds", text.seconds, Quantity::time, 0.1, 3600);
-  if (!seconds) return tl::unexpected(seconds.error());
-  run.town = {*humans, *seed, static_cast<int>(*threads)};
-  run.seconds = *seconds;
+  OptionReader read;
+  run.town.humans = read(read_count("--humans", text.humans, 1, 300));
+  run.town.seed = read(read_count("--seed", text.seed, 0, 999'999'999'999'999'999));
+  run.town.threads = static_cast<int>(read(read_count("--threads", text.threads, 0, 256)));
+  run.seconds = read(read_value("--seconds", text.seconds, Quantity::time, 0.1, 3600));
   run.view = text.view == "above" ? TownView::above : TownView::follow;
   run.capture = text.capture;
   run.report = text.report;
   run.video = run.capture.extension() == ".mp4";
   if (!run.capture.empty()) {
     if (!run.video && run.capture.extension() != ".png")
-      return fail(
+      read.refuse(
           fmt::format("--capture {}: end it in .mp4 for a film, or in .png for a picture of the end", text.capture));
-    if (auto place = check_result_place("--capture", run.capture); !place) return tl::unexpected(place.error());
+    read(check_result_place("--capture", run.capture));
   }
-  if (!run.report.empty()) {
-    if (auto place = check_result_place("--report", run.report); !place) return tl::unexpected(place.error());
-  }
-  return run;
+  if (!run.report.empty()) read(check_result_place("--report", run.report));
+  return read.result(std::move(run));
 }
 
 std::string report_text(const TownScene& scene) {
@@ -172,7 +159,10 @@ Subcommand town_command() {
                         {"--seconds", &text->seconds, "How long"},
                         {"--seed", &text->seed, "Who they are and where they go"},
                         {"--threads", &text->threads, "Threads that work, 1 to 256; 0: as many as the machine has"},
-                        {"--view", &text->view, "From where pictures are taken", {}, {"follow", "above"}},
+                        {.name = "--view",
+                         .target = &text->view,
+                         .help = "From where pictures are taken",
+                         .choices = {"follow", "above"}},
                         {"--capture", &text->capture, "FILE.mp4: a film of it; FILE.png: a picture of the end"},
                         {"--report", &text->report, "FILE for what happened, as JSON"}});
   command.empty_refused = true;

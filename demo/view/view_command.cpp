@@ -108,28 +108,23 @@ Result<void> show_view(ViewScene& scene, ViewWindow& window, double seconds, con
 
 Result<void> run_view(const ViewText& text) {
   ViewChoice choice;
-  auto body = read_body_options(text.body);
-  if (!body) return tl::unexpected(body.error());
-  choice.body = *body;
-  const auto speed = read_value("--speed", text.speed, Quantity::speed, 0, 10);
-  if (!speed) return tl::unexpected(speed.error());
-  choice.gait.speed_m_s = static_cast<float>(*speed);
+  OptionReader read;
+  choice.body = read(read_body_options(text.body));
+  choice.gait.speed_m_s = static_cast<float>(read(read_value("--speed", text.speed, Quantity::speed, 0, 10)));
   choice.people = text.people;
-  double seconds = 0;
-  if (!text.seconds.empty()) {
-    const auto read = read_value("--seconds", text.seconds, Quantity::time, 0.1, 3600);
-    if (!read) return tl::unexpected(read.error());
-    seconds = *read;
-  }
+  double given_s = 0;
+  if (!text.seconds.empty()) given_s = read(read_value("--seconds", text.seconds, Quantity::time, 0.1, 3600));
+  const auto seconds = read.result(given_s);
+  if (!seconds) return tl::unexpected(seconds.error());
   if (text.people > 5000) return fail(fmt::format("--people {}: 0 to 5000", text.people));
   if (text.width < 200 || text.width > 8192 || text.height < 200 || text.height > 8192)
     return fail(fmt::format("--width {} --height-px {}: 200 to 8192", text.width, text.height));
-  if (!text.capture.empty() && seconds == 0) return fail("--capture wants --seconds: when the picture is taken");
+  if (!text.capture.empty() && *seconds == 0) return fail("--capture wants --seconds: when the picture is taken");
   auto window = ViewWindow::open("mobil", static_cast<int>(text.width), static_cast<int>(text.height), text.hidden);
   if (!window) return tl::unexpected(window.error());
   auto scene = ViewScene::make(choice);
   if (!scene) return tl::unexpected(scene.error());
-  return show_view(*scene, *window, seconds, text.capture);
+  return show_view(*scene, *window, *seconds, text.capture);
 }
 
 }  // namespace

@@ -120,97 +120,66 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.fat = text.fat;
   options.contact = text.contact;
 
-  auto exports = read_exports(text.exports);
-  if (!exports) return tl::unexpected(exports.error());
-  options.exports = std::move(*exports);
+  OptionReader read;
+  options.exports = read(read_exports(text.exports));
   for (const WalkExport& wanted : options.exports) {
     if (wanted.format == WalkFormat::sto && text.no_forces)
-      return fail(fmt::format("--export {}: holds the forces of the ground; leave --no-forces out", wanted.file));
+      read.refuse(fmt::format("--export {}: holds the forces of the ground; leave --no-forces out", wanted.file));
   }
-  const auto eyes = read_value("--eye-distance", text.eye_distance, Quantity::length, 0.001, 0.5);
-  if (!eyes) return tl::unexpected(eyes.error());
-  options.eye_distance_m = *eyes;
+  options.eye_distance_m = read(read_value("--eye-distance", text.eye_distance, Quantity::length, 0.001, 0.5));
   if (text.eye_distance != WalkText{}.eye_distance && !text.stereo)
-    return fail("--eye-distance: is of pictures for two eyes; add --stereo, or leave it out");
-
-  const auto body = read_body_options(text.body);
-  if (!body) return tl::unexpected(body.error());
-  options.body = *body;
+    read.refuse("--eye-distance: is of pictures for two eyes; add --stereo, or leave it out");
+  options.body = read(read_body_options(text.body));
 
   // The gait's own ranges depend on the body and are checked when the walk is resolved.
-  const auto optional = [](std::string_view option, const std::string& given, Quantity quantity,
-                           double most) -> Result<std::optional<float>> {
+  const auto optional = [&](std::string_view option, const std::string& given, Quantity quantity, double most) {
     if (given.empty()) return std::optional<float>{};
-    const auto value = read_value(option, given, quantity, 0, most);
-    if (!value) return tl::unexpected(value.error());
-    return std::optional<float>(static_cast<float>(*value));
+    return std::optional(static_cast<float>(read(read_value(option, given, quantity, 0, most))));
   };
-  const auto speed = optional("--speed", text.speed, Quantity::speed, 10);
-  if (!speed) return tl::unexpected(speed.error());
-  options.gait.speed_m_s = *speed;
-  const auto length = optional("--step-length", text.step_length, Quantity::length, 3);
-  if (!length) return tl::unexpected(length.error());
-  options.gait.step_length_m = *length;
-  const auto frequency = optional("--step-frequency", text.step_frequency, Quantity::frequency, 10);
-  if (!frequency) return tl::unexpected(frequency.error());
-  options.gait.step_frequency_hz = *frequency;
-  const auto ground = read_walk_ground(text.ground);
-  if (!ground) return tl::unexpected(ground.error());
-  options.ground = *ground;
+  options.gait.speed_m_s = optional("--speed", text.speed, Quantity::speed, 10);
+  options.gait.step_length_m = optional("--step-length", text.step_length, Quantity::length, 3);
+  options.gait.step_frequency_hz = optional("--step-frequency", text.step_frequency, Quantity::frequency, 10);
+  options.ground = read(read_walk_ground(text.ground));
   options.slow_down = text.slow_down;
-  if (ground->kind == GroundKind::stairs && !options.gait.step_length_m) {
-    options.gait.step_length_m = ground->tread_m;
+  if (options.ground.kind == GroundKind::stairs && !options.gait.step_length_m) {
+    options.gait.step_length_m = options.ground.tread_m;
     constexpr float usual_hz = 1.8F;  // of people on stairs
     if (!options.gait.speed_m_s && !options.gait.step_frequency_hz) options.gait.step_frequency_hz = usual_hz;
   }
   for (const auto& assignment : text.set) {
-    if (auto done = set_gait_parameter(assignment, options.gait.style); !done) {
-      return fail(fmt::format("--set {}", done.error().message));
-    }
+    if (auto done = set_gait_parameter(assignment, options.gait.style); !done)
+      read.refuse(fmt::format("--set {}", done.error().message));
   }
   if (!text.script.empty()) {
     auto script = read_walk_script(text.script);
-    if (!script) return fail(fmt::format("--script {}", script.error().message));
-    options.script = std::move(*script);
+    if (!script) read.refuse(fmt::format("--script {}", script.error().message));
+    if (script) options.script = std::move(*script);
   }
-  const auto seconds = read_value("--seconds", text.seconds, Quantity::time, 0.1, 60);
-  if (!seconds) return tl::unexpected(seconds.error());
-  options.seconds = *seconds;
+  options.seconds = read(read_value("--seconds", text.seconds, Quantity::time, 0.1, 60));
 
-  const auto muscles = read_muscles(text.muscles);
-  if (!muscles) return tl::unexpected(muscles.error());
-  options.muscles.muscles = *muscles;
+  options.muscles.muscles = read(read_muscles(text.muscles));
   options.muscles.line_motion = true;
   if (text.members) options.muscles.muscles |= muscle_members();
-  const auto drive = choose<Drive>("--drive", text.drive, drives);
-  if (!drive) return tl::unexpected(drive.error());
-  options.muscles.drive = *drive;
-  const auto method = choose<Method>("--method", text.method, method_name);
-  if (!method) return tl::unexpected(method.error());
-  options.muscles.method = *method;
-  if (*method == Method::finite) options.muscles.cells = close_up_cells;
-  const auto element = choose<Element>("--element", text.element, element_name);
-  if (!element) return tl::unexpected(element.error());
-  options.muscles.element = *element;
-  const auto activation = choose<ExcitationSource>("--activation", text.activation, walk_activations);
-  if (!activation) return tl::unexpected(activation.error());
-  options.muscles.activation = walk_sources[static_cast<std::size_t>(*activation)];
+  options.muscles.drive = read(choose<Drive>("--drive", text.drive, drives));
+  options.muscles.method = read(choose<Method>("--method", text.method, method_name));
+  if (options.muscles.method == Method::finite) options.muscles.cells = close_up_cells;
+  options.muscles.element = read(choose<Element>("--element", text.element, element_name));
+  options.muscles.activation =
+      walk_sources[read(choose<std::size_t>("--activation", text.activation, walk_activations))];
   if (has_activation(options.muscles) && options.muscles.drive == Drive::force)
-    return fail("--activation draws the belly's end to a place; leave --drive force out, or --activation");
+    read.refuse("--activation draws the belly's end to a place; leave --drive force out, or --activation");
   if (options.muscles.activation == ExcitationSource::moments && !options.forces)
-    return fail("--activation moments follows the moments at the joints; leave --no-forces out, or choose phase");
+    read.refuse("--activation moments follows the moments at the joints; leave --no-forces out, or choose phase");
   options.muscles.reduced.tuned = text.tuned;
   if (text.tuned && (!has_activation(options.muscles) || options.muscles.method != Method::reduced))
-    return fail("--tuned is of reduced muscles that pull: add --activation phase --method reduced, or leave it out");
+    read.refuse("--tuned is of reduced muscles that pull: add --activation phase --method reduced, or leave it out");
   options.muscles.inertia = text.inertia;
-  const auto view = choose<WalkView>("--view", text.view, views);
-  if (!view) return tl::unexpected(view.error());
-  options.view = *view;
-  const bool shows_skin = *view == WalkView::skin || *view == WalkView::glass;
+  options.view = read(choose<WalkView>("--view", text.view, views));
+  const bool shows_skin = options.view == WalkView::skin || options.view == WalkView::glass;
   if (text.fat && !(shows_skin && (text.frames || text.video)))
-    return fail("--fat: is of pictures of skin; add --view skin --frames (or glass, --video), or leave it out");
+    read.refuse("--fat: is of pictures of skin; add --view skin --frames (or glass, --video), or leave it out");
   if (!text.anatomy.empty()) options.anatomy = text.anatomy;
-  return options;
+  return read.result(std::move(options));
 }
 
 }  // namespace mobil

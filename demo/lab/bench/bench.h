@@ -25,9 +25,9 @@ struct BenchResult {
   std::string name;
   double value = 0;
   std::string unit;
-  std::optional<double> median, cpu;            // the same unit
-  std::optional<double> of_peak, of_bandwidth;  // fractions of this core's limits
-  std::string bound;                            // what holds it back, in words
+  std::optional<double> median{}, cpu{};            // the same unit
+  std::optional<double> of_peak{}, of_bandwidth{};  // fractions of this core's limits
+  std::string bound;                                // what holds it back, in words
 };
 
 struct BenchRun {

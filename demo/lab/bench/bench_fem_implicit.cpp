@@ -92,15 +92,6 @@ Result<void> bench_caa(BenchRun& run, const MuscleTemplate& muscle) {
                                            solver->sweeps),
                       *error);
     }
-    std::string sweeps = fmt::format("{}, everybody's own, one factor: us a step and error of", c.name);
-    for (const std::uint32_t count : {1U, 2U, 3U, 4U, 6U, 8U}) {
-      solver->sweeps = count;
-      const auto error = solver_error(muscle, Stiffness::individual, c.dt_s, *solver);
-      if (!error) return tl::unexpected(error.error());
-      sweeps += fmt::format("{} {} sweep{} {:.3g} and {:.1e}", count == 1 ? "" : ",", count, count == 1 ? "" : "s",
-                            measured(Stiffness::individual).best_s / (muscles * c.steps) * 1e6, *error);
-    }
-    run.notes.push_back(std::move(sweeps));
   }
   return {};
 }

@@ -172,19 +172,24 @@ Result<void> read_schwartz_pelvis(const Tables& tables, MeasuredSet& set) {
   return {};
 }
 
+template <std::size_t N>
+Result<std::array<double, N>> row_values(const CsvTable& table, std::size_t row,
+                                         const std::array<std::string_view, N>& names) {
+  std::array<double, N> values{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto read = value(table, row, names[i]);
+    if (!read) return tl::unexpected(read.error());
+    values[i] = *read;
+  }
+  return values;
+}
+
 /// The numbers of the row that has `key` in `key_column`.
 template <std::size_t N>
 Result<std::array<double, N>> row_values(const CsvTable& table, std::string_view key_column, std::string_view key,
                                          const std::array<std::string_view, N>& names) {
   for (std::size_t r = 0; r < table.row.size(); ++r) {
-    if (cell(table, r, key_column) != key) continue;
-    std::array<double, N> values{};
-    for (std::size_t i = 0; i < N; ++i) {
-      const auto read = value(table, r, names[i]);
-      if (!read) return tl::unexpected(read.error());
-      values[i] = *read;
-    }
-    return values;
+    if (cell(table, r, key_column) == key) return row_values(table, r, names);
   }
   return fail(fmt::format("{}: a row with {} {} is missing", table.path, key_column, key));
 }
@@ -211,21 +216,18 @@ Result<void> read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBan
 }
 
 Result<void> read_lencioni_steps(const Tables& tables, std::vector<StepBand>& bands) {
-  constexpr std::array<std::string_view, 6> required = {"group",          "speed_dimless",   "step_length_per_height",
-                                                        "step_length_sd", "cadence_dimless", "cadence_sd"};
+  constexpr std::array<std::string_view, 5> names = {"speed_dimless", "step_length_per_height", "step_length_sd",
+                                                     "cadence_dimless", "cadence_sd"};
+  constexpr std::array<std::string_view, 6> required = {"group", names[0], names[1], names[2], names[3], names[4]};
   const auto table = tables.read("lencioni2019_steps.csv", required);
   if (!table) return tl::unexpected(table.error());
   for (const std::string_view group : {"adults", "children"}) {
     StepBand band{fmt::format("Lencioni 2019, {}", group), {}};
     for (std::size_t r = 0; r < table->row.size(); ++r) {
       if (cell(*table, r, "group") != group) continue;
-      std::array<double, 5> v{};
-      for (std::size_t i = 0; i < v.size(); ++i) {
-        const auto read = value(*table, r, required[i + 1]);
-        if (!read) return tl::unexpected(read.error());
-        v[i] = *read;
-      }
-      band.norm.push_back({v[0], v[1], v[2], v[3], v[4]});
+      const auto v = row_values(*table, r, names);
+      if (!v) return tl::unexpected(v.error());
+      band.norm.push_back({(*v)[0], (*v)[1], (*v)[2], (*v)[3], (*v)[4]});
     }
     std::ranges::sort(band.norm, {}, &StepNorm::speed);
     bands.push_back(std::move(band));
@@ -239,13 +241,9 @@ Result<std::vector<ExcursionNorm>> read_excursion(const Tables& tables) {
   if (!table) return tl::unexpected(table.error());
   std::vector<ExcursionNorm> norms;
   for (std::size_t r = 0; r < table->row.size(); ++r) {
-    std::array<double, 3> v{};
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const auto read = value(*table, r, names[i]);
-      if (!read) return tl::unexpected(read.error());
-      v[i] = *read;
-    }
-    norms.push_back({v[0], v[1], v[2]});
+    const auto v = row_values(*table, r, names);
+    if (!v) return tl::unexpected(v.error());
+    norms.push_back({(*v)[0], (*v)[1], (*v)[2]});
   }
   std::ranges::sort(norms, {}, &ExcursionNorm::speed_m_s);
   return norms;

@@ -19,13 +19,6 @@ bool is_argument(const Option& option) {
   return !option.name.starts_with("-");
 }
 
-std::vector<Option> all_options(const Program& program, const Subcommand& command) {
-  std::vector<Option> all = command.options;
-  all.insert(all.end(), program.options.begin(), program.options.end());
-  all.push_back(help_option);
-  return all;
-}
-
 /// Each of `marks` with a backslash before it.
 std::string escaped(std::string_view text, std::string_view marks) {
   std::string out;
@@ -37,7 +30,7 @@ std::string escaped(std::string_view text, std::string_view marks) {
 }
 
 /// In single quotes, as bash and zsh read them.
-std::string quoted(std::string_view text) {
+std::string shell_quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
@@ -70,17 +63,18 @@ std::string bash_command(const Program& program, const Subcommand& command) {
       if (words.empty()) {
         files.push_back(name);
       } else {
-        values += fmt::format("        {}) words={} ;;\n", name, quoted(fmt::format("{}", fmt::join(words, " "))));
+        values +=
+            fmt::format("        {}) words={} ;;\n", name, shell_quoted(fmt::format("{}", fmt::join(words, " "))));
       }
     }
   }
   std::string text = fmt::format("    {})\n      case $before in\n", command.name);
   if (!files.empty()) text += fmt::format("        {}) return ;;  # a file, or a number\n", fmt::join(files, "|"));
   text += values;
-  const std::string options = quoted(fmt::format("{}", fmt::join(names, " ")));
+  const std::string options = shell_quoted(fmt::format("{}", fmt::join(names, " ")));
   if (has_arguments) {
     text += fmt::format("        *)\n          words={}\n          case $word in -*) words={} ;; esac ;;\n",
-                        quoted(arguments), options);
+                        shell_quoted(arguments), options);
   } else {
     text += fmt::format("        *) words={} ;;\n", options);
   }
@@ -94,7 +88,7 @@ std::string zsh_value(const Option& option) {
 
 /// One line of _arguments.
 std::string zsh_option(const Option& option) {
-  if (is_argument(option)) return quoted(fmt::format("*:{}:{}", option.name, zsh_value(option)));
+  if (is_argument(option)) return shell_quoted(fmt::format("*:{}:{}", option.name, zsh_value(option)));
   const auto names = split(option.name, ',');
   const std::string help = fmt::format("[{}]", escaped(option.help, "[]:\\"));
   const bool again = std::holds_alternative<std::vector<std::string>*>(option.target);
@@ -104,7 +98,7 @@ std::string zsh_option(const Option& option) {
   std::vector<std::string> lines;
   lines.reserve(names.size());
   for (const std::string& name : names)
-    lines.push_back(quoted(fmt::format("{}{}{}{}{}", others, name, sign, help, value)));
+    lines.push_back(shell_quoted(fmt::format("{}{}{}{}{}", others, name, sign, help, value)));
   return fmt::format("{}", fmt::join(lines, " "));
 }
 
@@ -138,8 +132,8 @@ std::string bash_completion(const Program& program) {
       "  case $command in\n"
       "    '') words={1} ;;\n",
       program.name,
-      quoted(fmt::format("{} --version {}", fmt::join(command_names(program), " "),
-                         fmt::join(split(help_option.name, ','), " "))));
+      shell_quoted(fmt::format("{} --version {}", fmt::join(command_names(program), " "),
+                               fmt::join(split(help_option.name, ','), " "))));
   for (const Subcommand& command : program.commands) text += bash_command(program, command);
   return text + fmt::format(
                     "  esac\n"
@@ -161,7 +155,7 @@ std::string zsh_completion(const Program& program) {
       "      local -a subcommands=(\n",
       program.name, zsh_option(help_option));
   for (const Subcommand& command : program.commands)
-    text += fmt::format("        {}\n", quoted(command.name + ":" + escaped(command.about, "\\")));
+    text += fmt::format("        {}\n", shell_quoted(command.name + ":" + escaped(command.about, "\\")));
   text += "      )\n      _describe subcommand subcommands ;;\n    option)\n      case $line[1] in\n";
   for (const Subcommand& command : program.commands) {
     text += fmt::format("        {})\n          _arguments", command.name);

@@ -112,30 +112,29 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   choice.method = Method::none;
   auto done = everybody([&](Entity human) { return simulation.add_leg_muscles(human, choice); });
   if (!done) return tl::unexpected(done.error());
+  const auto change_all = [&] {
+    return everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
+  };
   us = meter(named({"leg frames", "lines of action"}), &systems);
   add("lines of action", "where muscles run, how long they are", "kinematics; add_leg_muscles()", us, systems);
 
   choice.line_motion = true;
-  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
-  if (!done) return tl::unexpected(done.error());
+  if (done = change_all(); !done) return tl::unexpected(done.error());
   us = meter(named({"line motion"}), &systems);
   add("line motion", "lengthening speed and moment arms (nothing to see)", "lines; LegMuscles::line_motion", us,
       systems);
   choice.line_motion = false;
   choice.activation = ExcitationSource::phase;
-  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
-  if (!done) return tl::unexpected(done.error());
+  if (done = change_all(); !done) return tl::unexpected(done.error());
   us = meter(named({"activation"}), &systems);
   add("activation", "muscles pull as the walk asks, tendons stretch", "lines; LegMuscles::activation", us, systems);
   for (const Entity human : people) simulation.add_forces(human);
   choice.activation = ExcitationSource::moments;
-  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
-  if (!done) return tl::unexpected(done.error());
+  if (done = change_all(); !done) return tl::unexpected(done.error());
   us = meter(named({"leg moments"}), &systems);
   add("moments", "muscles share the walk's own moments as costs them least", "activation; forces", us, systems);
   choice.activation = ExcitationSource::none;
-  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
-  if (!done) return tl::unexpected(done.error());
+  if (done = change_all(); !done) return tl::unexpected(done.error());
   for (const Entity human : people) simulation.remove_forces(human);
 
   const auto set_all = [&](std::size_t rung, bool points, bool tuned = false) {
@@ -174,8 +173,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   const double points_us = us;
   choice.method = Method::none;
   choice.finite_shape = true;
-  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
-  if (!done) return tl::unexpected(done.error());
+  if (done = change_all(); !done) return tl::unexpected(done.error());
   if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
   settle();
   us = meter(named({"finite shape, reduced"}), &systems) - points_us;  // it places them too
@@ -184,8 +182,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   choice.finite_shape = false;
   choice.activation = ExcitationSource::phase;
   choice.method = Method::none;
-  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
-  if (!done) return tl::unexpected(done.error());
+  if (done = change_all(); !done) return tl::unexpected(done.error());
   if (done = set_all(shown_rung, false, true); !done) return tl::unexpected(done.error());
   settle();
   us = meter(deforms, &systems) - moving_us;
@@ -195,8 +192,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   choice.finite_shape.reset();
   choice.activation = ExcitationSource::none;
   choice.method = Method::none;
-  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
-  if (!done) return tl::unexpected(done.error());
+  if (done = change_all(); !done) return tl::unexpected(done.error());
   if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
   settle();
 
@@ -219,8 +215,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   if (done = set_all(shown_rung, false); !done) return tl::unexpected(done.error());
   choice.inertia = true;
   choice.method = Method::none;
-  done = everybody([&](Entity one) { return simulation.change_leg_muscles(one, choice); });
-  if (!done) return tl::unexpected(done.error());
+  if (done = change_all(); !done) return tl::unexpected(done.error());
   if (done = set_all(shown_rung, false); !done) return tl::unexpected(done.error());
   settle();
   us = meter(named({"frame motion"}), &systems) + meter(deforms) - moving_us;

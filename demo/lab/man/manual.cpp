@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <iterator>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "demo/program/units.h"
@@ -30,39 +32,22 @@ std::uint32_t code_point(std::string_view text, std::size_t& at) {
   return code;
 }
 
+constexpr std::pair<char, std::string_view> escapes[] = {
+    {'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}, {'"', "\\(dq"}};
+
 /// Text as troff prints it: what it would take for its own is written out, and hyphens are those that shells know.
 std::string plain(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
     const std::uint32_t code = code_point(text, at);
-    switch (code) {
-      case '\\':
-        out += "\\e";
-        break;
-      case '-':
-        out += "\\-";
-        break;
-      case '\'':
-        out += "\\(aq";
-        break;
-      case '`':
-        out += "\\(ga";
-        break;
-      case '^':
-        out += "\\(ha";
-        break;
-      case '~':
-        out += "\\(ti";
-        break;
-      case '"':
-        out += "\\(dq";
-        break;
-      default:
-        if (code < 0x80) {
-          out += static_cast<char>(code);
-        } else {
-          out += fmt::format("\\[u{:04X}]", code);
-        }
+    const auto escape =
+        std::ranges::find_if(escapes, [&](const auto& one) { return one.first == static_cast<char>(code); });
+    if (code >= 0x80) {
+      out += fmt::format("\\[u{:04X}]", code);
+    } else if (escape != std::end(escapes)) {
+      out += escape->second;
+    } else {
+      out += static_cast<char>(code);
     }
   }
   return out;
@@ -145,13 +130,6 @@ std::string synopsis(const Program& program, const Subcommand& command) {
   for (const Option& option : command.options)
     if (!option.name.starts_with("-")) line += fmt::format(" [\\fI{}\\fR...]", plain(option.name));
   return line + "\n";
-}
-
-std::vector<Option> all_options(const Program& program, const Subcommand& command) {
-  std::vector<Option> all = {help_option};
-  all.insert(all.end(), command.options.begin(), command.options.end());
-  all.insert(all.end(), program.options.begin(), program.options.end());
-  return all;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "assets/fem/element_size.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
+#include "demo/program/choice.h"
 #include "demo/program/units.h"
 
 namespace mobil {
@@ -69,15 +70,6 @@ Result<Grading> parse_grading(const std::string& text) {
                           text.substr(0, 60)));
 }
 
-/// The place of `text` among the names of an enumeration.
-template <class E, class Names>
-Result<E> choose(std::string_view option, const std::string& text, const Names& names) {
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found != names.end()) return static_cast<E>(found - names.begin());
-  return fail(
-      fmt::format("{} '{}' is not available; choose one of {}", option, text.substr(0, 60), fmt::join(names, ", ")));
-}
-
 /// The mass that a method takes, where nothing or the right thing was asked for.
 Result<Mass> choose_mass(Method method, const std::string& text) {
   const Mass own = method == Method::icd || method == Method::caa ? Mass::consistent : Mass::lumped;
@@ -105,26 +97,21 @@ struct Choices {
 };
 
 Result<Choices> read_choices(const MuscleText& text) {
-  const auto chosen = choose<std::size_t>("--method", text.method, moving_methods);
-  if (!chosen) return tl::unexpected(chosen.error());
-  const Result<Method> method = moving_method[*chosen];
-  const auto mass = choose_mass(*method, text.mass);
-  if (!mass) return tl::unexpected(mass.error());
-  const auto element = choose<Element>("--element", text.element, element_name);
-  if (!element) return tl::unexpected(element.error());
-  const auto precision = choose<std::size_t>("--precision", text.precision, precisions);
-  if (!precision) return tl::unexpected(precision.error());
-  if (*method == Method::reduced && *precision == 1) {
-    return fail("--precision double has no reduced method; its steps are exact, leave the option out");
-  }
-  if (*method == Method::finite && *element == Element::bbar)
-    return fail("--method finite has elements of one point; leave --element bbar out, or take another method");
-  if (*method == Method::finite && *precision == 1)
-    return fail("--precision double has no finite method; leave the option out, or take ecd, icd, caa or static");
-  if (*method != Method::reduced && !text.glb.empty()) {
-    return fail("--glb writes the vectors of --method reduced; add that, or leave --glb out");
-  }
-  return Choices{*method, *mass, *element, *precision == 1};
+  OptionReader read;
+  Choices c{};
+  c.method = moving_method[read(choose<std::size_t>("--method", text.method, moving_methods))];
+  c.mass = read(choose_mass(c.method, text.mass));
+  c.element = read(choose<Element>("--element", text.element, element_name));
+  c.in_double = read(choose<std::size_t>("--precision", text.precision, precisions)) == 1;
+  if (c.method == Method::reduced && c.in_double)
+    read.refuse("--precision double has no reduced method; its steps are exact, leave the option out");
+  if (c.method == Method::finite && c.element == Element::bbar)
+    read.refuse("--method finite has elements of one point; leave --element bbar out, or take another method");
+  if (c.method == Method::finite && c.in_double)
+    read.refuse("--precision double has no finite method; leave the option out, or take ecd, icd, caa or static");
+  if (c.method != Method::reduced && !text.glb.empty())
+    read.refuse("--glb writes the vectors of --method reduced; add that, or leave --glb out");
+  return read.result(c);
 }
 
 /// Whether a factorised operator is needed.
@@ -141,39 +128,30 @@ Result<MuscleTemplate> make_template(const MuscleText& text, const Choices& choi
       return fail(ok.error().message + "; --precision double has no such limit");
     }
   }
-  const auto size = read_value("--cell-size", text.cell_size, Quantity::length, 1e-4, 1);
-  if (!size) return tl::unexpected(size.error());
-  const auto young = read_value("--young", text.young, Quantity::pressure);
-  if (!young) return tl::unexpected(young.error());
-  const auto poisson = read_value("--poisson", text.poisson, Quantity::ratio);
-  if (!poisson) return tl::unexpected(poisson.error());
-  const auto density = read_value("--density", text.density, Quantity::density);
-  if (!density) return tl::unexpected(density.error());
-  const auto damping = read_value("--damping", text.damping, Quantity::rate, 0, 1000);
-  if (!damping) return tl::unexpected(damping.error());
-  const auto stiffness_damping = read_value("--stiffness-damping", text.stiffness_damping, Quantity::time, 0, 1);
-  if (!stiffness_damping) return tl::unexpected(stiffness_damping.error());
-  if (choices.method == Method::finite && *stiffness_damping > 0)
-    return fail("--method finite is damped by --damping alone; leave --stiffness-damping out, or take --method ecd");
-  const auto foundation = read_value("--foundation", text.foundation, Quantity::frequency, 0, 1000);
-  if (!foundation) return tl::unexpected(foundation.error());
-  const auto grading = parse_grading(text.grading);
-  if (!grading) return tl::unexpected(grading.error());
-  auto mesh = make_block(*cells, *size, *grading);
-  if (!mesh) return tl::unexpected(mesh.error());
+  OptionReader read;
+  const double size_m = read(read_value("--cell-size", text.cell_size, Quantity::length, 1e-4, 1));
+  const double young = read(read_value("--young", text.young, Quantity::pressure));
+  const double poisson = read(read_value("--poisson", text.poisson, Quantity::ratio));
+  const double density = read(read_value("--density", text.density, Quantity::density));
   MuscleOptions options;
   options.far_end = FarEnd::free;
-  options.damping_per_s = *damping;
+  options.damping_per_s = read(read_value("--damping", text.damping, Quantity::rate, 0, 1000));
   options.lowest_ratio = options.highest_ratio = 1;
   options.element = choices.element;
   options.mass = choices.mass;
-  options.stiffness_damping_s = *stiffness_damping;
-  options.foundation_hz = *foundation;
+  options.stiffness_damping_s = read(read_value("--stiffness-damping", text.stiffness_damping, Quantity::time, 0, 1));
+  if (choices.method == Method::finite && options.stiffness_damping_s > 0)
+    read.refuse("--method finite is damped by --damping alone; leave --stiffness-damping out, or take --method ecd");
+  options.foundation_hz = read(read_value("--foundation", text.foundation, Quantity::frequency, 0, 1000));
+  const auto grading = read.result(read(parse_grading(text.grading)));
+  if (!grading) return tl::unexpected(grading.error());
+  auto mesh = make_block(*cells, size_m, *grading);
+  if (!mesh) return tl::unexpected(mesh.error());
   if (choices.method == Method::finite) {
     options.strain = Strain::finite;
     options.element = Element::one_point;
   }
-  return make_muscle_template(std::move(*mesh), Material{*density, *young, *poisson}, options);
+  return make_muscle_template(std::move(*mesh), Material{density, young, poisson}, options);
 }
 
 double limit_of(const MuscleTemplate& muscle) {

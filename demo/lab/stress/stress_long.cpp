@@ -32,7 +32,7 @@ Result<void> stress_energy_single(StressRun& run) {
     bellies.tick({FarEnd::held, still}, at_once, at_once * dt);
     for (std::size_t l = 0; l < lane_count; ++l) {
       const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
-      if (!(change <= worst)) worst = change;
+      keep_worst(worst, change);
     }
     if (done < 0.1 * steps) after_a_tenth = worst;
     if (static_cast<std::uint64_t>(done) % 50000 == 0) run.progress(done / steps);

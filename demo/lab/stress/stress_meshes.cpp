@@ -63,7 +63,7 @@ double patch_residual(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
     });
     for (std::size_t r = 0; r < 3; ++r) {
       const double part = std::fabs(force[r]) / size[r];
-      if (!(part <= worst)) worst = part;
+      keep_worst(worst, part);
     }
   });
   return worst;

@@ -1,4 +1,4 @@
-// Far from the origin, for a day, in ticks of any length, asleep and awake by turns.
+// Far from the origin, for a day, in ticks of any length.
 
 #include <fmt/format.h>
 
@@ -156,57 +156,6 @@ Result<void> stress_ticks(StressRun& run) {
                 worst_m,
                 "twice what this walk shows at 60 ticks a second; steps within a tick stay below critical ones");
   }
-  return {};
-}
-
-Result<void> stress_sleep(StressRun& run) {
-  constexpr int people = 24;
-  const int rounds = run.quick ? 6 : 60;
-  Simulation awake, drowsy;
-  std::vector<Entity> walks, sleeps;
-  for (int i = 0; i < people; ++i) {
-    const float speed = 0.8F + 0.04F * static_cast<float>(i);
-    const auto a = walker(awake, speed, false), b = walker(drowsy, speed, false);
-    if (!a || !b) return tl::unexpected((a ? b : a).error());
-    walks.push_back(*a);
-    sleeps.push_back(*b);
-  }
-  for (int tick = 0; tick < 300; ++tick) {
-    awake.tick();
-    drowsy.tick();
-  }
-  std::size_t slept = 0, different = 0;
-  for (int round = 0; round < rounds; ++round) {
-    const auto fell = drowsy.sleep(sleeps);
-    if (!fell) return tl::unexpected(fell.error());
-    slept += *fell;
-    const int ticks = 1 + 17 * round % 200;
-    for (int tick = 0; tick < ticks; ++tick) {
-      if (tick == ticks / 2 && round % 2 == 0) {
-        const std::size_t who = static_cast<std::size_t>(7 * round % people);
-        const float heading = 0.1F * static_cast<float>(round % 40 - 20);
-        if (auto done = awake.turn_to(walks[who], heading); !done) return done;
-        if (auto done = drowsy.turn_to(sleeps[who], heading); !done) return done;
-      }
-      awake.tick();
-      drowsy.tick();
-    }
-    if (auto done = drowsy.wake(sleeps); !done) return done;
-    for (int tick = 0; tick < 200; ++tick) {  // until turns are done and everybody may sleep again
-      awake.tick();
-      drowsy.tick();
-    }
-    for (std::size_t i = 0; i < people; ++i) {
-      different += different_words(human_words(awake, walks[i]), human_words(drowsy, sleeps[i]));
-    }
-    run.progress(round / static_cast<double>(rounds));
-  }
-  const std::string tried = fmt::format("{} people asleep and awake {} times, some turned meanwhile", people, rounds);
-  run.at_most(tried, "words that differ from those of people who never slept", 0, static_cast<double>(different),
-              "a sleeper's walk is a function of its ticks");
-  run.at_least(tried, "of them fell asleep when asked", 0.9,
-               static_cast<double>(slept) / (static_cast<double>(people) * rounds),
-               "all but those who are still turning");
   return {};
 }
 

@@ -1,11 +1,9 @@
-// Relevance under cameras that flicker and budgets of nothing; and one bad person among ten thousand.
+// Relevance under cameras that flicker and budgets of nothing.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,7 +11,6 @@
 #include <mobil/relevance.h>
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
-#include "systems/simulation_world.h"
 
 namespace mobil {
 namespace {
@@ -89,51 +86,6 @@ Result<void> stress_relevance(StressRun& run) {
     run.at_least(scene.name, "people with a pose", static_cast<double>(crowd), static_cast<double>(there),
                  "awake, compact or asleep, everybody is somewhere");
     run.progress(++part / static_cast<double>(scenes.size()));
-  }
-  return {};
-}
-
-Result<void> stress_many(StressRun& run) {
-  const int crowd = run.quick ? 1000 : 10000, ticks = 60;
-  Simulation sound;
-  const auto people = rows_of_walkers(sound, crowd);
-  if (!people) return tl::unexpected(people.error());
-  for (int tick = 0; tick < ticks; ++tick) sound.tick();
-  struct Bad {
-    const char* name;
-    void (*make)(Simulation&, Entity);
-  };
-  constexpr std::array all = {Bad{"a step whose length is NaN",
-                                  [](Simulation& simulation, Entity human) {
-                                    auto plan = *simulation.get<StepPlan>(human);
-                                    plan.step_length_m = std::numeric_limits<float>::quiet_NaN();
-                                    world_of(simulation).set(human, plan);
-                                  }},
-                              Bad{"a heading that is infinite",
-                                  [](Simulation& simulation, Entity human) {
-                                    auto state = *simulation.get<GaitState>(human);
-                                    state.heading_rad = std::numeric_limits<float>::infinity();
-                                    world_of(simulation).set(human, state);
-                                  }},
-                              Bad{"a height that is NaN", [](Simulation& simulation, Entity human) {
-                                    auto size = *simulation.get<BodySize>(human);
-                                    size.height_m = std::numeric_limits<float>::quiet_NaN();
-                                    world_of(simulation).set(human, size);
-                                  }}};
-  for (const Bad& bad : all) {
-    Simulation simulation;
-    const auto members = rows_of_walkers(simulation, crowd);
-    if (!members) return tl::unexpected(members.error());
-    const std::size_t sick = members->size() / 3;
-    bad.make(simulation, (*members)[sick]);
-    for (int tick = 0; tick < ticks; ++tick) simulation.tick();
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < members->size(); ++i) {
-      if (i != sick) different += different_words(row_words(sound, (*people)[i]), row_words(simulation, (*members)[i]));
-    }
-    run.at_most(fmt::format("one of {} people has {}", crowd, bad.name),
-                "words of the others that are not the same bits, a second later", 0, static_cast<double>(different),
-                "lanes never meet");
   }
   return {};
 }

@@ -34,12 +34,6 @@ void add_row(const World& world, Entity entity, bool with_handles, std::vector<s
 
 }  // namespace
 
-std::vector<std::uint32_t> row_words(const Simulation& simulation, Entity entity) {
-  std::vector<std::uint32_t> words;
-  add_row(simulation.world(), entity, false, words);
-  return words;
-}
-
 std::vector<std::uint32_t> human_words(const Simulation& simulation, Entity human) {
   std::vector<std::uint32_t> words;
   add_row(simulation.world(), human, false, words);

@@ -9,10 +9,7 @@
 
 namespace mobil {
 
-/// Every word of one entity's row but handles, its own or others'.
-std::vector<std::uint32_t> row_words(const Simulation& simulation, Entity entity);
-
-/// Of a person: their row, then their muscles'.
+/// Every word of a person's row but handles, then of their muscles' rows.
 std::vector<std::uint32_t> human_words(const Simulation& simulation, Entity human);
 
 /// Of all there is, table by table, with handles.

@@ -176,16 +176,16 @@ Result<void> bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
   return {};
 }
 
-}  // namespace
-
-BenchResult& add_step_time(BenchRun& run, const std::string& stem, const Measured& time, double muscles, double steps,
-                           const Cells& cells) {
-  BenchResult& result = run.add_time(stem + ".us_per_step", time, muscles * steps, 1e-6, "us");
+/// Adds the time of one muscle's step from that of all muscles' steps of a tick, and its share of the peak.
+void add_step_time(BenchRun& run, const std::string& stem, const Measured& time, const Cells& cells) {
+  constexpr double steps = static_cast<double>(crowd_blocks * lane_count) * steps_a_tick;
+  BenchResult& result = run.add_time(stem + ".us_per_step", time, steps, 1e-6, "us");
   const double useful = useful_multiply_adds(cells);
   result.of_peak = 2 * useful / (result.value * 1e-6) * 1e-9 / run.machine.fma_peak_gflops;
   result.bound = fmt::format("{:.0f} useful multiply-adds", useful);
-  return result;
 }
+
+}  // namespace
 
 Result<void> bench_fem(BenchRun& run) {
   const FlushDenormals flushed;
@@ -200,14 +200,12 @@ Result<void> bench_fem(BenchRun& run) {
   const auto found = compare(run, *muscle, with_rivals);
   if (!found) return tl::unexpected(found.error());
   const Measured shared = found->shared.all(), individual = found->individual.all();
-  constexpr auto muscles = static_cast<double>(crowd_blocks * lane_count);
-  add_step_time(run, "fem.ecd81.shared", shared, muscles, steps_a_tick, cells);
-  add_step_time(run, "fem.ecd81.individual", individual, muscles, steps_a_tick, cells);
+  add_step_time(run, "fem.ecd81.shared", shared, cells);
+  add_step_time(run, "fem.ecd81.individual", individual, cells);
   run.add_figure("fem.ecd81.individual_over_shared", individual.best_s / shared.best_s, "1",
                  "everybody's own length and section against one stiffness for all");
   if (with_rivals) add_rivals(run, *muscle, *found);
   if (auto done = bench_two_threads(run, *muscle); !done) return done;
-  if (auto done = bench_fem_meshes(run); !done) return done;
   return bench_fem_implicit(run);
 }
 

@@ -7,12 +7,6 @@
 
 namespace mobil {
 
-/// Adds the time of one muscle's step from that of `steps` steps of `muscles`, and its share of the peak.
-BenchResult& add_step_time(BenchRun& run, const std::string& stem, const Measured& time, double muscles, double steps,
-                           const Cells& cells);
-
-/// ECD on 99, 425, 525, 2673 and 3321 nodes.
-Result<void> bench_fem_meshes(BenchRun& run);
 /// CAA, ICD and static on 81 nodes.
 Result<void> bench_fem_implicit(BenchRun& run);
 

@@ -7,17 +7,16 @@
 
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
-#include "systems/deformation/finite.h"
 
 namespace mobil {
 
-Result<MuscleTemplate> paper_block(const Cells& cells, Strain strain) {
+Result<MuscleTemplate> paper_block(const Cells& cells) {
   constexpr double side_m = 0.03, length_m = 0.12;
   auto mesh = make_block(cells, side_m / cells[0]);
   if (!mesh) return tl::unexpected(mesh.error());
   const double stretch = length_m / mesh->node.back().z;
   for (Vec3<double>& node : mesh->node) node.z *= stretch;
-  return make_muscle_template(std::move(*mesh), {}, {.far_end = FarEnd::free, .strain = strain});
+  return make_muscle_template(std::move(*mesh), {}, {.far_end = FarEnd::free});
 }
 
 double paper_limit_s(const MuscleTemplate& muscle, Mass mass) {
@@ -77,9 +76,7 @@ void BenchBellies::tick_block(std::size_t b, std::uint32_t substeps, float tick_
       muscle_, block.scale, block.displacement.data()->lane, block.velocity.data()->lane, unused, stiffness_,
       nullptr, false};
   float* const scratch = block.scratch.empty() ? nullptr : block.scratch.data()->lane;
-  if (muscle_.options.strain == Strain::finite) {
-    deform_finite(bellies, end, nullptr, substeps, tick_s, scratch);
-  } else if (solver == nullptr) {
+  if (solver == nullptr) {
     deform_explicit(bellies, end, substeps, tick_s, scratch);
   } else {
     deform_implicit(bellies, *solver, end, substeps, tick_s, scratch);

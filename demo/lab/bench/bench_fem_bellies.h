@@ -21,7 +21,7 @@ inline constexpr float paper_tick_s = 0.016F;
 inline constexpr std::size_t crowd_blocks = 64;  // 1024 muscles
 
 /// The paper's body (30 × 30 × 120 mm, its material, a free far face) in so many elements; 2×2×8 are 15 mm cubes.
-Result<MuscleTemplate> paper_block(const Cells& cells, Strain strain = Strain::small);
+Result<MuscleTemplate> paper_block(const Cells& cells);
 double paper_limit_s(const MuscleTemplate& muscle, Mass mass = Mass::lumped);
 
 /// Multiply-adds of one step's K·u without clamped rows and columns: 9702 on 81 nodes.
@@ -37,8 +37,7 @@ class BenchBellies {
   /// with Stiffness::shared all are. Each is pulled a little more than the one before.
   BenchBellies(const MuscleTemplate& muscle, Stiffness stiffness, std::size_t blocks);
 
-  /// One tick of everybody, or of one block: by ECD (where the template is of finite strain, that), or by the method of
-  /// `solver`. Nobody asks for a BellyReport.
+  /// One tick of everybody, or of one block: by ECD or by the method of `solver`. Nobody asks for a BellyReport.
   void tick(std::uint32_t substeps, float tick_s, const BellySolver* solver = nullptr);
   void tick_block(std::size_t block, std::uint32_t substeps, float tick_s, const BellySolver* solver = nullptr);
 

@@ -11,7 +11,6 @@
 #include <mobil/assets/files/output_file.h>
 #include <mobil/muscle_table.h>
 #include "demo/lab/frontier/frontier.h"
-#include "demo/lab/frontier/frontier_finite.h"
 #include "demo/lab/frontier/frontier_living.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
@@ -27,20 +26,17 @@ struct FrontierText {
 Result<void> run_finite(const std::string& out) {
   auto results = OutputFolder::make(out);
   if (!results) return tl::unexpected(results.error());
-  const auto shapes = measure_finite(&show_part);
-  if (!shapes) return tl::unexpected(shapes.error());
   std::vector<Muscle> all;
   for (std::size_t m = 0; m < muscles().size(); ++m) all.push_back(static_cast<Muscle>(m));
   const auto living = measure_living(all, &show_part);
   show("");
   if (!living) return tl::unexpected(living.error());
   const auto& folder = results->inside();
-  if (auto done = write_file(folder / "finite.csv", finite_csv(*shapes)); !done) return done;
   if (auto done = write_file(folder / "living.csv", living_csv(*living)); !done) return done;
   if (auto done = write_file(folder / "living.svg", svg(living_figure(*living))); !done) return done;
   if (auto done = results->put(); !done) return done;
-  fmt::print("{}\n{}", finite_text(*shapes), living_text(*living));
-  say_where(fmt::format("\nwritten {}: finite.csv living.csv living.svg", out));
+  fmt::print("{}", living_text(*living));
+  say_where(fmt::format("\nwritten {}: living.csv living.svg", out));
   return {};
 }
 
@@ -94,8 +90,7 @@ Subcommand frontier_command() {
        "kind of load"},
       {"--finite", &text->finite,
        "Instead: what accuracy costs where muscles pull and are shaken, against tissue that keeps its volume "
-       "(finite.csv, "
-       "living.csv, living.svg): four minutes"},
+       "(living.csv, living.svg): three minutes"},
       {"--out", &text->out, "Folder for frontier.csv and .svg, made if missing"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("frontier", run_frontier(*text)); };

@@ -1,5 +1,5 @@
 #pragma once
-// `mobil frontier --finite`, its second part: what accuracy costs where muscles pull and are shaken. Each way to move
+// `mobil frontier --finite`: what accuracy costs where muscles pull and are shaken. Each way to move
 // and show a belly is held against tissue at finite strain whose fibres pull.
 
 #include <span>

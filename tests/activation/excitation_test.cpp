@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <string>
@@ -52,10 +53,12 @@ TEST(Excitation, WhoStandsHasAStandingTone) {
 TEST(Excitation, GrowsEvenlyWithSpeed) {
   for (const MemberMuscle& muscle : member_muscles()) {
     const MemberExcitation of = member_excitation(muscle);
-    for (double cycle = 0; cycle < 1; cycle += 0.01) {
-      for (double speed = 0; speed < 0.8; speed += 0.001) {
-        const double step = excitation(of, cycle, speed + 0.001) - excitation(of, cycle, speed);
-        ASSERT_LT(std::abs(step), 0.008) << muscle.name << " at " << cycle << ", " << speed;
+    for (double cycle = 0; cycle < 1; cycle += std::getenv("MOBIL_LONG") != nullptr ? 0.01 : 0.04) {
+      double before = excitation(of, cycle, 0);
+      for (double speed = 0.001; speed < 0.8; speed += 0.001) {
+        const double now = excitation(of, cycle, speed);
+        ASSERT_LT(std::abs(now - before), 0.008) << muscle.name << " at " << cycle << ", " << speed;
+        before = now;
       }
     }
   }

@@ -352,10 +352,7 @@ TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
     }
     if (!reseal_snapshot(bytes) || !room.simulation.restore(bytes)) continue;
     ++taken;
-    for (int t = 0; t < 4; ++t) {
-      room.avoidance.update();
-      room.simulation.tick();
-    }
+    for (int t = 0; t < 4; ++t) room.avoidance.update(), room.simulation.tick();
   }
   EXPECT_GT(taken, 20U);
   ASSERT_TRUE(room.simulation.restore(good));

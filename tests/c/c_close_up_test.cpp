@@ -56,11 +56,7 @@ struct Shown {
     auto to = filled<mobil_surface_target>(MOBIL_SURFACE_TARGET);
     to.id = ids[0];
     to.surfaces = surfaces;
-    to.positions = out.data();
-    to.normals = out.data() + 3;
-    to.position_stride = to.normal_stride = 24;
-    to.position_bytes = out.size() * sizeof(float);
-    to.normal_bytes = to.position_bytes - 12;
+    aim(to, out, true);
     return to;
   }
 
@@ -129,10 +125,9 @@ Leg leg_of(const BodySkin& skin, const mobil_options& options) {
     if (mirrored) std::swap(leg.index.end()[-1], leg.index.end()[-2]);
   }
   // Of the same buffer as the rest of a scan: no triangle names it.
-  if (options.axes == MOBIL_AXES_UNREAL)
-    leg.position.insert(leg.position.end(), {0, 0, 170});
-  else
-    leg.position.insert(leg.position.end(), {0, 1.7F, 0});
+  const std::array<float, 3> above =
+      options.axes == MOBIL_AXES_UNREAL ? std::array{0.0F, 0.0F, 170.0F} : std::array{0.0F, 1.7F, 0.0F};
+  leg.position.insert(leg.position.end(), above.begin(), above.end());
   return leg;
 }
 
@@ -168,20 +163,15 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesWithTheBodys) {
     std::vector<float> out(6 * vertices);
     auto target = filled<mobil_skin_target>(MOBIL_SKIN_TARGET);
     target.id = id;
-    target.positions = out.data();
-    target.normals = out.data() + 3;
-    target.position_stride = target.normal_stride = 24;
-    target.position_bytes = out.size() * sizeof(float);
-    target.normal_bytes = target.position_bytes - 12;
+    aim(target, out, true);
     ASSERT_EQ(mobil_write_own_skin(sim, own, &target, 0, 1), MOBIL_OK) << sim.message();
     // Where the body's skin is, which it was cut out of, but for what hangs over the cut.
     std::vector<float> body(3 * mobil_skin_vertex_count(MOBIL_MAN, MOBIL_NEAR));
     auto of_body = target;
     of_body.detail = MOBIL_NEAR;
     of_body.normals = nullptr;
-    of_body.positions = body.data();
     of_body.position_stride = 0;
-    of_body.position_bytes = body.size() * sizeof(float);
+    aim(of_body, body, false);
     ASSERT_EQ(mobil_write_skin(sim, &of_body, 0, 1), MOBIL_OK) << sim.message();
     float furthest = 0;
     int looked = 0;
@@ -248,8 +238,7 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesOverMuscles) {
   auto written = filled<mobil_surface_target>(MOBIL_SURFACE_TARGET);
   written.id = id;
   written.surfaces = surfaces;
-  written.positions = all.data();
-  written.position_bytes = all.size() * sizeof(float);
+  aim(written, all, false);
   ASSERT_EQ(mobil_write_surfaces(sim, &written, 0, 1), MOBIL_OK) << sim.message();
   std::array<std::vector<float>, 2> of_side;
   mobil_part part{};
@@ -272,8 +261,7 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesOverMuscles) {
   std::vector<float> out(3 * mobil_own_skin_vertex_count(own));
   auto target = filled<mobil_skin_target>(MOBIL_SKIN_TARGET);
   target.id = id;
-  target.positions = out.data();
-  target.position_bytes = out.size() * sizeof(float);
+  aim(target, out, false);
   const auto furthest_m = [&](std::size_t from, std::size_t to, float side) {
     EXPECT_EQ(mobil_write_own_skin(sim, own, &target, 0, 1), MOBIL_OK) << sim.message();
     float furthest = 0;

@@ -63,6 +63,19 @@ inline std::vector<mobil_id> spawn(const Sim& sim, std::size_t count, const mobi
   return ids;
 }
 
+/// The same in C++.
+inline std::vector<SpawnRequest> as_requests(const std::vector<mobil_person>& people) {
+  std::vector<SpawnRequest> requests(people.size());
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    requests[i].body.height_m = people[i].height_m;
+    requests[i].body.mass_kg = people[i].mass_kg;
+    requests[i].gait.speed_m_s = people[i].speed_m_s;
+    requests[i].x_m = people[i].place[0];
+    requests[i].heading_rad = people[i].heading_rad;
+  }
+  return requests;
+}
+
 inline mobil_options unreal() {
   auto options = filled<mobil_options>(MOBIL_OPTIONS);
   options.axes = MOBIL_AXES_UNREAL;
@@ -74,13 +87,8 @@ inline mobil_options unreal() {
 struct Twins {
   Twins() : sim(unreal()) {
     std::vector<mobil_person> people = some_people(5);
-    std::vector<SpawnRequest> requests(5);
+    const std::vector<SpawnRequest> requests = as_requests(people);
     for (std::size_t i = 0; i < 5; ++i) {
-      requests[i].body.height_m = people[i].height_m;
-      requests[i].body.mass_kg = people[i].mass_kg;
-      requests[i].gait.speed_m_s = people[i].speed_m_s;
-      requests[i].x_m = static_cast<float>(i);
-      requests[i].heading_rad = people[i].heading_rad;
       people[i].place[0] = 0;
       people[i].place[1] = -100 * static_cast<float>(i);  // y is to the right there
     }
@@ -95,6 +103,17 @@ struct Twins {
   std::vector<mobil_id> ids;
   std::vector<Entity> entities;
 };
+
+/// Positions go to `out`, three floats each; or, with normals, six.
+template <class Target>
+void aim(Target& target, std::vector<float>& out, bool normals) {
+  target.positions = out.data();
+  target.position_bytes = out.size() * sizeof(float);
+  if (!normals) return;
+  target.normals = out.data() + 3;
+  target.position_stride = target.normal_stride = 24;
+  target.normal_bytes = target.position_bytes - 12;
+}
 
 inline mobil_muscles reduced_muscles() {
   auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);

@@ -15,19 +15,6 @@
 namespace mobil::c_test {
 namespace {
 
-/// What some_people are in C++.
-std::vector<SpawnRequest> as_requests(const std::vector<mobil_person>& people) {
-  std::vector<SpawnRequest> requests(people.size());
-  for (std::size_t i = 0; i < people.size(); ++i) {
-    requests[i].body.height_m = people[i].height_m;
-    requests[i].body.mass_kg = people[i].mass_kg;
-    requests[i].gait.speed_m_s = people[i].speed_m_s;
-    requests[i].x_m = people[i].place[0];
-    requests[i].heading_rad = people[i].heading_rad;
-  }
-  return requests;
-}
-
 std::vector<Entity> spawn_in(Simulation& simulation, std::vector<SpawnRequest> requests) {
   std::vector<Entity> people(requests.size());
   EXPECT_TRUE(simulation.spawn(requests, people));

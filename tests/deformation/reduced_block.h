@@ -1,7 +1,6 @@
 #pragma once
 // Sixteen reduced bellies made of random numbers, and what is expected of them.
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -49,7 +48,6 @@ struct ReducedBodies {
   std::array<std::array<double, lane_count>, most_vectors> omega{};
   std::array<std::array<std::array<double, lane_count>, 3 + frame_inputs>, most_vectors> participation{};
   Columns state, motion, shape, displacement;
-  bool streamed = false, hinted = false;
 
   ReducedBodies(std::uint32_t vectors, FarEnd end, bool frame, double damping_per_s, const Cells& cells = {2, 2, 8})
       : damping(damping_per_s) {
@@ -84,15 +82,6 @@ struct ReducedBodies {
     std::uniform_real_distribution<float> even(static_cast<float>(-size), static_cast<float>(size));
     for (auto& lanes : columns) {
       for (float& x : lanes.lane) x = even(random);
-    }
-  }
-
-  void be_all_alike() {
-    for (auto& lanes : shape) lanes.lane[0] = lanes.lane[1];
-    for (auto& lanes : shape) std::ranges::fill(lanes.lane, lanes.lane[0]);
-    for (auto& lanes : omega) lanes.fill(lanes[0]);
-    for (auto& inputs : participation) {
-      for (auto& lanes : inputs) lanes.fill(lanes[0]);
     }
   }
 
@@ -137,10 +126,7 @@ struct ReducedBodies {
   }
 
   ReducedBlock block(const FrameLoad<Lanes<float>>& frame) {
-    ReducedBlock block{basis, scale, state.data()->lane, motion.data()->lane,
-                       basis.options.frame_loads ? &frame : nullptr};
-    if (hinted) block.next_state = block.next_motion = motion.data()->lane;
-    return block;
+    return {basis, scale, state.data()->lane, motion.data()->lane, basis.options.frame_loads ? &frame : nullptr};
   }
 
   /// Which lanes began at rest.
@@ -164,22 +150,6 @@ struct ReducedDrive {
     from = to;
     for (auto& lanes : to) {
       for (float& x : lanes.lane) x = 0.9F * x + even(random);
-    }
-  }
-  ReducedDrive part(int number, int of) const {
-    ReducedDrive part = *this;
-    for (std::size_t i = 0; i < to.size(); ++i) {
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        const float step = (to[i][l] - from[i][l]) / static_cast<float>(of);
-        part.from[i][l] = from[i][l] + static_cast<float>(number) * step;
-        part.to[i][l] = from[i][l] + static_cast<float>(number + 1) * step;
-      }
-    }
-    return part;
-  }
-  void be_all_alike() {
-    for (auto* columns : {&from, &to}) {
-      for (auto& lanes : *columns) std::ranges::fill(lanes.lane, lanes.lane[0]);
     }
   }
 
@@ -217,8 +187,7 @@ inline std::uint32_t ReducedBodies::tick(const ReducedDrive& drive, double tick_
 inline void ReducedBodies::place(const ReducedDrive& drive, bool at_rest) {
   drive.give([&](const FarFaceDrive& end, const FrameLoad<Lanes<float>>& frame) {
     ReducedBlock given = block(frame);
-    const ControlPoints points{shape.data()->lane, displacement.data()->lane, streamed,
-                               hinted ? shape.data()->lane : nullptr};
+    const ControlPoints points{shape.data()->lane, displacement.data()->lane};
     if (!at_rest) return place_control_points(given, points, end);
     given.state = nullptr;
     given.motion = nullptr;

@@ -75,23 +75,6 @@ TEST(Reduced, EveryMotionIsTheClosedForm) {
   }
 }
 
-TEST(Reduced, FreeUndampedMotionKeepsItsEnergy) {
-  ReducedBodies bodies(16, FarEnd::held, false, 0);
-  bodies.write_motion(1.0 / 60);
-  bodies.fill(bodies.state, 3, 1);
-  const std::vector<Lanes<float>> before = bodies.state;
-  const ReducedDrive still(bodies, 1);
-  for (int tick = 0; tick < 3600; ++tick) bodies.tick(still, 1.0 / 60);
-  for (std::size_t j = 0; j < 16; ++j) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const auto energy = [&](const std::vector<Lanes<float>>& state) {
-        return std::hypot(static_cast<double>(state[2 * j][l]), static_cast<double>(state[2 * j + 1][l]));
-      };
-      EXPECT_NEAR(energy(bodies.state) / energy(before), 1, 5e-4) << "motion " << j << " lane " << l;
-    }
-  }
-}
-
 TEST(Reduced, ControlPointsAreTheSumsInDoublePrecision) {
   for (const Kind& kind : kinds()) {
     for (const Cells& cells : {Cells{2, 2, 8}, Cells{1, 1, 2}, Cells{2, 3, 4}}) {

@@ -13,6 +13,7 @@
 
 #include <mobil/schedule.h>
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
 
 MOBIL_TEST_LABELS("threads");
@@ -191,15 +192,8 @@ TEST(EnginePacked, ParkedLanesAreNeverChosen) {
 RC_GTEST_PROP(EnginePacked, TheBitsAreTheSameOnAnyThreadsAndAnyCut, ()) {
   Population people;
   populate(people);
-  std::size_t cut = *rc::gen::inRange<std::size_t>(1, 5);
-  const Jobs backwards{&cut, [](void* user, std::size_t count, Jobs::Body body, void* context) {
-                         const std::size_t step = *static_cast<std::size_t*>(user);
-                         for (std::size_t end = count; end > 0; end -= std::min(step, end)) {
-                           body(context, end - std::min(step, end), end);
-                         }
-                       }};
   const Threads one(1), two(2), three(3);
-  for (const Jobs& jobs : {Jobs{}, backwards, one.jobs(), two.jobs(), three.jobs()}) {
+  for (const Jobs& jobs : {Jobs{}, backwards(), one.jobs(), two.jobs(), three.jobs()}) {
     Population same;
     for (std::size_t i = 0; i < people.all.size(); ++i)
       same.add(people.choice[i].chosen == 1, static_cast<unsigned>(i));

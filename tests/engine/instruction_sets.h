@@ -11,7 +11,7 @@
 
 namespace mobil {
 
-inline constexpr std::int64_t fused_targets = HWY_AVX2 | HWY_AVX3 | HWY_NEON;
+inline constexpr std::int64_t fused_targets = HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL | HWY_NEON;
 
 /// The instruction sets that kernels are compiled for and this machine has: one alone where MOBIL_X86 is `native`.
 inline std::vector<std::int64_t> instruction_sets() {

@@ -1,7 +1,6 @@
 #include "tests/fem/oracle.h"
 
 #include <cmath>
-#include <utility>
 
 #include "assets/reduction/dense.h"
 #include "engine/eigen.h"
@@ -178,26 +177,6 @@ Vector far_shares(const HexahedralMesh& mesh) {
     }
   }
   return share / share.sum();
-}
-
-Belly::Belly(Model m, std::vector<Eigen::Index> free, double damping)
-    : model(std::move(m)),
-      moving(std::move(free)),
-      damping_per_s(damping),
-      before(Vector::Zero(model.lumped.size())),
-      now(before) {}
-
-void Belly::step(const Vector& f, double dt) {
-  const Vector inner = model.stiffness * now;
-  Vector next = now;
-  for (const auto i : moving) {
-    const double m = model.lumped(i);
-    const double rhs =
-        f(i) - inner(i) + m * (2 * now(i) - before(i)) / (dt * dt) + 0.5 * damping_per_s * m * before(i) / dt;
-    next(i) = rhs / (m / (dt * dt) + 0.5 * damping_per_s * m / dt);
-  }
-  before = now;
-  now = next;
 }
 
 Vector solve(const Matrix& symmetric, const Vector& right) {

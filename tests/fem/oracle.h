@@ -53,20 +53,6 @@ double highest_frequency(const Model& model, const std::vector<Eigen::Index>& mo
 /// Equal parts of area per node of the far face for a flat structured face of arbitrary cells: ∫N dA / ∫dA.
 Vector far_shares(const HexahedralMesh& mesh);
 
-/// One belly under explicit central differences, written from the difference equation
-///   M·(uₙ₊₁ − 2uₙ + uₙ₋₁)/Δt² + α·M·(uₙ₊₁ − uₙ₋₁)/(2Δt) + K·uₙ = fₙ.
-struct Belly {
-  Model model;
-  std::vector<Eigen::Index> moving;
-  double damping_per_s;
-  Vector before, now;  // uₙ₋₁, uₙ
-
-  Belly(Model m, std::vector<Eigen::Index> free, double damping);
-
-  /// One step under the nodal load `f`; prescribed displacements are overwritten by the caller afterwards.
-  void step(const Vector& f, double dt);
-};
-
 /// x of A·x = `right` for a symmetric A.
 Vector solve(const Matrix& symmetric, const Vector& right);
 /// Of a symmetric matrix, ascending.

@@ -14,4 +14,11 @@ inline HexahedralMesh spindle(const Cells& cells) {
   return *bend_block(cells, stations, 0.12);
 }
 
+/// Up to 72 mm wide.
+inline HexahedralMesh wide_spindle(const Cells& cells, double length_m = 0.24) {
+  const std::vector<CageStation> stations = {
+      {0, 0, 0, 0.02F, 0.018F}, {0.4F, 0.008F, -0.01F, 0.036F, 0.03F}, {1, 0, 0, 0.014F, 0.012F}};
+  return *bend_block(cells, stations, length_m);
+}
+
 }  // namespace mobil

@@ -1,10 +1,12 @@
 #pragma once
-// A synthetic walk to export, and a viewer that puts a GLB together again.
+// A synthetic walk to export, a viewer that puts a GLB together again, other programs.
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <tiny_gltf.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +24,21 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 inline constexpr double pi = 3.14159265358979323846;
+
+/// What a command says, and how it ends.
+struct Said {
+  int status = -1;
+  std::string text;
+};
+inline Said said_by(const std::string& command) {
+  Said said;
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return said;
+  for (char piece[4096]; std::fgets(piece, sizeof piece, pipe) != nullptr;) said.text += piece;
+  const int status = pclose(pipe);
+  said.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return said;
+}
 
 inline Vec3<float> rounded(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};

@@ -4,13 +4,10 @@
 #include <assimp/anim.h>
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <random>
@@ -28,20 +25,6 @@ using namespace export_fixture;
 
 inline constexpr double near_m = 1e-4;
 inline const std::vector<std::size_t> some_frames = {0, 9, 44};
-
-struct Said {
-  int status = -1;
-  std::string text;
-};
-inline Said said_by(const std::string& command) {
-  Said said;
-  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return said;
-  for (char piece[4096]; std::fgets(piece, sizeof piece, pipe) != nullptr;) said.text += piece;
-  const int status = pclose(pipe);
-  said.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
 
 inline bool has_python() {
   return said_by("python3 --version").status == 0;

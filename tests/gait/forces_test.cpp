@@ -103,17 +103,19 @@ TEST(Forces, StandingIsBalancedByHalfTheWeightUnderEachFoot) {
 
 TEST(Forces, OnBothFeetNothingIsLeftUnbalanced) {
   const auto b = random_people(8);
-  // The trunk swings while somebody who walks is on both feet.
+  // Somebody who walks is on both feet, to one side; then the trunk swings.
+  bool swings = false;
   const auto motion = [&](std::size_t l, double t) {
-    const double height = height_of(*b, l), angle = 0.02 * std::sin(5 * t + static_cast<double>(l));
+    const double height = height_of(*b, l), angle = swings ? 0.02 * std::sin(5 * t + static_cast<double>(l)) : 0;
     Stance s = upright(height);
-    s.pelvis += Vector(0.003 * height * std::sin(4 * t), 0, 0);
+    s.pelvis += Vector(0.003 * height * (swings ? std::sin(4 * t) : 1), 0, 0);
     for (std::size_t i = index(Segment::L5); i <= index(Segment::head); ++i)
       s.rotation[i] = turn(angle, Vector(1, 0, 0.5).normalized());
     return s;
   };
-  for (const float part : {0.2F, 0.5F, 0.8F}) {
-    for (std::size_t l = 0; l < lane_count; ++l) on_one_foot(*b, l, Side::right, 0.2F * part);
+  for (const float part : {0.2F, 0.5F, 0.8F, -0.5F}) {
+    swings = part > 0;
+    for (std::size_t l = 0; l < lane_count; ++l) on_one_foot(*b, l, Side::right, 0.2F * std::fabs(part));
     forces_of(*b, motion, tick);
     for (std::size_t l = 0; l < lane_count; ++l) {
       const double height = height_of(*b, l), mass = mass_of(*b, l), dt = static_cast<double>(tick);
@@ -121,8 +123,8 @@ TEST(Forces, OnBothFeetNothingIsLeftUnbalanced) {
       Vector moment = -angular_rate(
           height, mass, [&](double t) { return motion(l, t); }, dt);
       for (std::size_t side = 0; side < 2; ++side) moment += (b->pressure(l, side) - body).cross(b->force(l, side));
-      EXPECT_NEAR(moment.x(), 0, 6e-3 * weight_of(*b, l));
-      EXPECT_NEAR(moment.z(), 0, 6e-3 * weight_of(*b, l));
+      EXPECT_NEAR(moment.x(), 0, (swings ? 6e-3 : 1e-3) * weight_of(*b, l));
+      EXPECT_NEAR(moment.z(), 0, (swings ? 6e-3 : 1e-3) * weight_of(*b, l));
     }
   }
 }

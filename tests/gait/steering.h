@@ -17,6 +17,7 @@
 #include <mobil/simulation.h>
 
 namespace mobil::steering {
+using geometry::to_double;
 
 /// Numbers that are the same with every library.
 struct Source {
@@ -116,13 +117,6 @@ struct Sample {
   GaitState<float> state;
 };
 
-inline Vec3<double> exact(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-inline Quat<double> exact(const Quat<float>& q) {
-  return {static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z), static_cast<double>(q.w)};
-}
-
 /// The legs' joints come first: hip right, hip left, knees, ankles.
 inline constexpr std::array joint_names = {
     "hip right",     "hip left",    "knee right", "knee left",       "ankle right", "ankle left", "shoulder right",
@@ -179,7 +173,7 @@ class Watch : public Findings {
     walker_ = &walker;
     if (samples_ == 0) {
       const Body body = simulation.human(walker.entity)->body;
-      shank_ = exact(body.joint_offset_m[index(Segment::foot_right)]);
+      shank_ = to_double(body.joint_offset_m[index(Segment::foot_right)]);
       toes_ = static_cast<double>(body.tip_m[index(Segment::toes_right)].z);
     }
     const bool struck = samples_ == 0 || now.state.steps != last_.state.steps || now.state.time_s < last_.state.time_s;
@@ -207,20 +201,20 @@ class Watch : public Findings {
   void place(const Sample& now, double tick_s) {
     const double walk = 0.5 + static_cast<double>(std::max(plan_.from.speed_m_s, plan_.to.speed_m_s));
     for (std::size_t s = 0; s < segment_count; ++s) {
-      const auto p = exact(now.pose.position_m[s]);
+      const auto p = to_double(now.pose.position_m[s]);
       const auto& q = now.pose.rotation[s];
       const bool sound =
           std::isfinite(p.x + p.y + p.z) && std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 1e-4F;
       note(not_finite, sound ? 0 : 1, now, segment_name[s]);
       if (samples_ == 0) continue;
-      const auto moved = geometry::operator-(p, exact(last_.pose.position_m[s]));
+      const auto moved = geometry::operator-(p, to_double(last_.pose.position_m[s]));
       note(origin_speed, geometry::length(moved) / tick_s / walk, now, segment_name[s]);
     }
     for (const Segment foot : {Segment::foot_right, Segment::foot_left}) {
       const std::size_t f = index(foot), s = index(segment_parent[f]);
-      const auto end =
-          geometry::operator+(exact(now.pose.position_m[s]), geometry::rotated(exact(now.pose.rotation[s]), shank_));
-      note(apart, geometry::length(geometry::operator-(end, exact(now.pose.position_m[f]))), now, segment_name[f]);
+      const auto end = geometry::operator+(to_double(now.pose.position_m[s]),
+                                           geometry::rotated(to_double(now.pose.rotation[s]), shank_));
+      note(apart, geometry::length(geometry::operator-(end, to_double(now.pose.position_m[f]))), now, segment_name[f]);
     }
   }
 
@@ -239,9 +233,9 @@ class Watch : public Findings {
   void ground(const Sample& now) {
     for (std::uint32_t side = 0; side < 2; ++side) {
       const bool stands = side == now.state.stance_side || now.state.time_s < plan_.double_support_s;
-      const Vec3<double> points[] = {exact(now.feet.heel_m[side]), exact(now.feet.toe_m[side])};
+      const Vec3<double> points[] = {to_double(now.feet.heel_m[side]), to_double(now.feet.toe_m[side])};
       const auto& toes = now.pose.rotation[index(side == Side::right ? Segment::toes_right : Segment::toes_left)];
-      note(sunk, -points[1].y - geometry::rotated(exact(toes), Vec3<double>{0, 0, toes_}).y, now, "toes");
+      note(sunk, -points[1].y - geometry::rotated(to_double(toes), Vec3<double>{0, 0, toes_}).y, now, "toes");
       for (std::size_t i = 0; i < 2; ++i) {
         const char* const name = i == 0 ? "heel" : "ball";
         note(sunk, -points[i].y, now, name);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -198,35 +197,6 @@ TEST(Turning, AtAStrikeTheWalkerIsToBePlannedWhenAnythingChangesAndOnlyThen) {
           << "a step of " << w->plan.duration_s[l] << " s, tick " << tick_s << " s from " << before.time_s[l];
     }
   }
-}
-
-/// A block in which nobody's step ends is left at once; that must not show.
-TEST(Turning, WhoseStepGoesOnKeepsTheirBitsWhateverTheirNeighboursDo) {
-  constexpr float tick_s = 1.0F / 60;
-  constexpr std::size_t words = sizeof(GaitState<Lanes<float>>) / sizeof(Lanes<float>);
-  const auto w = random_walkers(62);
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    w->plan.duration_s[l] = 0.6F;
-    w->state.time_s[l] = 0.3F;
-  }
-  w->state.line_x_m[0] = -0.0F;
-  w->state.heading_rad[0] = -0.0F;
-  w->state.shift_m[0] = -0.0F;
-  const auto word = [](const GaitState<Lanes<float>>& state, std::size_t i, std::size_t lane) {
-    return std::bit_cast<std::uint32_t>(reinterpret_cast<const Lanes<float>*>(&state)[i][lane]);
-  };
-  const auto of_first = [&](bool others_strike) {
-    auto state = w->state;
-    for (std::size_t l = 1; others_strike && l < lane_count; ++l) state.time_s[l] = 0.59F;
-    advance_gait(w->plan, state, tick_s);
-    turn_gait(w->size, w->plan, w->gait, state, tick_s);
-    EXPECT_EQ(state.steps[1] != w->state.steps[1], others_strike);
-    std::array<std::uint32_t, words> bits;
-    for (std::size_t i = 0; i < words; ++i) bits[i] = word(state, i, 0);
-    return bits;
-  };
-  EXPECT_EQ(of_first(false), of_first(true));
-  for (std::size_t i = 1; i < words; ++i) EXPECT_EQ(of_first(true)[i], word(w->state, i, 0)) << "all but the time";
 }
 
 }  // namespace mobil::turning_test

@@ -62,24 +62,6 @@ TEST(LineOfAction, LanesAgreeWithDouble) {
   }
 }
 
-TEST(LineOfAction, AMemberAloneHasItsOwnPathsLength) {
-  Random random;
-  for (const auto& member : member_muscles()) {
-    const Muscle muscle = find_muscle(member.name).value();
-    const MuscleLines lines = make_muscle_lines(muscle);
-    Block block;
-    std::array<double, lane_count> expected{};
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const Body body = random.body();
-      const LegFrames<double> leg = random.leg(body);
-      set(block, body, leg, muscle, l);
-      expected[l] = member_length(member, leg_scale(body), leg);
-    }
-    lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
-    for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(block.line.length_m[l], expected[l], 4e-6) << member.name;
-  }
-}
-
 TEST(LineOfAction, StandingStillNothingIsStretchedAndTheFrameIsThePlans) {
   Random random;
   for (const Muscle muscle : every_muscle()) {

@@ -16,6 +16,8 @@
 #include "assets/reduction/reduced_belly.h"
 #include "demo/lab/reference/reference.h"
 #include "tests/fem/oracle.h"
+#include "tests/fem/spindle.h"
+#include "tests/refused.h"
 
 namespace mobil::reduced_basis_test {
 using Eigen::Index;
@@ -24,12 +26,6 @@ using oracle::Vector;
 
 const Cells small = {2, 2, 8};
 constexpr FarEnd far_ends[] = {FarEnd::held, FarEnd::sliding, FarEnd::free};
-
-HexahedralMesh spindle(const Cells& cells, double length_m = 0.24) {
-  const std::vector<CageStation> stations = {
-      {0, 0, 0, 0.02F, 0.018F}, {0.4F, 0.008F, -0.01F, 0.036F, 0.03F}, {1, 0, 0, 0.014F, 0.012F}};
-  return *bend_block(cells, stations, length_m);
-}
 
 ReducedOptions options_of(FarEnd far_end, bool frame_loads, std::uint32_t vectors = 32) {
   ReducedOptions o;
@@ -138,18 +134,17 @@ TEST(ReducedBasis, AMeshHasAsManyVectorsAsRowsThatMove) {
       ReducedOptions o = options_of(FarEnd::held, true, 12);
       o.control_cells = {1, 1, 2};
       o.ratio_width = width;
-      EXPECT_TRUE(make_reduced_basis(spindle({1, 1, 2}, length_m), Material{}, Element::full, o))
+      EXPECT_TRUE(make_reduced_basis(wide_spindle({1, 1, 2}, length_m), Material{}, Element::full, o))
           << length_m << " " << width;
       o.vectors = 13;
-      const auto refused = make_reduced_basis(spindle({1, 1, 2}, length_m), Material{}, Element::full, o);
-      ASSERT_FALSE(refused);
-      EXPECT_NE(refused.error().message.find("that has 12;"), std::string::npos) << refused.error().message;
+      EXPECT_TRUE(is_refused(make_reduced_basis(wide_spindle({1, 1, 2}, length_m), Material{}, Element::full, o),
+                             "that has 12;"));
     }
   }
 }
 
 TEST(ReducedBasis, StaticAnswersAreThoseOfTheWholeBellyWhereItWasTrained) {
-  const auto mesh = spindle(small);
+  const auto mesh = wide_spindle(small);
   for (const FarEnd end : far_ends) {
     for (const bool frame : {false, true}) {
       const auto o = options_of(end, frame);
@@ -179,7 +174,7 @@ TEST(ReducedBasis, StaticAnswersAreThoseOfTheWholeBellyWhereItWasTrained) {
 }
 
 TEST(ReducedBasis, StiffnessAndFrequenciesAreNoLessThanTheWholeBellys) {
-  const auto mesh = spindle(small);
+  const auto mesh = wide_spindle(small);
   for (const FarEnd end : far_ends) {
     for (const bool frame : {false, true}) {
       const auto o = options_of(end, frame, 12);
@@ -213,7 +208,7 @@ TEST(ReducedBasis, NoBellysFrequenciesAreBelowTheWholeOnesWhateverItIsMadeOf) {
   const auto between = [&](double low, double high) {
     return low + (high - low) * std::uniform_real_distribution<double>(0, 1)(random);
   };
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < 9; ++round) {
     std::vector<CageStation> stations;
     for (const float t : {0.0F, 0.4F, 1.0F}) {
       const auto draw = [&](double low, double high) { return static_cast<float>(between(low, high)); };
@@ -227,7 +222,7 @@ TEST(ReducedBasis, NoBellysFrequenciesAreBelowTheWholeOnesWhateverItIsMadeOf) {
     const auto element = static_cast<Element>(round / 3 % 3);
     const auto mesh = bend_block(small, stations, between(0.15, 0.3)).value();
     const auto basis = make_reduced_basis(mesh, material, element, o).value();
-    for (const double side : {-1.0, between(-1, 1), 1.0}) {
+    for (const double side : {between(-1, 1), 1.0}) {
       const Scale s = scale_of(o.middle_ratio * std::pow(o.ratio_width, side), between(0.7, 1.3));
       const auto belly = make_reduced_belly(basis, s.across, s.along).value();
       const Whole whole(mesh, o, s, material, element);
@@ -236,6 +231,16 @@ TEST(ReducedBasis, NoBellysFrequenciesAreBelowTheWholeOnesWhateverItIsMadeOf) {
       for (std::size_t j = 0; j < belly.vectors; ++j)
         EXPECT_GE(belly.omega_1_s[j], std::sqrt(exact(static_cast<Index>(j))) * (1 - 1e-9)) << round << " " << j;
       EXPECT_LT(belly.omega_1_s[0], 1.05 * std::sqrt(exact(0))) << round;
+      // and they are those of the vectors' own matrices
+      const auto square = [&](const std::vector<double>& numbers) -> Matrix {
+        return Eigen::Map<const Matrix>(numbers.data(), Index{basis.vectors}, Index{basis.vectors});
+      };
+      const double r = s.across / s.along, p = s.across * s.along;
+      Matrix own = (square(basis.a) / r + square(basis.b) + r * square(basis.c)) / p;
+      if (!basis.foundation.empty()) own += basis.foundation_1_s2 * square(basis.foundation);
+      const Vector squares = oracle::eigenvalues(own);
+      for (std::size_t j = 0; j < belly.vectors; ++j)
+        EXPECT_NEAR(std::pow(belly.omega_1_s[j], 2) / squares(static_cast<Index>(j)), 1, 1e-9) << round << " " << j;
     }
   }
 }
@@ -323,7 +328,7 @@ std::vector<double> whole_run(const HexahedralMesh& mesh, const ReducedOptions& 
 }
 
 TEST(ReducedBasis, BodiesThatItWasNotMadeForMoveAsTheWholeBellyDoesTheBetterTheMoreVectors) {
-  const auto mesh = spindle(small);
+  const auto mesh = wide_spindle(small);
   constexpr double tick_s = 1.0 / 60;
   for (const FarEnd end : far_ends) {
     for (const bool frame : {false, true}) {
@@ -372,7 +377,7 @@ TEST(ReducedBasis, CutToFewerVectorsIsTheOneMadeWithSoFew) {
     auto o = options_of(FarEnd::held, true);
     o.corrected = corrected;
     o.control_cells = {2, 2, 4};
-    const auto mesh = spindle({4, 4, 8}, 0.12);
+    const auto mesh = wide_spindle({4, 4, 8}, 0.12);
     const auto whole = basis_of(mesh, o);
     o.vectors = 7;
     const auto cut = truncated(whole, o.vectors), made = basis_of(mesh, o);
@@ -396,7 +401,7 @@ TEST(ReducedBasis, CorrectionTakesMostOfTheMeshsOwnErrorAway) {
     o.corrected = corrected;
     o.ratio_width = 1;
     o.control_cells = {2, 2, 4};
-    return make_reduced_belly(basis_of(spindle(cells, 0.12), o), 0.95, 0.95).value();
+    return make_reduced_belly(basis_of(wide_spindle(cells, 0.12), o), 0.95, 0.95).value();
   };
   const auto plain = belly_of({4, 4, 8}, false), corrected = belly_of({4, 4, 8}, true),
              fine = belly_of({8, 8, 16}, false);
@@ -413,7 +418,7 @@ TEST(ReducedBasis, BadOptionsGiveOneLineThatSaysWhatCanBe) {
   const auto message = [](auto&& change, Cells cells = small) {
     ReducedOptions o = options_of(FarEnd::held, false, 4);
     change(o);
-    const auto basis = make_reduced_basis(spindle(cells), Material{}, Element::full, o);
+    const auto basis = make_reduced_basis(wide_spindle(cells), Material{}, Element::full, o);
     return basis ? std::string() : basis.error().message;
   };
   using O = ReducedOptions&;

@@ -12,6 +12,7 @@
 #include "assets/reduction/reduced_rows.h"
 #include "assets/reduction/reduced_tension.h"
 #include "engine/eigen.h"
+#include "tests/fem/spindle.h"
 
 namespace mobil::tuned_belly_test {
 namespace {
@@ -19,19 +20,13 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using Square = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-HexahedralMesh spindle(const Cells& cells) {
-  const std::vector<CageStation> stations = {
-      {0, 0, 0, 0.02F, 0.018F}, {0.4F, 0.008F, -0.01F, 0.036F, 0.03F}, {1, 0, 0, 0.014F, 0.012F}};
-  return *bend_block(cells, stations, 0.24);
-}
-
 const ReducedBasis& basis_of(bool frame) {
   static const auto make = [](bool loads) {
     ReducedOptions o;
     o.frame_loads = loads;
     o.foundation_hz = loads ? 7 : 0;
     o.middle_ratio = 1.1;
-    auto basis = make_reduced_basis(spindle({4, 4, 16}), Material{}, Element::full, o);
+    auto basis = make_reduced_basis(wide_spindle({4, 4, 16}), Material{}, Element::full, o);
     if (!basis) throw std::runtime_error(basis.error().message);
     return *basis;
   };
@@ -70,7 +65,7 @@ VectorXd fibre_force(const HexahedralMesh& mesh, const VectorXd& u) {
 }
 
 TEST(TunedBelly, TensionIsTheTangentOfFibresThatPull) {
-  const HexahedralMesh mesh = spindle({2, 2, 8});
+  const HexahedralMesh mesh = wide_spindle({2, 2, 8});
   const Columns fields = random_fields(mesh, 3);
   const MatrixXd stiffness = tension_stiffness(mesh, FiniteTissue{}.shear_pa, fields);
   constexpr double step_m = 1e-6;

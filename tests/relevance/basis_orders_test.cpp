@@ -114,10 +114,7 @@ TEST(BasisOrders, WhatWasPreparedDoesNotWait) {
 TEST(BasisOrders, GoOnInAnotherProgram) {
   Queue queue, others;
   Scene scene(queue.background()), other(others.background());
-  for (int tick = 0; tick < 6; ++tick) {
-    scene.relevance.update();
-    scene.simulation.tick();
-  }
+  for (int tick = 0; tick < 6; ++tick) scene.relevance.update(), scene.simulation.tick();
   std::vector<std::byte> bytes(scene.simulation.snapshot_bytes());
   ASSERT_TRUE(scene.simulation.save(bytes));
   ASSERT_TRUE(other.simulation.restore(bytes, RestoreLimits::none()));

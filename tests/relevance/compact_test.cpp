@@ -134,15 +134,6 @@ TEST(RelevanceCompact, WhoIsUnseenIsCompactAndTheSameAsEver) {
   EXPECT_LT(worst, 5e-5);
 }
 
-TEST(RelevanceCompact, ThreadsDoNotMatter) {
-  Turning one(true, 1, 60, 1), three(true, 3, 60, 1);
-  for (int t = 0; t < 200; ++t) {
-    one.tick();
-    three.tick();
-  }
-  EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
-}
-
 TEST(RelevanceCompact, NeedsAndReasonsAreAnsweredOfThem) {
   Turning scene(true, 1, 40, 2);
   for (int t = 0; t < 150; ++t) scene.tick();

@@ -9,6 +9,7 @@
 #include <mobil/relevance.h>
 #include <mobil/simulation.h>
 #include "tests/labels.h"
+#include "tests/refused.h"
 
 MOBIL_TEST_LABELS("threads");
 
@@ -34,9 +35,7 @@ void expect_refused(const RelevanceOptions& options, const std::string& word) {
   Two two;
   Relevance relevance(two.simulation, options);
   const std::uint64_t before = two.simulation.state_hash();
-  const auto done = relevance.manage_asleep(two.people);
-  ASSERT_FALSE(done) << word;
-  EXPECT_NE(done.error().message.find(word), std::string::npos) << done.error().message;
+  EXPECT_TRUE(is_refused(relevance.manage_asleep(two.people), word)) << word;
   EXPECT_EQ(two.simulation.state_hash(), before) << word;
   EXPECT_FALSE(relevance.release(two.people[0])) << word;
 }
@@ -90,19 +89,13 @@ TEST(ManageAsleep, WhoComesIntoAViewThatStandsStillWakes) {
   std::vector<Entity> unseen(far.size());
   ASSERT_TRUE(two.simulation.spawn(far, unseen));
   ASSERT_TRUE(relevance.manage_asleep(unseen));
-  for (int i = 0; i < 30; ++i) {
-    relevance.update();
-    two.simulation.tick();
-  }
+  for (int i = 0; i < 30; ++i) relevance.update(), two.simulation.tick();
   SpawnRequest request;
   request.z_m = 20;
   Entity seen;
   ASSERT_TRUE(two.simulation.spawn({&request, 1}, {&seen, 1}));
   ASSERT_EQ(relevance.manage_asleep({&seen, 1}).value(), 1U);
-  for (int i = 0; i < 3 && two.simulation.is_asleep(seen); ++i) {
-    relevance.update();
-    two.simulation.tick();
-  }
+  for (int i = 0; i < 3 && two.simulation.is_asleep(seen); ++i) relevance.update(), two.simulation.tick();
   EXPECT_FALSE(two.simulation.is_asleep(seen));
 }
 

@@ -180,6 +180,7 @@ TEST(RelevanceSleep, TheNearestWakeFirst) {
 TEST(RelevanceSleep, ThreadsDoNotMatter) {
   const auto hashes = [](int threads) {
     Scene scene(true, threads, true);
+    scene.needs.compact_unseen = true;
     std::vector<std::uint64_t> all;
     for (int i = 0; i < 360; ++i) {
       scene.tick();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <random>
 #include <vector>
 
@@ -14,7 +13,7 @@
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
 #include "tests/labels.h"
-#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
 
 MOBIL_TEST_LABELS("threads");
 
@@ -54,15 +53,7 @@ struct Pair {
     EXPECT_TRUE(compact.change_gait(small[i], {.speed_m_s = speed_m_s}));
     EXPECT_TRUE(whole.change_gait(large[i], {.speed_m_s = speed_m_s}));
   }
-  template <template <class> class C>
-  bool same(std::size_t i) const {
-    const auto a = compact.get<C>(small[i]), b = whole.get<C>(large[i]);
-    return a && b && std::memcmp(&*a, &*b, sizeof(*a)) == 0;
-  }
-  bool all_same(std::size_t i) const {
-    return same<Gait>(i) && same<GaitState>(i) && same<StepPlan>(i) && same<Pose>(i) && same<JointAngles>(i) &&
-           same<Feet>(i) && same<CentreOfMass>(i) && same<BodySize>(i) && same<Physique>(i);
-  }
+  bool all_same(std::size_t i) const { return walk_alike(compact, small[i], whole, large[i]); }
   std::size_t how_many() const {
     return static_cast<std::size_t>(std::ranges::count_if(small, [&](Entity e) { return compact.is_compact(e); }));
   }

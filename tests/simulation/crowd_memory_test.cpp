@@ -277,13 +277,15 @@ TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
   LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, false)};
   std::vector<Entity> people;
   const auto grow_to = [&](std::size_t count) {
-    std::vector<SpawnRequest> more(count - people.size());
+    std::vector<SpawnRequest> more(64);
     for (std::size_t i = 0; i < more.size(); ++i) {
-      const Person p = person(static_cast<int>(i % 64));
+      const Person p = person(static_cast<int>(i));
       more[i].body = p.body, more[i].gait = p.gait, more[i].muscles = choice;
     }
-    people.resize(count);
-    EXPECT_TRUE(simulation.spawn(more, std::span(people).last(more.size())));
+    while (people.size() < count) {
+      people.resize(people.size() + more.size());
+      EXPECT_TRUE(simulation.spawn(more, std::span(people).last(more.size())));
+    }
     simulation.tick();
     return static_cast<double>(memory.lent_bytes());
   };

@@ -27,7 +27,7 @@ Hashes run(const SimulationOptions& options) {
 }
 
 const Hashes& alone() {
-  static const Hashes hashes = run({});
+  static const Hashes hashes = run(sharing());
   return hashes;
 }
 
@@ -55,7 +55,7 @@ TEST(CrowdThreads, ManyComeAndGoAtOnce) {
     if (i % 3 != 0) request.muscles = play::choice_of(static_cast<std::uint64_t>(i));
   }
   const auto come_and_go = [&](const SimulationOptions& options) {
-    Simulation simulation(options);
+    Simulation simulation(sharing(options));
     std::vector<Entity> people(many), half;
     for (int round = 0; round < 2; ++round) {
       const auto done = simulation.spawn(requests, people);
@@ -76,7 +76,7 @@ TEST(CrowdThreads, ManyComeAndGoAtOnce) {
 
 /// What simulation.h promises to readers between changes.
 TEST(CrowdThreads, ManyReadAtOnce) {
-  play::Crowd crowd({}, script);
+  play::Crowd crowd(sharing(), script);
   for (int i = 0; i < 5; ++i) crowd.tick();
   const Simulation& simulation = crowd.simulation();
   std::vector<Entity> people = simulation.people();

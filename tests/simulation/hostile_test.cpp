@@ -65,6 +65,7 @@ TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
   Simulation simulation(sharing());
   LegMuscles choice;
   choice.cells = {4, 4, 20};
+  choice.muscles = MuscleSet(1);
   choice.method = Method::ecd;
   const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
   ASSERT_TRUE(simulation.add_leg_muscles(*human, choice));

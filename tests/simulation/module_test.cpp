@@ -177,7 +177,7 @@ TEST(Modules, ThatDoNotFitAreRefused) {
 
 /// However a muscle is made, and whatever it becomes: its parts are those of the one list, and each part is a module's.
 TEST(Modules, TogetherKnowEveryPartThatACrowdEverHas) {
-  play::Crowd crowd({}, {.seed = 5});
+  play::Crowd crowd(sharing(), {.seed = 5});
   std::size_t muscles = 0;
   for (int tick = 0; tick < 120; ++tick) {
     crowd.tick();

@@ -161,10 +161,7 @@ void expect_restarted(Scene& scene, Scene& twin, const std::string& what, bool n
   const std::uint64_t counted = scene.simulation.report().total_restarted_bellies - before;
   EXPECT_GE(counted, 1U) << what;
   EXPECT_LE(counted, 2U) << what;
-  for (int i = 0; i < 180; ++i) {
-    scene.simulation.tick();
-    twin.simulation.tick();
-  }
+  for (int i = 0; i < 180; ++i) scene.simulation.tick(), twin.simulation.tick();
   EXPECT_LT(largest_difference(scene.shown(scene.muscle()), twin.shown(twin.muscle())), 2e-3F) << what;
   EXPECT_EQ(twin.simulation.report().total_restarted_bellies, 0U);
 }

@@ -55,13 +55,14 @@ inline std::size_t rows(const World& world) {
   return sum;
 }
 
+inline std::size_t rows_with(const World& world, std::uint64_t part) {
+  std::size_t sum = 0;
+  for (const Table& table : world.tables()) sum += find_part(table.key(), part) != nullptr ? table.row_count() : 0;
+  return sum;
+}
 template <template <class> class C>
 std::size_t rows_with(const World& world) {
-  std::size_t sum = 0;
-  for (const Table& table : world.tables()) {
-    if (find_part(table.key(), type_id<C<float>>()) != nullptr) sum += table.row_count();
-  }
-  return sum;
+  return rows_with(world, type_id<C<float>>());
 }
 
 /// Everything there is, handles too, table by table.
@@ -74,6 +75,17 @@ inline std::uint64_t hash_world(const Simulation& simulation) {
     }
   }
   return hash;
+}
+
+template <template <class> class... C>
+bool same_parts(const Simulation& a, Entity in_a, const Simulation& b, Entity in_b) {
+  const auto same = [](const auto& x, const auto& y) { return x && y && std::memcmp(&*x, &*y, sizeof(*x)) == 0; };
+  return (same(a.get<C>(in_a), b.get<C>(in_b)) && ...);
+}
+/// Whether two people's walks are the same, to the bit.
+inline bool walk_alike(const Simulation& a, Entity in_a, const Simulation& b, Entity in_b) {
+  return same_parts<Gait, GaitState, StepPlan, Pose, JointAngles, Feet, CentreOfMass, BodySize, Physique>(a, in_a, b,
+                                                                                                          in_b);
 }
 
 inline Entity join(Simulation& simulation, const Person& person, bool muscles = true) {

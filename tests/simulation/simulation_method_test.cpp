@@ -15,29 +15,17 @@
 #include <mobil/components/fade.h>
 #include <mobil/muscle_table.h>
 #include "tests/labels.h"
+#include "tests/simulation/crowd_play.h"
 #include "tests/simulation/leg_muscles.h"
 
 MOBIL_TEST_LABELS("threads");
 
 namespace mobil::simulation_method_test {
-// Coarse meshes, whose bases are made in no time.
-constexpr Cells coarse = {2, 2, 8};
+using play::coarse, play::every_method;
 
 MuscleMethod reduced(std::uint32_t vectors, bool moving, bool control_points) {
-  return {Method::reduced, {vectors, moving, true, coarse, control_points}};
+  return {Method::reduced, play::reduced(vectors, moving, control_points)};
 }
-
-const std::vector<MuscleMethod> every_method = {{Method::ecd},
-                                                {Method::icd},
-                                                {Method::caa},
-                                                {Method::statics},
-                                                reduced(12, true, true),
-                                                reduced(5, true, true),
-                                                reduced(12, true, false),
-                                                reduced(12, false, true),
-                                                reduced(8, false, false),
-                                                {Method::finite},
-                                                {Method::none}};
 
 std::string text(const MuscleMethod& method) {
   std::string all = name(method.method);
@@ -50,15 +38,6 @@ double apart(const std::vector<float>& a, const std::vector<float>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, static_cast<double>(std::abs(a[i] - b[i])));
   return most;
-}
-
-template <class Tag>
-std::size_t rows_of(const World& world) {
-  std::size_t sum = 0;
-  for (const Table& table : world.tables()) {
-    if (find_part(table.key(), type_id<Tag>()) != nullptr) sum += table.row_count();
-  }
-  return sum;
 }
 
 // ------------------------------------------------------------------------------------------------- continuity
@@ -83,10 +62,7 @@ struct Twins {
     tick(100);
   }
   void tick(int count = 1) {
-    for (int i = 0; i < count; ++i) {
-      switched.tick();
-      steady.tick();
-    }
+    for (int i = 0; i < count; ++i) switched.tick(), steady.tick();
   }
 };
 
@@ -133,7 +109,7 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
   Twins& t = twins(inertia);
   const auto human = *rc::gen::inRange<std::size_t>(0, Twins::people);
   const Muscle muscle = *rc::gen::element(Muscle::hamstrings, Muscle::tibialis_anterior);
-  const MuscleMethod to = *rc::gen::elementOf(every_method);
+  const MuscleMethod to = *rc::gen::elementOf(every_method());
   t.tick(*rc::gen::inRange(0, 300));  // now and then while the last change still fades
 
   // Ticks 0 to 3, the change, ticks 4 to 6.
@@ -191,22 +167,19 @@ TEST(Switching, IsForgottenAfterTheFade) {
   Simulation simulation(sharing()), whole(sharing());
   const Entity human = join_with(simulation, person(5), {}),
                same = join_with(whole, person(5), {.method = Method::statics});
-  for (int i = 0; i < 40; ++i) {
-    simulation.tick();
-    whole.tick();
-  }
+  for (int i = 0; i < 40; ++i) simulation.tick(), whole.tick();
   for (std::size_t m = 0; m < muscle_group_count; ++m) {
     ASSERT_TRUE(simulation.set_method(human, static_cast<Muscle>(m), {Method::statics}));
   }
   EXPECT_GT(rows_with<Fade>(simulation.world()), 0U);
   for (int i = 0; i < 15; ++i) {
-    EXPECT_GT(rows_of<ShownDisplacement>(simulation.world()), 0U) << i;
+    EXPECT_GT(rows_with(simulation.world(), type_id<ShownDisplacement>()), 0U) << i;
     simulation.tick();
     whole.tick();
   }
   EXPECT_EQ(rows_with<Fade>(simulation.world()), 0U);
-  EXPECT_EQ(rows_of<FadeStart>(simulation.world()), 0U);
-  EXPECT_EQ(rows_of<ShownDisplacement>(simulation.world()), 0U);
+  EXPECT_EQ(rows_with(simulation.world(), type_id<FadeStart>()), 0U);
+  EXPECT_EQ(rows_with(simulation.world(), type_id<ShownDisplacement>()), 0U);
   Difference d;
   compare(simulation, human, whole, same, d);
   EXPECT_LT(d.apart, 2e-5);  // what the solver leaves
@@ -243,7 +216,7 @@ TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
     Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(2), {.inertia = inertia});
     for (int i = 0; i < 30; ++i) simulation.tick();
-    for (const MuscleMethod& to : every_method) {
+    for (const MuscleMethod& to : every_method()) {
       ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none}));
       for (int i = 0; i < 3; ++i) simulation.tick();
       ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, to)) << text(to);
@@ -374,10 +347,7 @@ TEST(Cost, LinesAreTheSameWhateverTheBelliesDo) {
   Simulation all(sharing()), none(sharing());
   const Entity a = join_with(all, person(3), {.line_motion = true}),
                b = join_with(none, person(3), {.method = Method::none, .line_motion = true});
-  for (int i = 0; i < 20; ++i) {
-    all.tick();
-    none.tick();
-  }
+  for (int i = 0; i < 20; ++i) all.tick(), none.tick();
   for (std::size_t m = 0; m < muscle_group_count; ++m) {
     const Entity x = all.muscle(a, static_cast<Muscle>(m), Side::left),
                  y = none.muscle(b, static_cast<Muscle>(m), Side::left);
@@ -393,7 +363,7 @@ TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
   for (const bool inertia : {false, true}) {
     Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(3), {.inertia = inertia});
-    for (const MuscleMethod& method : every_method) {
+    for (const MuscleMethod& method : every_method()) {
       ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, method));
       for (int i = 0; i < 20; ++i) simulation.tick();  // the fade is over
       const auto place = simulation.world().find(simulation.muscle(human, Muscle::hamstrings, Side::left));

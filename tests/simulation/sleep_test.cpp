@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <random>
 #include <vector>
 
@@ -16,7 +15,7 @@
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"
 #include "tests/engine/counting_heap.h"
-#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
 
 namespace mobil::sleep_test {
 namespace {
@@ -70,16 +69,7 @@ struct Twins {
       EXPECT_TRUE(waking.turn_to(wakers[i], heading));
     }
   }
-  template <template <class> class C>
-  bool same(std::size_t i) const {
-    const auto a = dozing.get<C>(dozers[i]);
-    const auto b = waking.get<C>(wakers[i]);
-    return a && b && std::memcmp(&*a, &*b, sizeof(*a)) == 0;
-  }
-  bool all_same(std::size_t i) const {
-    return same<Gait>(i) && same<GaitState>(i) && same<StepPlan>(i) && same<Pose>(i) && same<JointAngles>(i) &&
-           same<Feet>(i) && same<CentreOfMass>(i) && same<BodySize>(i) && same<Physique>(i);
-  }
+  bool all_same(std::size_t i) const { return walk_alike(dozing, dozers[i], waking, wakers[i]); }
   std::size_t asleep() const {
     return static_cast<std::size_t>(std::ranges::count_if(dozers, [&](Entity one) { return dozing.is_asleep(one); }));
   }
@@ -257,24 +247,6 @@ TEST(Sleep, MusclesWarmUpToWhatIsAsked) {
   MuscleTwins twins(with_muscles(4, Method::ecd));
   ASSERT_TRUE(twins.dozes.wake({&twins.sleeper, 1}, 0.001F));
   EXPECT_LT(twins.off_m(), 0.001);
-}
-
-TEST(Sleep, TheOriginMovesUnderSleepersToo) {
-  Twins twins(48);
-  twins.tick(60);
-  ASSERT_TRUE(twins.dozing.sleep(twins.dozers));
-  for (std::size_t i = 0; i < 48; i += 3) twins.change(i);
-  twins.tick(30);
-  for (Simulation* const one : {&twins.dozing, &twins.waking}) ASSERT_TRUE(one->shift_origin(128, -64));
-  for (const int ticks : {0, 40, 400}) {
-    twins.tick(ticks);
-    for (std::size_t i = 0; i < 48; ++i) {
-      const auto a = *twins.dozing.get<Pose>(twins.dozers[i]);
-      const auto b = *twins.waking.get<Pose>(twins.wakers[i]);
-      EXPECT_NEAR(a.position_m[0].x, b.position_m[0].x, 1e-4);
-      EXPECT_NEAR(a.position_m[0].z, b.position_m[0].z, 1e-4);
-    }
-  }
 }
 
 TEST(Sleep, ASnapshotHasSleepersInIt) {

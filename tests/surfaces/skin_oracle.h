@@ -274,15 +274,11 @@ inline RestPoint lifted(const BodySkin& skin, const SkinCover& cover, const LegP
 inline std::vector<std::array<Vec3<double>, 2>> place(const BodySkin& skin, const Pose<float>& pose,
                                                       const SkinCover* cover) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
-  const auto exact = [](const Quat<float>& q) {
-    return Quat<double>{static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z),
-                        static_cast<double>(q.w)};
-  };
   const auto rotation = [&](std::uint8_t s) {
-    const Quat<double> own = exact(pose.rotation[segment_of(s)]);
+    const Quat<double> own = to_double(pose.rotation[segment_of(s)]);
     if (s < segment_count) return own;
     // the forearm without its turn about its own length
-    const Quat<double> arm = exact(pose.rotation[index(on_side(Segment::upper_arm_right, s - segment_count))]);
+    const Quat<double> arm = to_double(pose.rotation[index(on_side(Segment::upper_arm_right, s - segment_count))]);
     const Quat<double> elbow = product(conjugate(arm), own);
     const double n = std::sqrt(elbow.y * elbow.y + elbow.w * elbow.w);
     return product(own, conjugate(Quat<double>{0, elbow.y / n, 0, elbow.w / n}));

@@ -33,11 +33,6 @@ Quat<float> rotation(const Vec& axis, double angle) {
           static_cast<float>(std::cos(0.5 * angle))};
 }
 
-Quat<float> product(const Quat<float>& a, const Quat<float>& b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
-}
-
 /// A bent, twice bulging cage, some 0.25 m long.
 HexahedralMesh cage(const Cells& cells = {3, 3, 10}) {
   const std::array<CageStation, 4> stations = {CageStation{0, 0, 0, 0.020F, 0.020F},
@@ -64,16 +59,7 @@ struct Bound {
     surface = muscle.surface;
     bind_muscle(surface, mesh, frame, muscle.attachments, blend_m);
   }
-  Pose<float> rest_pose() const {
-    Pose<float> pose{};
-    for (std::size_t s = 0; s < segment_count; ++s) {
-      const Vec3<float>& o = b.joint_offset_m[s];
-      const Vec3<float> p = s == 0 ? Vec3<float>{} : pose.position_m[index(segment_parent[s])];
-      pose.position_m[s] = {p.x + o.x, p.y + o.y, p.z + o.z};
-      pose.rotation[s] = {0, 0, 0, 1};
-    }
-    return pose;
-  }
+  Pose<float> rest_pose() const { return standing_pose(b); }
   LineOfAction<float> rest_line() const {
     LineOfAction<float> line{};
     line.start_m = frame.start_m;

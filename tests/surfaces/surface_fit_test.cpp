@@ -8,6 +8,7 @@
 #include <mobil/engine/geometry.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include "tests/refused.h"
 #include "tests/simulation/people.h"
 
 namespace mobil {
@@ -16,7 +17,7 @@ namespace {
 using geometry::operator-;
 
 struct Walker {
-  Simulation simulation(sharing());
+  Simulation simulation{sharing()};
   Entity person;
   Human human;
   std::vector<SurfaceMuscle> muscles;
@@ -105,9 +106,7 @@ TEST(SurfaceFit, OfOtherSurfacesIsRefused) {
                                .positions = {std::as_writable_bytes(std::span(position))},
                                .fit = &fit};
   SurfaceWriter writer;
-  const auto done = writer.write(walker.simulation.world(), {&request, 1});
-  ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("fit_surfaces"), std::string::npos);
+  EXPECT_TRUE(is_refused(writer.write(walker.simulation.world(), {&request, 1}), "fit_surfaces"));
 }
 
 }  // namespace

@@ -71,11 +71,8 @@ Body body(float height = 1.75F, float mass = 75.0F) {
 }
 
 std::vector<Vec> standing(const Body& b) {
-  std::vector<Vec> at(segment_count);
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    at[s] = to_double(b.joint_offset_m[s]);
-    if (s != index(Segment::pelvis)) at[s] = at[s] + at[index(segment_parent[s])];
-  }
+  std::vector<Vec> at;
+  for (const auto& p : standing_pose(b).position_m) at.push_back(to_double(p));
   return at;
 }
 

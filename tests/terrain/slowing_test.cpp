@@ -55,6 +55,15 @@ void walk_to(Hike& hike, float z_m) {
   ASSERT_GE(hike.get<GaitState>().line_z_m, z_m);
 }
 
+/// One amid a slope of 15 %, who has slowed down.
+struct Slowed : Hike {
+  Slowed()
+      : Hike(ramp(0.15F), {.speed_m_s = 1.3F}, {.height_m = 1.75F, .mass_kg = 75}, 1.0 / 60, 0, {.slows_down = true}) {
+    walk_to(*this, first_m + 4);
+    EXPECT_LT(get<Gait>().speed_m_s, 1.0F);
+  }
+};
+
 TEST(SlopeSpeed, FallsWithSteepnessAndSlowPeopleKeepTheirs) {
   rc::check([] {
     const float asked = static_cast<float>(*rc::gen::inRange(100, 2500)) / 1000;
@@ -93,9 +102,7 @@ TEST(Slowing, IsAskedFor) {
 }
 
 TEST(Slowing, AHostsRequestOnTheWayIsOneForLevelGround) {
-  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-  walk_to(hike, first_m + 4);
-  EXPECT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  Slowed hike;
   ASSERT_TRUE(hike.simulation.turn_to(hike.human, 0.05F));  // says nothing of speed
   walk_to(hike, first_m + 7);
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
@@ -151,8 +158,7 @@ TEST(Slowing, AStyleThatIsNoneOfTheSlopeIsKept) {
 }
 
 TEST(Slowing, WhatIsRefusedMakesNoRequestOfTheHostsASlowedOne) {
-  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-  walk_to(hike, first_m + 4);
+  Slowed hike;
   ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.0F}));
   const WalkChange refused[] = {{hike.human, GaitChange{}, 1e9F}};
   EXPECT_EQ(hike.simulation.change_walks(refused).value(), 1U);
@@ -201,17 +207,12 @@ TEST(Slowing, WhoAvoidsOthersSlowsDownToo) {
 }
 
 TEST(Slowing, AWishIsKeptWhereAvoidanceBeginsAndEndsOnASlope) {
-  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-  walk_to(hike, first_m + 4);
-  ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  Slowed hike;
   Avoidance avoidance(hike.simulation);
   ASSERT_TRUE(avoidance.manage(hike.human));
   EXPECT_EQ(hike.get<Course>().speed_m_s, 1.3F);
   EXPECT_NEAR(hike.get<Course>().usual, 1, 1e-3F);
-  for (int i = 0; i < 180; ++i) {
-    avoidance.update();
-    hike.tick();
-  }
+  for (int i = 0; i < 180; ++i) avoidance.update(), hike.tick();
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
   ASSERT_TRUE(avoidance.release(hike.human));
   walk_to(hike, last_m - 4);
@@ -286,8 +287,7 @@ TEST(Slowing, WhoWishesToStandAndIsReleasedGoesOnAsTheyWalk) {
 }
 
 TEST(Slowing, ARequestOfNothingKeepsTheWish) {
-  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-  walk_to(hike, first_m + 4);
+  Slowed hike;
   ASSERT_TRUE(hike.simulation.change_gait(hike.human, {}));
   walk_to(hike, last_m - 2);
   EXPECT_LT(hike.get<Gait>().speed_m_s, 1.0F);
@@ -335,14 +335,9 @@ TEST(Slowing, SleepersAreAsHighAsTheGroundThatTheyFellAsleepOn) {
 }
 
 TEST(Slowing, EndsWhereAnotherTerrainDoesNotSlowDown) {
-  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-  walk_to(hike, first_m + 4);
-  ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  Slowed hike;
   Terrain other(hike.simulation, answering(hike.ground));
-  for (int i = 0; i < 120; ++i) {
-    other.update();
-    hike.simulation.tick();
-  }
+  for (int i = 0; i < 120; ++i) other.update(), hike.simulation.tick();
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
   EXPECT_EQ(hike.get<Footing>().slows_for, 0);
 }
@@ -369,8 +364,7 @@ TEST(Slowing, StylesStay) {
 }
 
 TEST(Slowing, GoesOnFromASnapshot) {
-  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-  walk_to(hike, first_m + 4);
+  Slowed hike;
   std::vector<std::byte> bytes(hike.simulation.snapshot_bytes());
   ASSERT_TRUE(hike.simulation.save(bytes));
   walk_to(hike, last_m + 3);

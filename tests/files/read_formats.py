@@ -6,7 +6,10 @@
     read_formats.py muscle FILE.usda|.x3d|.wrl FRAME NAME    X Y Z: each vertex of that muscle
     read_formats.py gl     FILE.gl FRAME                 the header's numbers, then X Y Z NX NY NZ of each vertex
     read_formats.py pxr    FILE.usda FRAME               as joints, by the USD library; status 77 where there is none
+
+Of several frames FRAME,FRAME or several names, a line "." is between what it says of each.
 """
+import functools
 import math
 import re
 import struct
@@ -54,6 +57,7 @@ class Prim:
             yield from child.all()
 
 
+@functools.cache
 def read_usda(path):
     """Prims with their attributes; of the format what the exporter uses."""
     lines = open(path, encoding='utf-8').read().split('\n')
@@ -167,6 +171,7 @@ class Node:
             yield from child.all()
 
 
+@functools.cache
 def read_x3d(path):
     document = xml.parse(path).getroot()
     assert document.attrib['profile'] == 'Immersive'
@@ -183,6 +188,7 @@ def read_x3d(path):
     return node_of(document.find('Scene')), routes
 
 
+@functools.cache
 def read_wrl(path):
     text = open(path, encoding='utf-8').read()
     assert text.startswith('#VRML V2.0 utf8\n')
@@ -336,21 +342,13 @@ def pxr_joints(path, frame):
 
 
 def main():
-    what, path, frame, *name = sys.argv[1:]
-    frame, usd = int(frame), path.endswith('.usda')
-    if what == 'gl':
-        found = read_gl(path, frame)
-    elif what == 'pxr':
-        found = pxr_joints(path, frame)
-    elif what == 'joints':
-        found = (usd_joints if usd else scene_joints)(path, frame)
-    elif what == 'bones':
-        found = (usd_bones if usd else scene_bones)(path, frame)
-    else:
-        found = (usd_muscle if usd else scene_muscle)(path, frame, *name)
-    for line in found:
-        values = line if isinstance(line, list) else [line[0], *line[1]]
-        print(*values)
+    what, path, frames, *names = sys.argv[1:]
+    kind = 'usd' if path.endswith('.usda') else 'scene'
+    read = {'gl': read_gl, 'pxr': pxr_joints}.get(what) or globals()[f'{kind}_{what}']
+    for i, asked in enumerate([(int(f), *n) for f in frames.split(',') for n in [[n] for n in names] or [[]]]):
+        print(end='.\n' if i > 0 else '')
+        for line in read(path, *asked):
+            print(*(line if isinstance(line, list) else [line[0], *line[1]]))
 
 
 main()

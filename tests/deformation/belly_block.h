@@ -13,9 +13,9 @@
 
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
+#include "demo/lab/reference/reference.h"
 #include "engine/eigen.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/reference.h"
 #include "tests/fem/oracle.h"
 #include "tests/fem/spindle.h"
 

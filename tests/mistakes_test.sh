@@ -4,10 +4,11 @@
 set -euo pipefail
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
+headers=("$2"/{components,engine,assets,systems}/include)
 for mistake in "$2"/tests/consumer/mistakes/*.cpp; do
   says=$(sed -n '1s,^// SAYS: ,,p' "$mistake")
   [ -n "$says" ] || { echo "$mistake does not begin with // SAYS:" >&2; exit 1; }
-  if "${CXX:-c++}" -std=c++20 -fsyntax-only -I"$1/include" "$mistake" >"$log" 2>&1; then
+  if "${CXX:-c++}" -std=c++20 -fsyntax-only "${headers[@]/#/-I}" "$mistake" >"$log" 2>&1; then
     echo "$mistake compiles" >&2
     exit 1
   fi

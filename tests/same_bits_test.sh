@@ -8,6 +8,6 @@ if [ -r /proc/cpuinfo ] && [ "$(uname -m)" = x86_64 ] && ! grep -qw fma /proc/cp
 fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-cc -std=c89 -Wall -Wextra -pedantic -Werror -ffp-contract=off -I"$2" "$2/tests/portable/hashes.c" -o "$scratch/hashes" \
+cc -std=c89 -Wall -Wextra -pedantic -Werror -ffp-contract=off -I"$2/systems/c/include" "$2/tests/portable/hashes.c" -o "$scratch/hashes" \
   -L"$1" -lmobil -Wl,-rpath,"$1"
 "$scratch/hashes" | diff "$2/tests/portable/hashes.txt" -

@@ -1,9 +1,9 @@
-// A host with an mobil/engine/world.h of its own, that uses Eigen itself and is built for AVX2 without inlining: its
-// Eigen aligns memory otherwise than ours does.
+// A host with an engine/world.h of its own, that uses Eigen itself and is built for AVX2 without inlining: its Eigen
+// aligns memory otherwise than ours does.
 #include <Eigen/Dense>
 #include <cstdio>
 
-#include <mobil/engine/world.h>
+#include "engine/world.h"
 #include <mobil/simulation.h>
 #include <mobil/version.h>
 

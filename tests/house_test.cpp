@@ -90,6 +90,7 @@ const std::map<std::string, fs::path>& public_headers() {
 std::vector<std::string> includes(const fs::path& file) {
   static const std::regex include("^\\s*#include (?:\"([^\"]+)\"|<(mobil/[^>]+)>)");
   std::vector<std::string> found;
+  if (file.string().find("/tests/consumer/") != std::string::npos) return found;  // hosts have headers of their own
   for (const auto& line : lines(file)) {
     std::smatch match;
     if (!std::regex_search(line, match, include)) continue;

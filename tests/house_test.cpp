@@ -57,12 +57,18 @@ std::string place_of(const fs::path& file) {
   if (std::regex_match(name, match, door)) {
     const std::string room = match[1], header = match[3];
     if (match[2].matched) return room + match[2].str() + "/" + header;
-    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
-      if (entry.path().extension() == ".cpp" && entry.path().stem() == fs::path(header).stem()) {
-        return (fs::relative(entry.path(), root).parent_path() / header).generic_string();
+    static const auto folder_of_source = [] {
+      std::map<std::string, fs::path> folders;  // by "room/stem"
+      for (const auto* each : {"components", "engine", "assets", "systems"}) {
+        for (const auto& source : sources(each)) {
+          if (source.extension() != ".cpp") continue;
+          folders[each + ("/" + source.stem().string())] = fs::relative(source, root).parent_path();
+        }
       }
-    }
-    return room + "/" + header;
+      return folders;
+    }();
+    const auto found = folder_of_source.find(room + "/" + fs::path(header).stem().string());
+    return ((found == folder_of_source.end() ? fs::path(room) : found->second) / header).generic_string();
   }
   const auto inside = name.find("/include/mobil/");
   if (inside == std::string::npos) return name;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "assets/fem/finite_element.h"
-#include "assets/reduction/dense.h"
 #include "assets/reduction/reduced_operators.h"
 
 namespace mobil::inline v0_3 {

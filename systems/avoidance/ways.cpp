@@ -74,9 +74,8 @@ struct StrikeAhead {
   Wide speed, pace, advance, hips, length;
 };
 
-/// Steps that are shorter than a walker's own are so down to a quarter of the leg, which is the least that a gait may
-/// ask for (and a little more, for rounding), and as long as no more than two a second are made: people in a dense file
-/// make 0.8 to 1.6 (Jelić et al. 2012).
+/// A shortened step keeps at least a quarter of the leg, the shortest that a gait allows, with a margin for rounding.
+/// It also keeps the rate below two steps a second; people in a dense file make 0.8 to 1.6 (Jelić et al. 2012).
 constexpr float shortest_h = 0.2505F * static_cast<float>(fraction::thigh + fraction::shank), most_steps_hz = 2;
 
 HWY_NOINLINE StrikeAhead strike_at(const StrikePlace<Lanes<float>>& at, const Wide& speed, const Wide& length_part) {

@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// What a command says, and how it ends.
+/// Output and exit status of a command.
 struct Said {
   int status = -1;
   std::string text;

@@ -108,7 +108,7 @@ TEST(CrowdDeterminism, OrderOfComingDoesNotMatter) {
   }
 }
 
-/// What others are asked and do is not to be seen in anybody's bits.
+/// A person's bits do not depend on other people's requests or walks.
 TEST(CrowdDeterminism, CompanyDoesNotMatter) {
   MOBIL_SLOW();
   std::mt19937 random(5);

@@ -37,7 +37,7 @@ class BenchBellies {
   /// with Stiffness::shared all are. Each is pulled a little more than the one before.
   BenchBellies(const MuscleTemplate& muscle, Stiffness stiffness, std::size_t blocks);
 
-  /// One tick of everybody, or of one block: by ECD or by the method of `solver`. Nobody asks for a BellyReport.
+  /// One tick of everybody, or of one block: by ECD or by the method of `solver`. Writes no BellyReport.
   void tick(std::uint32_t substeps, float tick_s, const BellySolver* solver = nullptr);
   void tick_block(std::size_t block, std::uint32_t substeps, float tick_s, const BellySolver* solver = nullptr);
 

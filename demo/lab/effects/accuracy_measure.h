@@ -1,5 +1,5 @@
 #pragma once
-// How the accuracy table (mobil/systems/relevance/accuracy_table.h) is made: people walk with each rung, beside
+// Measures the accuracy table (mobil/systems/relevance/accuracy_table.h): people walk with each rung, beside
 // references.
 
 #include <array>

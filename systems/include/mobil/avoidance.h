@@ -14,7 +14,7 @@
 // only where it and the stop after it are clear of all claims; else a walker does what its claim says, which everybody
 // else has kept clear of. So by induction nobody walks into anybody, in whatever order they choose.
 //
-// What was asked is state and lies on the person's row (mobil/components/avoidance.h); claims follow from the world.
+// Requests are state on the person's row (mobil/components/avoidance.h); claims follow from the world.
 // Decisions depend on the world, walls and discs alone, not on threads or rows. Who is managed is asked for speed and
 // heading through Avoidance: what change_gait and turn_to ask lasts until the next step.
 

@@ -11,9 +11,9 @@
 //   simulation.tick();
 //
 // The ground is asked for once a step and person: under the foothold to come and a little behind and ahead of it, for
-// feet keep clear of edges, and along the way of the foot to it. What
-// was answered is state and lies on the person's row (mobil/components/footing.h); a restored world goes on by the same
-// answers. Who is not managed walks on the plane y = 0 and costs what they did.
+// feet keep clear of edges, and along the way of the foot to it. The
+// answers are state on the person's row (mobil/components/footing.h), so a restored world uses the same ones. Who is
+// not managed walks on the plane y = 0 and costs what they did.
 
 #include <cstddef>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-// How long a muscle's explicit steps may be.
+// The critical step of explicit methods, for each muscle.
 
 #include <optional>
 

@@ -1,9 +1,26 @@
+# Folders that are one piece: the compiler reads headers and makes Eigen's templates once for all of it.
+set(joined_kernels "systems/activation systems/lines systems/avoidance" "systems/gait systems/kinematics"
+  "systems/skinning systems/deformation")
+set(joined_sources "systems/relevance systems/terrain systems/avoidance" "systems/surfaces systems/skin systems/skinning"
+  "systems systems/snapshot systems/gait systems/lines systems/deformation" "assets/surfaces assets/skin"
+  "assets/body assets/gait assets/muscles assets/files" "assets/finite assets/fem assets/reduction" "program walk")
+
 # mobil_pieces(target speed): its sources are one piece a folder for the compiler.
 function(mobil_pieces target speed)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP POSITION_INDEPENDENT_CODE ON)
   get_target_property(sources ${target} SOURCES)
+  if(speed)
+    set(kind sources)
+  else()
+    set(kind kernels)
+  endif()
   foreach(source ${sources})
     cmake_path(GET source PARENT_PATH folder)
+    foreach(folders ${joined_${kind}})
+      if(" ${folders} " MATCHES " ${folder} ")
+        set(folder ${folders})
+      endif()
+    endforeach()
     string(MAKE_C_IDENTIFIER "${target}${folder}" group)
     set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${group})
   endforeach()

@@ -39,7 +39,7 @@ class Sized {
   double sideways_;
 };
 
-double product(const Displacements& a, const Displacements& b) {
+double scalar_product(const Displacements& a, const Displacements& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
@@ -61,17 +61,17 @@ void solve(const Sized& belly, FarEnd end, const Displacements& load, Displaceme
   for (std::size_t i = 0; i < size; ++i) r[i] = load[i] - r[i];
   hold(r);
   Displacements p = r;
-  double rr = product(r, r);
+  double rr = scalar_product(r, r);
   const double enough = 1e-20 * rr;
   for (std::size_t step = 0; step < 4 * size && rr > enough; ++step) {
     belly.multiply(p, q);
     hold(q);
-    const double alpha = rr / product(p, q);
+    const double alpha = rr / scalar_product(p, q);
     for (std::size_t i = 0; i < size; ++i) {
       u[i] += alpha * p[i];
       r[i] -= alpha * q[i];
     }
-    const double next = product(r, r);
+    const double next = scalar_product(r, r);
     for (std::size_t i = 0; i < size; ++i) p[i] = r[i] + next / rr * p[i];
     rr = next;
   }
@@ -104,7 +104,7 @@ double pulled_stiffness(const StiffnessTerms& terms, std::span<const float> far_
   Displacements u(size, 0.0), load(size, 0.0);
   for (std::size_t i = 0; i < far_share.size(); ++i) load[3 * (far + i) + 2] = static_cast<double>(far_share[i]);
   solve(Sized(terms, across, along), FarEnd::sliding, load, u);
-  return 1 / product(load, u);
+  return 1 / scalar_product(load, u);
 }
 
 AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double lowest,

@@ -7,13 +7,13 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr auto& corner = hexahedron_corner;
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
 }  // namespace
 
 GaussPoint gauss_point(const HexahedralMesh& mesh, const Hexahedron& h, std::size_t point) {
   const double g = 1 / std::sqrt(3.0);
+  const auto& corner = hexahedron_corner;
   const double xi[3] = {corner[point][0] * g, corner[point][1] * g, corner[point][2] * g};
   GaussPoint q{};
   double local[8][3];
@@ -65,7 +65,7 @@ HourglassPatterns hourglass_patterns(const HexahedralMesh& mesh, const Hexahedro
   for (std::size_t p = 0; p < 4; ++p) {
     double moment[3] = {};
     for (std::size_t a = 0; a < 8; ++a) {
-      const auto [x, y, z] = corner[a];
+      const auto [x, y, z] = hexahedron_corner[a];
       const int pattern[4] = {y * z, z * x, x * y, x * y * z};
       patterns[p][a] = pattern[p];
       const auto& at = mesh.node[h[a]];

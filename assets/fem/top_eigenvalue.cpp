@@ -18,7 +18,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 /// Eight sums beside each other, for one after the other would wait for itself; in this order on any machine.
-double inner(const double* a, const double* b, std::size_t count) {
+double dot(const double* a, const double* b, std::size_t count) {
   constexpr std::size_t sums = 8;
   double sum[sums] = {}, rest = 0;
   std::size_t i = 0;
@@ -28,15 +28,15 @@ double inner(const double* a, const double* b, std::size_t count) {
   return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7])) + rest;
 }
 
-double inner(const Numbers& a, const Numbers& b) {
-  return inner(a.data(), b.data(), a.size());
+double dot(const Numbers& a, const Numbers& b) {
+  return dot(a.data(), b.data(), a.size());
 }
 
 /// Lower Cholesky factor of a symmetric matrix of half-width `band`, row by row; the last `kept` rows remain, row i at
 /// i mod kept with column c at c + band − i.
-class BandCholesky {
+class WindowCholesky {
  public:
-  BandCholesky(std::size_t size, std::size_t band, std::size_t kept)
+  WindowCholesky(std::size_t size, std::size_t band, std::size_t kept)
       : band_(std::min(band, size - 1)), kept_(std::max(kept, band_ + 1)), factor_(kept_ * (band_ + 1)) {}
 
   std::size_t band() const { return band_; }
@@ -53,9 +53,9 @@ class BandCholesky {
       const double* other = row(c);
       const std::size_t from = std::max(begin, c > band_ ? c - band_ : 0);
       mine[c + band_ - i] =
-          (mine[c + band_ - i] - inner(mine + (from + band_ - i), other + (from + band_ - c), c - from)) / other[band_];
+          (mine[c + band_ - i] - dot(mine + (from + band_ - i), other + (from + band_ - c), c - from)) / other[band_];
     }
-    const double rest = mine[band_] - inner(mine + (begin + band_ - i), mine + (begin + band_ - i), i - begin);
+    const double rest = mine[band_] - dot(mine + (begin + band_ - i), mine + (begin + band_ - i), i - begin);
     if (!(rest > 0)) return false;
     mine[band_] = std::sqrt(rest);
     return true;
@@ -67,10 +67,10 @@ class BandCholesky {
 };
 
 /// M = L·Lᵀ of one component of displacement over all nodes; the identity on those that do not move.
-BandCholesky mass_factor(const StencilPencil& pencil, std::size_t component) {
+WindowCholesky mass_factor(const StencilPencil& pencil, std::size_t component) {
   const Cells& cells = pencil.cells;
   const std::size_t nodes = node_count(cells);
-  BandCholesky factor(nodes, plane_nodes(cells) + cells[0] + 2, nodes);
+  WindowCholesky factor(nodes, plane_nodes(cells) + cells[0] + 2, nodes);
   for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const std::uint32_t n = node_index(cells, i, j, k);
     double* row = factor.row(n);
@@ -112,7 +112,7 @@ class SymmetricOperator {
   }
 
  private:
-  static void solve(const BandCholesky& factor, std::size_t component, Numbers& x) {
+  static void solve(const WindowCholesky& factor, std::size_t component, Numbers& x) {
     const std::size_t nodes = x.size() / 3, band = factor.band();
     for (std::size_t i = 0; i < nodes; ++i) {
       const double* row = factor.row(i);
@@ -122,7 +122,7 @@ class SymmetricOperator {
     }
   }
 
-  static void solve_transposed(const BandCholesky& factor, std::size_t component, Numbers& x) {
+  static void solve_transposed(const WindowCholesky& factor, std::size_t component, Numbers& x) {
     const std::size_t nodes = x.size() / 3, band = factor.band();
     for (std::size_t i = nodes; i-- > 0;) {
       const double* row = factor.row(i);
@@ -132,7 +132,7 @@ class SymmetricOperator {
   }
 
   StencilMatrix stiffness_;
-  std::vector<BandCholesky> factor_;  // of x and y, of z
+  std::vector<WindowCholesky> factor_;  // of x and y, of z
   Numbers work_;
 };
 
@@ -164,11 +164,11 @@ double lanczos_top(SymmetricOperator& op, const Numbers& start, std::size_t long
   longest = std::min(longest, now.size());
   for (std::size_t step = 1; step <= longest; ++step) {
     op.apply(now, next);
-    const double a = inner(now, next);
+    const double a = dot(now, next);
     diagonal.push_back(a);
     const double back = off.empty() ? 0 : off.back();
     for (std::size_t i = 0; i < now.size(); ++i) next[i] -= a * now[i] + back * before[i];
-    const double b = std::sqrt(inner(next, next));
+    const double b = std::sqrt(dot(next, next));
     const bool exhausted = b < 1e-12 * std::abs(a);
     if (step % 16 == 0 || step == longest || exhausted) {
       const double last = top;
@@ -189,7 +189,7 @@ std::size_t pencil_band(const Cells& cells) {
 /// Whether σ·M − K has a Cholesky factor: then no eigenvalue reaches σ.
 bool exceeds_spectrum(const StencilPencil& pencil, double sigma) {
   const Cells& cells = pencil.cells;
-  BandCholesky factor(pencil.moving.size(), pencil_band(cells), 0);
+  WindowCholesky factor(pencil.moving.size(), pencil_band(cells), 0);
   bool positive = true;
   for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const std::uint32_t n = node_index(cells, i, j, k);
@@ -224,7 +224,7 @@ std::vector<double> lanczos_start(const std::vector<bool>& moving) {
     const double radius = std::sqrt(-2 * exact::log(uniform())), angle = 2 * std::numbers::pi * uniform();
     if (moving[i]) v[i] = radius * exact::cos(angle);
   }
-  const double norm = std::sqrt(inner(v, v));
+  const double norm = std::sqrt(dot(v, v));
   for (double& x : v) x /= norm;
   return v;
 }

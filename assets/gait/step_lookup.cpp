@@ -6,7 +6,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-using namespace step_table;
+namespace table = step_table;
 
 /// Standing, beside what the slowest walk has.
 constexpr double standing_length = 0.25, standing_double_support = 0.22;
@@ -26,10 +26,10 @@ struct Place {
 };
 
 Place place_of(float at) {
-  constexpr auto first = static_cast<float>(speed.front());
-  constexpr auto apart = static_cast<float>((speed.back() - speed.front()) / (speed_count - 1));
-  const float place = std::clamp((at - first) / apart, 0.0F, static_cast<float>(speed_count - 1));
-  const std::size_t node = std::min(static_cast<std::size_t>(place), speed_count - 2);
+  constexpr auto first = static_cast<float>(table::speed.front());
+  constexpr auto apart = static_cast<float>((table::speed.back() - table::speed.front()) / (table::speed_count - 1));
+  const float place = std::clamp((at - first) / apart, 0.0F, static_cast<float>(table::speed_count - 1));
+  const std::size_t node = std::min(static_cast<std::size_t>(place), table::speed_count - 2);
   return {node, place - static_cast<float>(node), std::clamp(at / first, 0.0F, 1.0F)};
 }
 
@@ -37,7 +37,7 @@ Blend speed_blend(float at) {
   const auto [i, u, walks] = place_of(at);
   const float v = 1 - u;
   Blend b;
-  b.node = {i == 0 ? 0 : i - 1, i, i + 1, std::min(i + 2, speed_count - 1)};
+  b.node = {i == 0 ? 0 : i - 1, i, i + 1, std::min(i + 2, table::speed_count - 1)};
   b.weight = {-0.5F * u * v * v, v * (1 + u - 1.5F * u * u), u * (1 + v - 1.5F * v * v), -0.5F * v * u * u};
   // Where a neighbour lacks, the slope is that to the other one.
   if (i == 0) {
@@ -45,7 +45,7 @@ Blend speed_blend(float at) {
     b.weight[2] -= b.weight[0];
     b.weight[0] = 0;
   }
-  if (i + 2 == speed_count) {
+  if (i + 2 == table::speed_count) {
     b.weight[2] += 2 * b.weight[3];
     b.weight[1] -= b.weight[3];
     b.weight[3] = 0;
@@ -80,18 +80,18 @@ StepGiven usual_step(float at) {
 }
 
 double usual_step_length(float at) {
-  const double beyond = std::max(static_cast<double>(at) / speed.back(), 1.0);
+  const double beyond = std::max(static_cast<double>(at) / table::speed.back(), 1.0);
   return usual_step(at).step_length * std::sqrt(beyond);
 }
 
 TabledStep tabled_step(float at, float step_length) {
   const Blend b = speed_blend(at);
   TabledStep out{usual_of(b), {}};
-  constexpr auto least = static_cast<float>(length.front()), most = static_cast<float>(length.back());
+  constexpr auto least = static_cast<float>(table::length.front()), most = static_cast<float>(table::length.back());
   const float times = std::clamp(step_length / static_cast<float>(out.usual.step_length), least, most);
   std::size_t l = 0;
-  while (l + 2 < length_count && times > static_cast<float>(length[l + 1])) ++l;
-  const auto low = static_cast<float>(length[l]), high = static_cast<float>(length[l + 1]);
+  while (l + 2 < table::length_count && times > static_cast<float>(table::length[l + 1])) ++l;
+  const auto low = static_cast<float>(table::length[l]), high = static_cast<float>(table::length[l + 1]);
   const float part = (times - low) / (high - low);
   for (std::size_t k = 0; k < 4; ++k) {
     const float shorter = b.walks * b.weight[k] * (1 - part), longer = b.walks * b.weight[k] * part;

@@ -6,7 +6,7 @@ namespace mobil {
 namespace {
 
 constexpr std::string_view crowd = "mobil-crowd", lab = "mobil-lab";
-constexpr SubcommandRow rows[] = {
+constexpr SubcommandRow subcommands[] = {
     {"walk", "mobil", "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures"},
     {"crowd", crowd, "A crowd walks, turns, comes and goes; what a tick of it takes"},
     {"city", crowd, "A million people, most of whom sleep, under a camera that flies"},
@@ -33,13 +33,13 @@ constexpr SubcommandRow rows[] = {
 }  // namespace
 
 std::span<const SubcommandRow> subcommand_rows() {
-  return rows;
+  return subcommands;
 }
 
 const SubcommandRow* find_subcommand(std::string_view name) {
   const auto* row = std::ranges::find_if(
-      rows, [&](const SubcommandRow& r) { return r.name == name || (!name.empty() && r.former == name); });
-  return row == std::end(rows) ? nullptr : row;
+      subcommands, [&](const SubcommandRow& r) { return r.name == name || (!name.empty() && r.former == name); });
+  return row == std::end(subcommands) ? nullptr : row;
 }
 
 }  // namespace mobil

@@ -15,7 +15,7 @@ struct Unit {
   double base;  // one of it, in the base unit
 };
 
-constexpr Unit lengths[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+constexpr Unit length_units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
 constexpr Unit masses[] = {{"kg", 1}, {"g", 0.001}, {"lb", 0.45359237}};
 constexpr Unit speeds[] = {{"m/s", 1}, {"km/h", 1 / 3.6}, {"mph", 0.44704}};
 constexpr Unit frequencies[] = {{"Hz", 1}, {"hz", 1}, {"steps/s", 1}, {"steps/min", 1.0 / 60}};
@@ -29,7 +29,7 @@ constexpr Unit stiffnesses[] = {{"N/m", 1}, {"kN/m", 1e3}};
 std::span<const Unit> units(Quantity quantity) {
   switch (quantity) {
     case Quantity::length:
-      return lengths;
+      return length_units;
     case Quantity::mass:
       return masses;
     case Quantity::speed:

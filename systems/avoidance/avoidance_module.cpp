@@ -24,7 +24,7 @@ void turn_walkers(const GaitState<Lanes<float>>&, const Course<Lanes<float>>& co
   turn_shoulders(course.turn_rad, pose);
 }
 
-bool is_sound(const Course<float>& course) {
+bool is_sound_course(const Course<float>& course) {
   constexpr float fastest_m_s = 10, furthest_rad = 1e4F, longest = 10, broadest_m = 10, for_ever_s = 1e9F;
   constexpr float round_rad = 1;
   return within(course.speed_m_s, 0, fastest_m_s) && within(course.heading_rad, -furthest_rad, furthest_rad) &&
@@ -35,8 +35,8 @@ bool is_sound(const Course<float>& course) {
          within(course.turn_rad + course.turn_rad_s / shoulder_spring_per_s, -round_rad, round_rad);
 }
 
-Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
-  if (!every_row<Course>(saved, table, is_sound))
+Result<void> check_course(const SavedWorld& saved, std::uint32_t table) {
+  if (!every_row<Course>(saved, table, is_sound_course))
     return fail("the snapshot does not agree with itself (where somebody wants to go); give one that `save` made");
   return {};
 }
@@ -51,7 +51,7 @@ Module avoidance_module() {
               [](ScheduleBuilder& systems) {
                 systems.add("shoulders", &ease_walkers).add("turned shoulders", &turn_walkers).after("kinematics");
               },
-          .check_rows = &check_rows};
+          .check_rows = &check_course};
 }
 
 }  // namespace mobil::inline v0_3

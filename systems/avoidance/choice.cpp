@@ -47,9 +47,9 @@ struct Near {
 };
 
 /// One choice: what the walker may do, and what each costs.
-class Choice {
+class WayChoice {
  public:
-  Choice(const Surroundings& around, const Striker& striker, const StrikePlace<float>& from,
+  WayChoice(const Surroundings& around, const Striker& striker, const StrikePlace<float>& from,
          const Course<float>& course)
       : around_(around),
         mine_(around.book.claim(striker.claim)),
@@ -359,7 +359,7 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
     return;
   }
   course.heading_rad = lane_heading(around.book, around.walls, striker.claim, course);
-  Choice choice(around, striker, from, course);
+  WayChoice choice(around, striker, from, course);
   const std::size_t best = choice.best();
   choice.tell(best, out);
   out.gait = choice.gait(best, before.style);

@@ -12,7 +12,7 @@ namespace mobil::inline v0_3 {
 namespace {
 
 /// Whether every rung, view and speed is one that there is.
-bool is_sound(const Tiers<float>& tiers) {
+bool is_sound_tiers(const Tiers<float>& tiers) {
   for (std::uint32_t m = 0; m < most_muscles; ++m) {
     const std::uint32_t rung = rung_at(tiers.rung, m), goal = rung_at(tiers.goal, m);
     if ((rung >= rung_count && rung < refused_rung) || (goal >= rung_count && goal < refused_rung)) return false;
@@ -20,8 +20,8 @@ bool is_sound(const Tiers<float>& tiers) {
   return tiers.view < view_name.size() && tiers.speed_step < RungLadder::speed_steps;
 }
 
-Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
-  if (every_row<Tiers>(saved, table, is_sound)) return {};
+Result<void> check_tiers(const SavedWorld& saved, std::uint32_t table) {
+  if (every_row<Tiers>(saved, table, is_sound_tiers)) return {};
   return fail("the snapshot does not agree with itself (a choice of methods); give one that `save` made");
 }
 
@@ -33,7 +33,7 @@ std::span<const KeyPart> relevance_parts() {
 }
 
 Module relevance_module() {
-  return {.name = "relevance", .parts = {component_part<Needs>(), component_part<Tiers>()}, .check_rows = &check_rows};
+  return {.name = "relevance", .parts = {component_part<Needs>(), component_part<Tiers>()}, .check_rows = &check_tiers};
 }
 
 }  // namespace mobil::inline v0_3

@@ -76,15 +76,15 @@ struct Rows {
   hn::Vec<EightTag> row[4];
 };
 
-/// Four vectors a b c d of four lanes (or twice four) as their rows, and rows as vectors.
+/// Four vectors of four lanes (or twice four) as their rows, and rows as vectors.
 HWY_INLINE Rows transposed(const Rows& v) {
   const EightTag tag;
   const hn::RepartitionToWide<EightTag> two;
-  const auto& [a, b, c, d] = v.row;
-  const auto low = hn::BitCast(two, hn::InterleaveLower(tag, a, b)),
-             high = hn::BitCast(two, hn::InterleaveUpper(tag, a, b));
-  const auto low2 = hn::BitCast(two, hn::InterleaveLower(tag, c, d)),
-             high2 = hn::BitCast(two, hn::InterleaveUpper(tag, c, d));
+  const auto& [first, second, third, fourth] = v.row;
+  const auto low = hn::BitCast(two, hn::InterleaveLower(tag, first, second)),
+             high = hn::BitCast(two, hn::InterleaveUpper(tag, first, second));
+  const auto low2 = hn::BitCast(two, hn::InterleaveLower(tag, third, fourth)),
+             high2 = hn::BitCast(two, hn::InterleaveUpper(tag, third, fourth));
   return {{hn::BitCast(tag, hn::InterleaveLower(two, low, low2)), hn::BitCast(tag, hn::InterleaveUpper(two, low, low2)),
            hn::BitCast(tag, hn::InterleaveLower(two, high, high2)),
            hn::BitCast(tag, hn::InterleaveUpper(two, high, high2))}};

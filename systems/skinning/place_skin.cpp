@@ -169,8 +169,8 @@ HWY_INLINE void place_group(const LegLines& lines, const SkinCover* cover, const
   put(position, normal, first, count, packed, out, [](std::size_t) { return RigidAlong{}; });
 }
 
-void place(const SkinMesh& mesh, const BodySkin& skin, const LegLines& lines, const FrameMap* maps,
-           const SkinCover* cover, const FatBeside* beside, const VertexTarget& out) {
+void place_mesh(const SkinMesh& mesh, const BodySkin& skin, const LegLines& lines, const FrameMap* maps,
+                const SkinCover* cover, const FatBeside* beside, const VertexTarget& out) {
   FatRows rows;
   for (std::size_t r = 0; beside != nullptr && r < fat_regions; ++r) {
     const auto& [x, y, z] = (*beside)[r];
@@ -205,7 +205,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mobil::inline v0_3 {
 namespace {
-HWY_EXPORT(place);
+HWY_EXPORT(place_mesh);
 }
 
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
@@ -217,7 +217,7 @@ void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const Fram
     lines.knee_y[side] = at(Segment::shank_right).y;
     lines.ankle_y[side] = at(Segment::foot_right).y;
   }
-  HWY_DYNAMIC_DISPATCH(place)(mesh, skin, lines, maps.data(), cover, fat, out);
+  HWY_DYNAMIC_DISPATCH(place_mesh)(mesh, skin, lines, maps.data(), cover, fat, out);
 }
 
 void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, const Vec3<float>& origin_m,

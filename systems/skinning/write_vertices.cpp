@@ -83,8 +83,8 @@ HWY_INLINE void write_group(const PlacedRing* vertex, const VertexRings& rings, 
       });
 }
 
-void write(const VertexRings& rings, std::span<const PlacedAlong> along, const float* places, float sense,
-           const VertexTarget& out) {
+void write_rings(const VertexRings& rings, std::span<const PlacedAlong> along, const float* places, float sense,
+                 const VertexTarget& out) {
   if (out.normal == nullptr) return write_positions(rings, places, out);
   const bool packed = is_packed(out);
   const std::size_t vertices = rings.vertex.size();
@@ -138,13 +138,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mobil::inline v0_3 {
 namespace {
-HWY_EXPORT(write);
+HWY_EXPORT(write_rings);
 HWY_EXPORT(rigid);
 }  // namespace
 
 void write_vertices(const VertexRings& rings, std::span<const PlacedAlong> along, const float* places, float sense,
                     const VertexTarget& out) {
-  HWY_DYNAMIC_DISPATCH(write)(rings, along, places, sense, out);
+  HWY_DYNAMIC_DISPATCH(write_rings)(rings, along, places, sense, out);
 }
 
 void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale,

@@ -11,7 +11,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-bool is_sound(const Footing<float>& footing) {
+bool is_sound_footing(const Footing<float>& footing) {
   constexpr float steepest = 1, fastest = 20;
   const auto within = [](float value, float most) { return std::fabs(value) <= most; };  // false of no number
   bool sound = within(footing.lift_early_m, most_lift_m) && within(footing.lift_late_m, most_lift_m) &&
@@ -27,8 +27,8 @@ bool is_sound(const Footing<float>& footing) {
   return sound;
 }
 
-Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
-  if (!every_row<Footing>(saved, table, is_sound))
+Result<void> check_footing(const SavedWorld& saved, std::uint32_t table) {
+  if (!every_row<Footing>(saved, table, is_sound_footing))
     return fail("the snapshot does not agree with itself (the ground under somebody); give one that `save` made");
   return {};
 }
@@ -36,7 +36,7 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 }  // namespace
 
 Module terrain_module() {
-  return {.name = "terrain", .version = 4, .parts = {component_part<Footing>()}, .check_rows = &check_rows};
+  return {.name = "terrain", .version = 4, .parts = {component_part<Footing>()}, .check_rows = &check_footing};
 }
 
 }  // namespace mobil::inline v0_3

@@ -43,7 +43,7 @@ Result<const WalkRecording*> CrowdLegs::of(const Simulation& simulation, Entity 
   if (!human) return fail("a person who is to be drawn has left");
   auto found = shown_.find(number);
   if (found == shown_.end()) {
-    auto figure = make_figure(*human, std::nullopt);
+    auto figure = make_figure(*human);
     if (!figure) return tl::unexpected(figure.error());
     found = shown_.emplace(number, Shown{std::move(*figure), {}}).first;
   }

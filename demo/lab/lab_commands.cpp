@@ -12,8 +12,8 @@ std::vector<Subcommand> lab_commands() {
 }
 
 Program mobil_program() {
-  std::vector<Subcommand> all = walk_commands();
-  for (auto& part : {crowd_commands(), lab_commands()}) all.insert(all.end(), part.begin(), part.end());
+  std::vector<Subcommand> all = crowd_commands();
+  for (Subcommand& command : lab_commands()) all.push_back(std::move(command));
   auto program = make_program("", std::move(all));
   if (!program) throw std::logic_error("demo/program/subcommands.cpp: " + program.error().message);
   return *std::move(program);

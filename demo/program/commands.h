@@ -29,7 +29,6 @@ void say_where(std::string_view line);
 /// Writes a file of results that `option` names, and says so on stdout. Errors begin with the option.
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text);
 
-Subcommand walk_command();
 Subcommand crowd_command();
 Subcommand city_command();
 Subcommand town_command();
@@ -52,9 +51,7 @@ Subcommand completion_command();
 Subcommand man_command();
 
 /// Those of `mobil`, `mobil-crowd` and `mobil-lab`.
-inline std::vector<Subcommand> walk_commands() {
-  return {walk_command()};
-}
+std::vector<Subcommand> walk_commands();
 std::vector<Subcommand> crowd_commands();
 std::vector<Subcommand> lab_commands();
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include <mobil/version.h>
@@ -16,17 +17,25 @@
 namespace mobil {
 namespace {
 
+/// Real meshes are read by mobil-crowd alone, so `walk --anatomy` is one of its subcommands.
+std::string_view program_of(const SubcommandRow& row, std::span<const std::string> arguments) {
+  const bool meshes = row.name == "walk" && std::ranges::any_of(arguments, [](const std::string& argument) {
+                        return argument.starts_with("--anatomy");
+                      });
+  return meshes ? "mobil-crowd" : row.program;
+}
+
 /// Replaces this process; returns where that program is not built.
-int run_beside(const SubcommandRow& row, char** argv) {
+int run_beside(const SubcommandRow& row, std::string_view program, char** argv) {
   std::error_code none;
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
-  execv((folder / row.program).c_str(), argv);
-  std::string target(row.program == "mobil" ? "mobil_program" : row.program);
+  execv((folder / program).c_str(), argv);
+  std::string target(program == "mobil" ? "mobil_program" : program);
   std::ranges::replace(target, '-', '_');
   fmt::print(stderr,
              "mobil: '{}' is a subcommand of {}, which is not beside this program; build it: cmake --build "
              "build/release --target {}\n",
-             row.name, row.program, target);
+             row.name, program, target);
   return 2;
 }
 
@@ -55,10 +64,11 @@ Result<Program> make_program(std::string_view name, std::vector<Subcommand> comm
   for (const SubcommandRow& row : subcommand_rows()) {
     const auto own = std::ranges::find(commands, row.name, &Subcommand::name);
     Subcommand command{.name = std::string(row.name)};
-    if (name.empty() || row.program == name) {
-      if (own == commands.end()) return fail(fmt::format("'{}' is in the table alone", row.name));
+    if (own != commands.end()) {
       command = std::move(*own);
       commands.erase(own);
+    } else if (name.empty() || row.program == name) {
+      return fail(fmt::format("'{}' is in the table alone", row.name));
     }
     command.about = row.help;
     command.program = row.program;
@@ -71,7 +81,8 @@ Result<Program> make_program(std::string_view name, std::vector<Subcommand> comm
 int run_own(std::string_view name, std::vector<Subcommand> commands, int argc, char** argv) {
   std::vector<std::string> arguments(argv, argv + argc);
   if (const auto* row = argc > 1 ? find_subcommand(arguments[1]) : nullptr) {
-    if (row->program != name) return run_beside(*row, argv);
+    const std::string_view program = program_of(*row, arguments);
+    if (program != name) return run_beside(*row, program, argv);
     arguments[1] = row->name;
   }
   take_former_words(arguments);

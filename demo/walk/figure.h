@@ -1,7 +1,6 @@
 #pragma once
-// What a walking person looks like: the product's own surfaces, or those of an anatomy folder, and their recording.
+// What a walking person looks like: the product's own surfaces, or real meshes, and their recording.
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,10 +22,15 @@ struct Figure {
   std::vector<Vec3<float>> rest_m;  // then all vertices of the right leg's muscles at rest
 };
 
-/// Surfaces for one person with muscles. Without a folder they are generated from published dimensions. Errors: those
-/// of reading and fitting the folder's meshes. `contact`: muscles are kept out of each other and of bones.
-Result<Figure> make_figure(const Human& human, const std::optional<std::filesystem::path>& anatomy,
-                           bool contact = false);
+/// Surfaces for one person with muscles, generated from published dimensions. `contact`: muscles are kept out of each
+/// other and of bones.
+Result<Figure> make_figure(const Human& human, bool contact = false);
+
+/// The person's muscles with a mesh that a surface can follow; no bones.
+SurfaceChoice simulated_surfaces(const Human& human);
+
+/// Binds surfaces to the meshes of the person's muscles.
+Result<Figure> bound_figure(const Human& human, DrawnSurfaces drawn, const SurfaceChoice& choice, bool contact);
 
 /// Begins a recording of the figure: bones, and each muscle's name, triangles and colour, right then left.
 WalkRecording begin_recording(const Figure& figure, double frame_s);

@@ -1,4 +1,4 @@
-// `mobil walk`: one person from parameters to motion, muscles, pictures and a scene file.
+#include "demo/walk/walk_command.h"
 
 #include <fmt/format.h>
 
@@ -276,7 +276,7 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   return {};
 }
 
-Result<void> run_walk(const WalkOptions& asked) {
+Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
   const auto start = SteadyClock::now();
   WalkOptions options = asked;
   Simulation simulation;
@@ -294,7 +294,8 @@ Result<void> run_walk(const WalkOptions& asked) {
   if (!added) return added;
   const Human human = *simulation.human(*entity);
   set_edges(options.ground, human.body.request.height_m, human.gait.step_length_m);
-  const auto figure = make_figure(human, options.anatomy, options.contact);
+  const auto figure = options.anatomy ? read_figure(human, *options.anatomy, options.contact)
+                                      : make_figure(human, options.contact);
   if (!figure) return tl::unexpected(figure.error());
   auto results = OutputFolder::make(options.out);
   if (!results) return tl::unexpected(results.error());
@@ -320,7 +321,7 @@ Result<void> run_walk(const WalkOptions& asked) {
 
 }  // namespace
 
-Subcommand walk_command() {
+Subcommand walk_command(FigureReader read_figure) {
   auto text = std::make_shared<WalkText>();
   Subcommand command{.name = "walk"};
   command.footer = std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) + "\n\n" + walk_ground_help +
@@ -333,15 +334,19 @@ Subcommand walk_command() {
                    "          mobil walk --ground stairs:16cm/30cm --view skin --video";
   command.options = walk_options(*text);
   command.empty_refused = true;
-  command.run = [text] {
+  command.run = [text, read_figure] {
     if (text->list_parameters) {
       fmt::print("{}", gait_parameter_table());
       return 0;
     }
     const auto options = read_walk_options(*text);
-    return exit_status_of("walk", options ? run_walk(*options) : tl::unexpected(options.error()));
+    return exit_status_of("walk", options ? run_walk(*options, read_figure) : tl::unexpected(options.error()));
   };
   return command;
+}
+
+std::vector<Subcommand> walk_commands() {
+  return {walk_command(nullptr)};
 }
 
 }  // namespace mobil

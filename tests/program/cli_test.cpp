@@ -108,14 +108,12 @@ TEST(BadWalk, NamesTheMethodsAndElements) {
   expect_refused("walk --element cube", {"--element", "'cube'", "full, bbar, one-point"});
 }
 
-/// What is within files is refused by those who read them (Script, BadAnatomy).
+/// What is within files is refused by those who read them (Script).
 TEST(BadFile, IsNamed) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "short.csv") << "time_s,parameter,value\n1,stop\n";
   expect_refused(folder.path, "walk --script short.csv --out out", {"--script", "short.csv", "line 2: 2 cells"});
   expect_refused(folder.path, "walk --script nowhere.csv --out out", {"nowhere.csv", "time_s, parameter, value"});
-  expect_refused(folder.path, "walk --anatomy nowhere --out out", {"nowhere"});
-  expect_refused(folder.path, "walk --anatomy short.csv --out out", {"short.csv"});
 }
 
 }  // namespace mobil::cli_test

@@ -104,6 +104,7 @@ TEST(Outputs, NamesThatCannotBeAreRefusedWithStatusTwo) {
                   {quick + "--out " + longest, {"nnn"}},
                   {quick + "--anatomy " + longest, {"nnn"}},
                   {quick + "--anatomy loop", {"loop"}},
+                  {quick + "--anatomy nowhere", {"nowhere"}},
                   {quick + "--script " + longest, {"nnn"}},
                   {quick + "--out /proc/self/nothing", {"/proc/self/nothing"}}},
                  folder.path);

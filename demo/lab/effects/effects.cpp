@@ -198,7 +198,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
 
   tell("surfaces");
   const Human human = *simulation.human(people.front());
-  const auto figure = make_figure(human, std::nullopt);
+  const auto figure = make_figure(human);
   if (!figure) return tl::unexpected(figure.error());
   WalkRecording recording = begin_recording(*figure, static_cast<float>(simulation.tick_s()));
   const Measured skinned = measure(5, [&] {

@@ -51,7 +51,7 @@ Result<ShownWalk> standing(const LegBend& bend, float level) {
   }
   for (int tick = 0; tick < 60; ++tick) simulation.tick();
   const Human human = *simulation.human(*entity);
-  const auto figure = make_figure(human, std::nullopt);
+  const auto figure = make_figure(human);
   if (!figure) return tl::unexpected(figure.error());
   ShownWalk shown{begin_recording(*figure, 1), {}};
   record_frame(*figure, simulation, human, shown.recording);

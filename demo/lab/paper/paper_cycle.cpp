@@ -9,7 +9,7 @@
 #include "assets/fem/muscle_template.h"
 #include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/compare/steady_cycle.h"
-#include "demo/walk/figure.h"
+#include "demo/anatomy/real_figure.h"
 #include "demo/walk/walk_lines.h"
 
 namespace mobil {
@@ -145,7 +145,7 @@ Result<PaperCycle> walk_cycle(const CycleRequest& request) {
   const Human human = *simulation.human(*entity);
   Figure figure;
   if (!request.shown_at.empty()) {
-    auto made = make_figure(human, request.anatomy);
+    auto made = request.anatomy ? real_figure(human, *request.anatomy, false) : make_figure(human);
     if (!made) return tl::unexpected(made.error());
     figure = std::move(*made);
   }

@@ -1,0 +1,68 @@
+#include "demo/anatomy/real_figure.h"
+
+#include <array>
+
+#include <mobil/assets/surfaces/muscle_surfaces.h>
+#include <mobil/assets/surfaces/surface_binding.h>
+#include <mobil/fit_anatomy.h>
+#include <mobil/systems/skin/rest_surfaces.h>
+
+namespace mobil {
+namespace {
+
+/// Binds a surface, and what there is of it beyond the kneecap, to the mesh of the muscle that drives it.
+Result<void> bind(const Human& human, const SurfaceChoice& choice, FittedMuscle& muscle, DrawnSurfaces& drawn) {
+  const auto driver = driving_muscle(choice.simulated, muscle.group, muscle.muscle);
+  if (!driver) return {};
+  const auto mesh = rest_mesh(human.body, *driver, choice.cells);
+  if (!mesh) return tl::unexpected(mesh.error());
+  auto ligament = cut_at_kneecap(muscle, human.body);
+  const Passages passages =
+      bind_muscle(muscle.surface, mesh->cage, mesh->frame, muscle.attachments, mesh->least_passage_m);
+  if (ligament) bind_beyond(ligament->surface, muscle.surface, mesh->cage, mesh->frame, passages, ligament->ends);
+  drawn.muscles.push_back({*driver, std::move(muscle.surface)});
+  if (ligament) drawn.muscles.push_back({*driver, std::move(ligament->surface)});
+  return {};
+}
+
+std::vector<std::string> all_said(const Anatomy& anatomy) {
+  std::vector<std::string> said = anatomy.said;
+  for (const AnatomyPart& part : anatomy.part) {
+    for (const std::string& line : part.report.said) said.push_back(part.mesh.name + ": " + line);
+  }
+  return said;
+}
+
+}  // namespace
+
+Result<Figure> real_figure(const Human& human, const std::filesystem::path& folder, bool contact) {
+  const SurfaceChoice choice = simulated_surfaces(human);
+  const auto anatomy = load_anatomy(folder.string(), {.skin = true});
+  if (!anatomy) return tl::unexpected(anatomy.error());
+  auto fitted = fit_anatomy(*anatomy, human.body);
+  if (!fitted) return tl::unexpected(fitted.error());
+  DrawnSurfaces drawn;
+  // The folder holds a pelvis and legs; the rest of the skeleton is generated.
+  std::array<bool, segment_count> real{};
+  for (const auto& bone : fitted->bones) real[index(bone.segment)] = true;
+  drawn.bones = std::move(fitted->bones);
+  auto generated = draw_surfaces(human.body, {.bones = true, .simulated = {}, .cells = choice.cells});
+  if (!generated) return tl::unexpected(generated.error());
+  for (auto& bone : generated->bones) {
+    if (!real[index(bone.segment)]) drawn.bones.push_back(std::move(bone));
+  }
+  for (auto& muscle : fitted->muscles) {
+    if (auto done = bind(human, choice, muscle, drawn); !done) return tl::unexpected(done.error());
+  }
+  std::vector<Vec3<float>> rest_m;
+  for (const auto& muscle : drawn.muscles)
+    rest_m.insert(rest_m.end(), muscle.surface.mesh.position.begin(), muscle.surface.mesh.position.end());
+  auto figure = bound_figure(human, std::move(drawn), choice, contact);
+  if (!figure) return figure;
+  figure->said = all_said(*anatomy);
+  figure->skins = std::move(fitted->skins);
+  figure->rest_m = std::move(rest_m);
+  return figure;
+}
+
+}  // namespace mobil

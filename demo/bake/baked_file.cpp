@@ -4,7 +4,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <string>
 #include <string_view>
 
 #include <mobil/assets/files/output_file.h>

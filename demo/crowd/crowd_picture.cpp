@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <tuple>
-#include <vector>
 
 #include <mobil/renderer.h>
 #include <mobil/skin_writer.h>

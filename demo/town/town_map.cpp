@@ -1,6 +1,5 @@
 #include "demo/town/town_map.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,6 +1,5 @@
 #include "demo/town/town_picture.h"
 
-#include <cmath>
 #include <utility>
 
 #include <mobil/engine/geometry.h>

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <string>
 
 #include <mobil/components/gait_style.h>
 #include "demo/program/body_options.h"

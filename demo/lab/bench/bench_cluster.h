@@ -2,8 +2,6 @@
 // What ranks cost: a model of a crowd on many of them, after LogGP (Alexandrov, Ionescu, Schauser, Scheiman 1995),
 // whose parameters are measured.
 
-#include <cstddef>
-
 namespace mobil {
 
 /// Times in s, of messages between two ranks and of a tick's work.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <mobil/schedule.h>
-#include "demo/measure/measure.h"
 #include "demo/scene/crowd_people.h"
 
 namespace mobil {

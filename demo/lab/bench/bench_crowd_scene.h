@@ -4,9 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include <mobil/engine/error.h>

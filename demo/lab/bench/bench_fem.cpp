@@ -6,16 +6,12 @@
 #include <fmt/format.h>
 #include <sched.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <optional>
 #include <thread>
-#include <utility>
-#include <vector>
 
 #include <mobil/engine/jobs.h>
-#include "assets/fem/muscle_template.h"
 #include "demo/lab/bench/bench_fem_rivals.h"
 
 namespace mobil {

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "assets/fem/belly_solver.h"

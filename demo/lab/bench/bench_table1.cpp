@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"

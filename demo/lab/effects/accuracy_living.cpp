@@ -1,9 +1,6 @@
 #include "demo/lab/effects/accuracy_living.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <utility>

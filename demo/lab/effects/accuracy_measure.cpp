@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <mobil/relevance.h>
 #include <mobil/schedule.h>

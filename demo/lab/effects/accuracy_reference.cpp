@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <mobil/rows.h>
-#include "assets/reduction/reduced_basis.h"
 #include "assets/surfaces/muscle_cage.h"
 #include "systems/deformation/reduced.h"
 #include "systems/muscles/belly_library.h"

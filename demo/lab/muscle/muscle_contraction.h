@@ -1,7 +1,6 @@
 #pragma once
 // `mobil muscle --activation LEVEL`: one real muscle of somebody who stands, excited and let go.
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 

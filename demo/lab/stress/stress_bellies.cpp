@@ -1,12 +1,8 @@
 #include "demo/lab/stress/stress_bellies.h"
 
-#include "assets/fem/muscle_template.h"
-
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace mobil {

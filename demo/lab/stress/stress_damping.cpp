@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "demo/lab/stress/stress.h"

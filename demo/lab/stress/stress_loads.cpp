@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"

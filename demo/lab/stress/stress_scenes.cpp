@@ -1,10 +1,7 @@
 // Relevance under cameras that flicker and budgets of nothing.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <string>
 #include <vector>
 
 #include <mobil/components/fade.h>

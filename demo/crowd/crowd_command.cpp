@@ -14,7 +14,7 @@
 #include <mobil/local_transport.h>
 #include <mobil/mpi_transport.h>
 #include <mobil/png.h>
-#include "demo/crowd/city_run.h"
+#include "demo/crowd/city_shard.h"
 #include "demo/crowd/crowd_export.h"
 #include "demo/crowd/crowd_options.h"
 #include "demo/crowd/crowd_picture.h"
@@ -200,6 +200,11 @@ Subcommand city_command() {
   command.empty_refused = true;
   command.run = [text] { return run_command(*text); };
   return command;
+}
+
+std::vector<Subcommand> crowd_commands() {
+  return {crowd_command(), city_command(),     town_command(),   view_command(),
+          bake_command(),  schedule_command(), anatomy_command()};
 }
 
 }  // namespace mobil

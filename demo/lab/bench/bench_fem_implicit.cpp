@@ -10,7 +10,8 @@
 
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
-#include "demo/lab/bench/bench_fem.h"
+#include "demo/lab/bench/bench.h"
+#include "demo/lab/bench/bench_fem_bellies.h"
 #include "demo/lab/reference/reference.h"
 
 namespace mobil {

@@ -11,7 +11,6 @@
 
 #include <mobil/muscle_table.h>
 #include "assets/fem/element_size.h"
-#include "demo/program/choice.h"
 #include "demo/program/units.h"
 
 namespace mobil {

@@ -10,7 +10,6 @@
 
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
-#include "demo/lab/stress/stress_limits.h"
 
 namespace mobil {
 namespace {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include <mobil/engine/error.h>
 #include <mobil/relevance.h>

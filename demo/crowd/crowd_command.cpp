@@ -14,7 +14,8 @@
 #include <mobil/local_transport.h>
 #include <mobil/mpi_transport.h>
 #include <mobil/png.h>
-#include "demo/crowd/city_run.h"
+#include "demo/anatomy/real_figure.h"
+#include "demo/crowd/city_shard.h"
 #include "demo/crowd/crowd_export.h"
 #include "demo/crowd/crowd_options.h"
 #include "demo/crowd/crowd_picture.h"
@@ -23,6 +24,7 @@
 #include "demo/crowd/crowd_scene.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
+#include "demo/walk/walk_command.h"
 
 namespace mobil {
 namespace {
@@ -200,6 +202,11 @@ Subcommand city_command() {
   command.empty_refused = true;
   command.run = [text] { return run_command(*text); };
   return command;
+}
+
+std::vector<Subcommand> crowd_commands() {
+  return {walk_command(&real_figure), crowd_command(), city_command(),     town_command(),
+          view_command(),             bake_command(),  schedule_command(), anatomy_command()};
 }
 
 }  // namespace mobil

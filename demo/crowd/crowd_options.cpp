@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include <mobil/mpi_transport.h>

@@ -6,7 +6,6 @@
 
 #include "demo/crowd/heap_count.h"
 #include "demo/measure/machine.h"
-#include "demo/program/json.h"
 
 namespace mobil {
 namespace {

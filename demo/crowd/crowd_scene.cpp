@@ -1,7 +1,5 @@
 #include "demo/crowd/crowd_scene.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,7 +1,6 @@
 #include "demo/crowd/heap_count.h"
 
 #include <atomic>
-#include <cerrno>
 #include <cstdlib>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -5,7 +5,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <cstddef>
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();

@@ -7,10 +7,8 @@
 #include <iterator>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace mobil {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "demo/program/choice.h"
 #include "demo/program/units.h"
 
 namespace mobil {

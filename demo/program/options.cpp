@@ -9,7 +9,6 @@
 #include <exception>
 #include <filesystem>
 #include <span>
-#include <string_view>
 #include <system_error>
 
 #include <mobil/engine/error.h>

@@ -1,6 +1,10 @@
 #pragma once
 // Numbers as people write them: "180cm", "5km/h", "80", "110steps/min", "2x2x8", "0,-9.81,0"; and names in lists.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +33,14 @@ Result<double> read_value(std::string_view name, const std::string& text, Quanti
 
 /// The same; also fails outside `low` to `high` (base unit).
 Result<double> read_value(std::string_view name, const std::string& text, Quantity quantity, double low, double high);
+
+/// One of an enumeration's names, which stand in its order. Errors name the option and all that there are.
+template <class E, class Names>
+Result<E> choose(std::string_view option, const std::string& text, const Names& names) {
+  const auto found = std::find(std::begin(names), std::end(names), text);
+  if (found != std::end(names)) return static_cast<E>(found - std::begin(names));
+  return fail(fmt::format("{} '{}': choose one of {}", option, text, fmt::join(names, ", ")));
+}
 
 /// The first error of several options. What is read after it is worthless.
 class OptionReader {

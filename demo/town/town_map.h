@@ -3,15 +3,36 @@
 // frame: m, +Y up; the street runs along X, the square lies ahead of it.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <mobil/components/lanes.h>
+#include <mobil/engine/error.h>
 #include <mobil/systems/avoidance/obstacles.h>
 #include <mobil/systems/capture/scene.h>
 #include <mobil/terrain.h>
 
 namespace mobil {
+
+/// Ways through the town by Recast and Detour: a mesh of where people can walk, made once of the town's triangles, and
+/// the shortest ways on it.
+class TownPaths {
+ public:
+  /// Errors: Recast fails.
+  static Result<TownPaths> make();
+  TownPaths(TownPaths&&) noexcept;
+  TownPaths& operator=(TownPaths&&) noexcept;
+  ~TownPaths();
+
+  /// Corners of the shortest way, its end last; empty where there is none.
+  void find(GroundPoint from, GroundPoint to, std::vector<GroundPoint>& corners) const;
+
+ private:
+  struct Mesh;
+  explicit TownPaths(std::unique_ptr<Mesh> mesh);
+  std::unique_ptr<Mesh> mesh_;
+};
 
 /// A block with upright sides whose top rises from `at_low` to `at_high` along X, m over the street.
 struct TownBlock {

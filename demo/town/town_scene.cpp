@@ -7,7 +7,6 @@
 #include <mobil/components/avoidance.h>
 #include "demo/measure/measure.h"
 #include "demo/scene/crowd_people.h"
-#include "demo/town/town_map.h"
 
 namespace mobil {
 namespace {

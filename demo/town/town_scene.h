@@ -11,7 +11,6 @@
 #include <mobil/simulation.h>
 #include <mobil/terrain.h>
 #include "demo/town/town_map.h"
-#include "demo/town/town_paths.h"
 
 namespace mobil {
 

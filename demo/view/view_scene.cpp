@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <span>
 
 #include <mobil/components/gait_style.h>
 #include <mobil/forces.h>

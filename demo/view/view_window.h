@@ -2,7 +2,6 @@
 // A window that shows pictures, with Dear ImGui on top. GLFW and OpenGL stand in view_window.cpp alone.
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <mobil/engine/error.h>

@@ -1,11 +1,9 @@
 #include "demo/walk/drawn_skin.h"
 
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include <mobil/systems/skinning/follow_skin.h>
-#include <mobil/systems/skinning/place_skin.h>
 #include "demo/scene/scatter.h"
 
 namespace mobil {

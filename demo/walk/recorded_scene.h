@@ -1,7 +1,6 @@
 #pragma once
 // A recorded walk as what a renderer draws.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>

@@ -1,7 +1,5 @@
 #include "demo/walk/walk_ground.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

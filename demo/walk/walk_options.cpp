@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <mobil/muscle_table.h>
-#include "demo/program/choice.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"
 

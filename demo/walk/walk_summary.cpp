@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <string>
-
 #include <mobil/body_composition.h>
 #include <mobil/muscle_table.h>
-#include <mobil/schedule.h>
 #include <mobil/systems/muscles/muscle_step.h>
 #include "demo/program/json.h"
 

@@ -14,7 +14,6 @@
 
 #include <mobil/engine/geometry.h>
 #include "assets/body/segment_inertia.h"
-#include "demo/lab/compare/compare_balance.h"
 #include "demo/lab/compare/compare_judge.h"
 #include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/compare/compare_verdicts.h"

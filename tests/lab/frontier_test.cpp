@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "demo/lab/frontier/frontier.h"
-#include "demo/lab/frontier/frontier_costs.h"
 #include "demo/pictures/svg_plot.h"
 #include "tests/program/program.h"
 

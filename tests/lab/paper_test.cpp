@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "demo/lab/paper/paper_cycle.h"
-#include "demo/lab/paper/paper_lengths.h"
 #include "demo/lab/paper/paper_table.h"
 #include "tests/program/program.h"
 

@@ -14,7 +14,6 @@
 #include <mobil/relevance.h>
 #include "assets/reduction/reduced_basis.h"
 #include "demo/lab/effects/accuracy_measure.h"
-#include "demo/lab/effects/accuracy_reference.h"
 
 namespace mobil::relevance_show_test {
 constexpr double kept_part = 0.99;  // of muscle-ticks within the tolerance; all of them are within twice that

@@ -1,11 +1,20 @@
 #include "demo/lab/bench/bench.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
 #include <utility>
 
+#include <mobil/mpi_transport.h>
 #include "demo/lab/bench/bench_crowd.h"
+#include "demo/program/commands.h"
+#include "demo/program/json.h"
+#include "demo/program/named_entries.h"
+#include "demo/program/progress.h"
+#include "demo/program/units.h"
 
 namespace mobil {
 namespace {
@@ -19,6 +28,142 @@ Result<BenchCrowd*> made_once(std::shared_ptr<BenchCrowd>& crowd, std::size_t hu
     crowd = std::move(*made);
   }
   return crowd.get();
+}
+
+struct Bench {
+  std::string_view name;
+  Result<void> (*run)(BenchRun&);
+};
+
+constexpr std::array benches = {Bench{"machine", &bench_machine},
+                                Bench{"gait", &bench_gait},
+                                Bench{"kinematics", &bench_kinematics},
+                                Bench{"lines", &bench_lines},
+                                Bench{"activation", &bench_activation},
+                                Bench{"skinning", &bench_skinning},
+                                Bench{"skin", &bench_skin},
+                                Bench{"avoidance", &bench_avoidance},
+                                Bench{"table1", &bench_table1},
+                                Bench{"fem", &bench_fem},
+                                Bench{"reduced", &bench_reduced},
+                                Bench{"paper_figures", &bench_paper_figures},
+                                Bench{"crowd", &bench_crowds},
+                                Bench{"threads", &bench_threads},
+                                Bench{"relevance", &bench_relevance},
+                                Bench{"cluster", &bench_cluster}};
+
+struct BenchText {
+  std::vector<std::string> names;
+  std::string humans = "10000";
+  std::optional<std::string> json;
+  bool quick = false;
+};
+
+struct BenchRequest {
+  std::vector<Bench> chosen;  // in the order above
+  std::size_t humans = 0;
+  std::filesystem::path json;
+};
+
+Result<std::size_t> parse_humans(const std::string& text) {
+  constexpr std::size_t most = 200'000;
+  if (const auto humans = parse_count(text, 1, most)) return *humans;
+  return fail(fmt::format("--humans '{}' must be a whole number from 1 to {}", text, most));
+}
+
+Result<BenchRequest> read_request(const BenchText& text) {
+  BenchRequest request;
+  auto chosen = choose_named(benches, text.names, "bench");
+  if (!chosen) return tl::unexpected(chosen.error());
+  request.chosen = std::move(*chosen);
+  const auto humans = parse_humans(text.humans);
+  if (!humans) return tl::unexpected(humans.error());
+  request.humans = *humans;
+  if (text.json) {
+    if (auto ok = check_result_place("--json", *text.json); !ok) return tl::unexpected(ok.error());
+    request.json = *text.json;
+  }
+  return request;
+}
+
+std::string percent(const std::optional<double>& fraction) {
+  return fraction ? fmt::format("{:.0f} %", 100 * *fraction) : "";
+}
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : "";
+}
+
+void print_table(const BenchRun& run) {
+  const Machine& m = run.machine;
+  fmt::print("{}, {} cores; caches {} kB, {} kB, {} MB; {} by {} ({})\n\n", m.cpu, m.cores, m.l1_bytes >> 10,
+             m.l2_bytes >> 10, m.l3_bytes >> 20, m.target, m.compiler, m.flags);
+  constexpr auto row = "{:<45} {:>8} {:>8} {:>8}  {:<8} {:>7} {:>9}  {}\n";
+  fmt::print(row, "", "best", "median", "CPU", "unit", "of peak", "of memory", "bound by");
+  for (const BenchResult& r : run.results) {
+    fmt::print(row, r.name, number(r.value), number(r.median), number(r.cpu), r.unit, percent(r.of_peak),
+               percent(r.of_bandwidth), r.bound);
+  }
+  for (const std::string& note : run.notes) fmt::print("{}\n", note);
+}
+
+/// One entry of the results. Further keys may follow; these stay.
+Json entry(const std::string& name, double value, std::string_view unit) {
+  return {{"name", name}, {"value", value}, {"unit", unit}};
+}
+
+std::string to_json(const BenchRun& run) {
+  const Machine& m = run.machine;
+  Json json;
+  json["machine"] = machine_json(m);
+  json["machine"].update(
+      {{"l1_bytes", m.l1_bytes}, {"l2_bytes", m.l2_bytes}, {"l3_bytes", m.l3_bytes}, {"clock_ghz", m.clock_ghz}});
+  json["crowd"] = {{"humans", run.humans}, {"seed", BenchCrowd::seed}};
+  auto& results = json["results"] = Json::array();
+  for (const BenchResult& r : run.results) {
+    auto& told = results.push_back(entry(r.name, r.value, r.unit));
+    if (r.median) told["median"] = *r.median;
+    if (r.cpu) told["cpu"] = *r.cpu;
+    const std::string stem = r.name.substr(0, r.name.rfind('.'));
+    if (r.of_peak) results.push_back(entry(stem + ".peak_fraction", *r.of_peak, "1"));
+    if (r.of_bandwidth) results.push_back(entry(stem + ".bandwidth_fraction", *r.of_bandwidth, "1"));
+  }
+  return json.dump(2) + "\n";
+}
+
+/// Under mpirun: what ranks cost, told by the first of them.
+Result<void> check_ranks(const BenchRequest& request) {
+  if (!started_as_rank() || (request.chosen.size() == 1 && request.chosen.front().run == &bench_cluster)) return {};
+  return fail("under mpirun cluster alone is measured; give mpirun -n 2 mobil bench cluster");
+}
+
+int bench(const BenchText& text) {
+  const auto request = read_request(text);
+  const auto fits = request ? check_ranks(*request) : tl::unexpected(request.error());
+  if (!fits) return first_by_environment() ? complain("bench", fits.error().message) : 2;
+  BenchRun run;
+  if (!first_by_environment()) {
+    run.humans = request->humans;
+    run.quick = text.quick;
+    return bench_cluster(run) ? 0 : 1;
+  }
+  run.humans = request->humans;
+  run.quick = text.quick;
+  run.machine = describe_machine();
+  show("measuring the machine");
+  measure_machine(run.machine);
+  if (request->chosen.front().name != benches.front().name) {  // what the others are held against is always told
+    if (auto done = bench_machine(run); !done) return complain("bench", done.error().message, 1);
+  }
+  for (const Bench& chosen : request->chosen) {
+    show(fmt::format("measuring {}", chosen.name));
+    if (auto done = chosen.run(run); !done)
+      return complain("bench", fmt::format("{}: {}", chosen.name, done.error().message), 1);
+  }
+  show("");
+  print_table(run);
+  if (request->json.empty()) return 0;
+  return exit_status_of("bench", write_result("--json", request->json, to_json(run)));
 }
 
 }  // namespace
@@ -62,6 +207,30 @@ Result<void> bench_machine(BenchRun& run) {
                  fmt::format("{} cores at once", machine.cores))
       .median = machine.all_cores_bandwidth_median_gbps;
   return {};
+}
+
+Subcommand bench_command() {
+  auto text = std::make_shared<BenchText>();
+  Subcommand command{.name = "bench"};
+  command.footer =
+      "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the\n"
+      "least time that the thread had a processor; well below the best, other programs were at work. Of peak, of\n"
+      "memory: operations and bytes in the best time, over what one core does at most; above 100 % the caches serve.\n"
+      "crowd: people with eight muscles along 12 vectors, nobody looking; a tenth as many as --humans, as many, ten\n"
+      "times as many (200000 at most). Its names: crowd.N.us_per_human_tick, crowd.N.compact.us_per_human_tick,\n"
+      "crowd.large_over_small, crowd.compact.large_over_small, crowd.us_per_spawn.\n"
+      "threads: the crowd by 1, 2, 4, … threads, and a model of more; its names: threads.unseen.N.speedup,\n"
+      "threads.unseen.N.speedup_predicted, threads.unseen.N.fork_us, threads.unseen.serial_share, threads.compact.….\n"
+      "cluster: messages between ranks, ticks with and without exchange, and a model of more ranks; --humans on each.\n"
+      "It measures two threads, or what mpirun starts: mpirun -n 2 mobil bench cluster.\n"
+      "Example: mobil bench gait kinematics --humans 2000 --json bench.json";
+  command.options = {
+      named_option(benches, text->names, "measure"),
+      {"--humans", &text->humans, "How many walk, 1 to 200000, all different"},
+      {"--quick", &text->quick, "One short round of fem, paper_figures and crowd: all figures, but not to be quoted"},
+      {"--json", &text->json, "File for the figures"}};
+  command.run = [text] { return bench(*text); };
+  return command;
 }
 
 }  // namespace mobil

@@ -2,7 +2,7 @@
 // What every bench is made of: what it is asked, and what it hands back.
 //
 // A bench is one function, `Result<void> bench_x(BenchRun&)`, in a file of its own and one line in the list of
-// bench_command.cpp.
+// bench.cpp.
 
 #include <cstddef>
 #include <memory>
@@ -67,6 +67,7 @@ Result<void> bench_skin(BenchRun& run);
 Result<void> bench_avoidance(BenchRun& run);
 Result<void> bench_table1(BenchRun& run);
 Result<void> bench_fem(BenchRun& run);
+Result<void> bench_fem_implicit(BenchRun& run);  // the part of bench_fem by CAA, ICD and static on 81 nodes
 Result<void> bench_reduced(BenchRun& run);
 Result<void> bench_paper_figures(BenchRun& run);
 Result<void> bench_threads(BenchRun& run);

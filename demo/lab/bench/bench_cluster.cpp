@@ -1,12 +1,11 @@
-// What ranks cost: messages, ticks with and without exchange, and what follows for more ranks.
-#include "demo/lab/bench/bench_cluster.h"
+// What ranks cost: messages, ticks with and without exchange, and a model of more ranks after LogGP (Alexandrov,
+// Ionescu, Schauser, Scheiman 1995).
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +19,44 @@
 
 namespace mobil {
 namespace {
+
+/// Times in s, of messages between two ranks and of a tick's work.
+struct ClusterModel {
+  // Latency is none of them: the first rank is ahead, and nobody waits for a single message.
+  double overhead = 0;  // o: that a rank spends on sending a message
+  double per_byte = 0;  // G: more for each byte of a long one
+  double person = 0;    // of one awake walker, a tick
+  double command = 0;   // of the first rank's host, for one command
+  // As people do in `mobil crowd`: each is asked for something so often a tick, and a command has so many bytes.
+  double commands_a_person = 0, bytes_a_command = 0;
+};
+
+/// A tick of so many people on so many ranks, s. People are spread by chance, so the fullest rank has about
+/// √(2 ln ranks · people / ranks) more than the mean; where there are fewer cores than ranks, these take turns.
+struct ClusterTick {
+  double work = 0;    // of the fullest rank
+  double serial = 0;  // of the first rank, while nobody else can go on: commands, and sending them down the tree
+  double all() const { return work + serial; }
+};
+
+ClusterTick predict(const ClusterModel& model, double people, int ranks, int cores) {
+  const double turns = std::max(1.0, static_cast<double>(ranks) / cores), mean = people / ranks;
+  const double fullest = mean + (ranks > 1 ? std::sqrt(2 * std::log(static_cast<double>(ranks)) * mean) : 0);
+  const double commands = model.commands_a_person * people;
+  const double children = ranks > 1 ? std::ceil(std::log2(static_cast<double>(ranks))) : 0;
+  return {model.person * fullest * turns,
+          model.command * commands + children * (model.overhead + model.per_byte * model.bytes_a_command * commands)};
+}
+
+/// The most people whose tick takes no longer than that.
+double people_within(const ClusterModel& model, double within_s, int ranks, int cores) {
+  double low = 0, high = 1e12;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (low + high) / 2;
+    (predict(model, middle, ranks, cores).all() <= within_s ? low : high) = middle;
+  }
+  return low;
+}
 
 constexpr double cluster_tick_s = 1.0 / 60;
 constexpr std::uint32_t shards_a_rank = 4, seed_of_bench = 1;
@@ -193,24 +230,6 @@ Result<void> measure_rank(Ranks& ranks, std::size_t people, int rounds, ClusterT
 }
 
 }  // namespace
-
-ClusterTick predict(const ClusterModel& model, double people, int ranks, int cores) {
-  const double turns = std::max(1.0, static_cast<double>(ranks) / cores), mean = people / ranks;
-  const double fullest = mean + (ranks > 1 ? std::sqrt(2 * std::log(static_cast<double>(ranks)) * mean) : 0);
-  const double commands = model.commands_a_person * people;
-  const double children = ranks > 1 ? std::ceil(std::log2(static_cast<double>(ranks))) : 0;
-  return {model.person * fullest * turns,
-          model.command * commands + children * (model.overhead + model.per_byte * model.bytes_a_command * commands)};
-}
-
-double people_within(const ClusterModel& model, double within_s, int ranks, int cores) {
-  double low = 0, high = 1e12;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = (low + high) / 2;
-    (predict(model, middle, ranks, cores).all() <= within_s ? low : high) = middle;
-  }
-  return low;
-}
 
 Result<void> bench_cluster(BenchRun& run) {
   const int rounds = run.rounds(usual_rounds);

@@ -1,12 +1,9 @@
 #include "demo/lab/bench/bench_crowd.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
 #include <mobil/engine/access.h>
-#include <mobil/schedule.h>
 #include "demo/program/progress.h"
 
 namespace mobil {

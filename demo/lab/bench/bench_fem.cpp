@@ -1,25 +1,120 @@
 // The finite-element kernels: explicit central differences on the paper's 81 nodes against this core's peak, against
 // what others' code needs for the same work, and against itself on two threads.
 
-#include "demo/lab/bench/bench_fem.h"
-
 #include <fmt/format.h>
 #include <sched.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include "assets/fem/muscle_template.h"
-#include "demo/lab/bench/bench_fem_rivals.h"
+#include "demo/lab/bench/bench.h"
+#include "demo/lab/bench/bench_fem_bellies.h"
+#include "demo/measure/measure.h"
 
 namespace mobil {
 namespace {
+
+/// What one rival said of itself; times are its processor's.
+struct RivalTime {
+  double us_per_step = 0, median_us = 0, dt_s = 0;
+  double far_z_m = 0;  // its first muscle's far face after 248 steps, where it says
+  std::string variant, check;
+  bool holds = false;
+};
+
+/// The best of several rounds by the name of the measurement.
+class RivalRounds {
+ public:
+  /// One more round of each of `names`.
+  Result<void> add(const std::vector<std::string>& names, bool quick);
+  /// Null where it was not measured.
+  const RivalTime* find(const std::string& name) const;
+
+ private:
+  std::map<std::string, RivalTime> best_;
+  std::map<std::string, std::vector<double>> medians_;
+};
+
+namespace fs = std::filesystem;
+
+fs::path program() {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path() / "mobil_rivals";
+}
+
+/// As one word of the shell.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
+/// Whether the comparison program is there.
+bool rivals_found() {
+  return access(program().c_str(), X_OK) == 0;
+}
+
+/// Runs it once for the measurement `name`; `quick`: for a moment, whatever else the machine does. Fails with its own
+/// words.
+Result<RivalTime> measure_rival(const std::string& name, bool quick) {
+  const std::string command = quoted(program().string()) + (quick ? " --quick " : " ") + quoted(name) + " 2>&1";
+  const auto close = [](FILE* f) { return pclose(f); };
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return fail("mobil_rivals could not be started");
+  std::string said;
+  std::array<char, 4096> part{};
+  for (std::size_t got = 0; (got = std::fread(part.data(), 1, part.size(), pipe)) > 0;) said.append(part.data(), got);
+  const int status = close(pipe);
+  const auto json = nlohmann::json::parse(said, nullptr, false);
+  if (status != 0 || !json.is_object()) {
+    return fail(fmt::format("mobil_rivals {}: {}", name, said.substr(0, said.find('\n'))));
+  }
+  RivalTime time;
+  try {
+    time.us_per_step = json.at("us_per_step").get<double>();
+    time.median_us = json.at("median_us_per_step").get<double>();
+    time.dt_s = json.at("dt_s").get<double>();
+    time.far_z_m = json.at("far_z_m").get<double>();
+    time.variant = json.at("variant").get<std::string>();
+    time.check = fmt::format("{}: {:.1e}", json.at("check").get<std::string>(), json.at("check_error").get<double>());
+    time.holds = json.at("holds").get<bool>();
+  } catch (const nlohmann::json::exception& error) {
+    return fail(fmt::format("mobil_rivals {}: {}; build it again with mobil", name, error.what()));
+  }
+  return time;
+}
+
+Result<void> RivalRounds::add(const std::vector<std::string>& names, bool quick) {
+  for (const std::string& name : names) {
+    const auto time = measure_rival(name, quick);
+    if (!time) return tl::unexpected(time.error());
+    const std::string stem = name.substr(0, name.find('@'));
+    auto& medians = medians_[stem];
+    medians.push_back(time->median_us);
+    auto [known, is_new] = best_.try_emplace(stem, *time);
+    if (!is_new && time->us_per_step < known->second.us_per_step) known->second = *time;
+    known->second.median_us = median(medians);
+  }
+  return {};
+}
+
+const RivalTime* RivalRounds::find(const std::string& name) const {
+  const auto known = best_.find(name);
+  return known == best_.end() ? nullptr : &known->second;
+}
 
 constexpr int fem_rounds = 5;
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "assets/fem/belly_solver.h"
-#include "assets/fem/muscle_template.h"
 
 namespace mobil {
 

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
-#include "demo/lab/bench/bench_fem.h"
+#include "demo/lab/bench/bench.h"
+#include "demo/lab/bench/bench_fem_bellies.h"
 #include "demo/lab/reference/reference.h"
 
 namespace mobil {

@@ -17,7 +17,7 @@
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "demo/lab/bench/bench.h"
-#include "demo/lab/bench/bench_fem.h"
+#include "demo/lab/bench/bench_fem_bellies.h"
 
 namespace mobil {
 namespace {

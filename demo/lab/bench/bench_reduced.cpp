@@ -12,7 +12,6 @@
 #include <memory>
 #include <new>
 #include <string>
-#include <vector>
 
 #include <mobil/engine/jobs.h>
 #include "assets/reduction/reduced_basis.h"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_path.h>
 #include <mobil/assets/muscles/muscle_plan.h>

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
 #include <string_view>
 #include <vector>
 
+#include "demo/program/commands.h"
+#include "demo/program/named_entries.h"
+#include "demo/program/program.h"
 #include "demo/program/units.h"
 
 namespace mobil {
@@ -117,6 +121,21 @@ std::string fish_option(const Option& option, const std::string& condition, cons
   return line + " -d " + fish_quoted(option.help) + "\n";
 }
 
+struct Shell {
+  std::string_view name;
+  std::string (*script)(const Program&);
+};
+
+const std::vector<Shell> shells = {{"bash", &bash_completion}, {"zsh", &zsh_completion}, {"fish", &fish_completion}};
+
+Result<void> run_completion(const std::vector<std::string>& names) {
+  const auto chosen = choose_named(shells, names, "shell");
+  if (!chosen) return tl::unexpected(chosen.error());
+  if (names.size() != 1) return fail("name one shell: mobil completion bash, zsh or fish");
+  fmt::print("{}", chosen->front().script(mobil_program()));
+  return {};
+}
+
 }  // namespace
 
 std::string bash_completion(const Program& program) {
@@ -182,6 +201,19 @@ std::string fish_completion(const Program& program) {
     for (const Option& option : all_options(program, command)) text += fish_option(option, here, program.name);
   }
   return text;
+}
+
+Subcommand completion_command() {
+  auto names = std::make_shared<std::vector<std::string>>();
+  Subcommand command{.name = "completion"};
+  command.footer =
+      "Installed with the program, the scripts are found by the shells themselves.\n"
+      "\nExamples: source <(mobil completion bash)\n"
+      "          mobil completion zsh > ~/.zfunc/_mobil\n"
+      "          mobil completion fish > ~/.config/fish/completions/mobil.fish";
+  command.options = {{.name = "shell", .target = names.get(), .help = "bash, zsh or fish", .words = names_of(shells)}};
+  command.run = [names] { return exit_status_of("completion", run_completion(*names)); };
+  return command;
 }
 
 }  // namespace mobil

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include <mobil/engine/jobs.h>
@@ -14,6 +14,8 @@
 #include "assets/finite/control_points.h"
 #include "assets/finite/finite_motion.h"
 #include "assets/finite/shape_tables.h"
+#include "demo/program/commands.h"
+#include "demo/program/progress.h"
 #include "systems/deformation/reduced.h"
 #include "systems/muscles/belly_library.h"
 
@@ -252,6 +254,35 @@ Result<std::array<TrackErrors, 2>> compare(const std::array<const MuscleTrack*, 
   return errors;
 }
 
+/// The rows of systems/relevance/accuracy_table.cpp, and its costs.
+Result<void> print_accuracy() {
+  std::string rows, costs;
+  for (const bool inertia : {false, true}) {
+    AccuracyPlan plan = accuracy_plan();
+    plan.progress = [&](double part) { show_part(inertia ? "errors with inertia" : "errors without inertia", part); };
+    const auto errors = measure_errors(plan, inertia);
+    if (!errors) return tl::unexpected(errors.error());
+    rows += accuracy_source(*errors);
+  }
+  for (AccuracyPlan plan : living_plans()) {
+    plan.progress = [](double part) { show_part("errors of muscles that pull", part); };
+    const auto errors = measure_living_errors(plan);
+    if (!errors) return tl::unexpected(errors.error());
+    rows += accuracy_source(*errors);
+  }
+  for (const bool living : {false, true}) {
+    for (const bool inertia : {false, true}) {
+      show("costs");
+      const auto cost = measure_costs(1024, inertia, living);
+      if (!cost) return tl::unexpected(cost.error());
+      costs += cost_source(*cost);
+    }
+  }
+  show("");
+  fmt::print("{}\n{}", rows, costs);
+  return {};
+}
+
 }  // namespace
 
 std::array<AccuracyPlan, 2> living_plans() {
@@ -314,6 +345,16 @@ Result<std::vector<AccuracyRow>> measure_living_errors(const AccuracyPlan& plan)
     }
   }
   return rows;
+}
+
+Subcommand fit_accuracy_command() {
+  Subcommand command{.name = "fit-accuracy"};
+  command.footer =
+      "For those who change the library: prints rows and costs as systems/relevance/accuracy_table.cpp has them. "
+      "Minutes.\n"
+      "Example: mobil fit-accuracy > accuracy.txt";
+  command.run = [] { return exit_status_of("fit-accuracy", print_accuracy()); };
+  return command;
 }
 
 }  // namespace mobil

@@ -2,15 +2,282 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "demo/lab/effects/effects.h"
+#include <mobil/assets/export/walk_recording.h>
+#include <mobil/engine/error.h>
+#include <mobil/relevance.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/relevance/accuracy_table.h>
+#include "demo/lab/effects/accuracy_measure.h"
+#include "demo/measure/measure.h"
 #include "demo/program/commands.h"
+#include "demo/program/json.h"
 #include "demo/program/progress.h"
+#include "demo/walk/figure.h"
 
 namespace mobil {
 namespace {
+
+struct Effect {
+  std::string name, adds, needs;
+  double us = 0;        // a human and tick (of pictures and files: a human and frame), measured in this run
+  std::string systems;  // whose time that is, as the schedule calls them
+};
+
+struct EffectAccount {
+  std::size_t humans = 0;
+  std::size_t muscles = 0;  // of each, both legs
+  double tick_s = 0;
+  std::vector<Effect> effects;
+  std::vector<std::string> notes;
+};
+
+/// The schedule's own account of some ticks, by system, s a human and tick.
+class Meter {
+ public:
+  Meter(Simulation& simulation, std::size_t humans) : simulation_(simulation), humans_(humans) {}
+
+  /// Seconds of the systems that `counts` takes, the least of a few rounds; their names into `names`.
+  template <class Counts>
+  double operator()(Counts counts, std::string* names = nullptr) {
+    constexpr int rounds = 6, ticks = 5;
+    for (int i = 0; i < 2; ++i) simulation_.tick();
+    double least = INFINITY;
+    for (int round = 0; round < rounds; ++round) {
+      simulation_.schedule().reset_timings();
+      for (int i = 0; i < ticks; ++i) simulation_.tick();
+      double sum = 0;
+      std::string used;
+      for (const SystemReport& system : simulation_.report().systems) {
+        if (!counts(system) || system.total_entities == 0) continue;
+        sum += system.total_seconds;
+        used += (used.empty() ? "" : ", ") + std::string(system.name);
+      }
+      least = std::min(least, sum);
+      if (names != nullptr) *names = used;
+    }
+    return 1e6 * least / (ticks * static_cast<double>(humans_));
+  }
+
+ private:
+  Simulation& simulation_;
+  std::size_t humans_;
+};
+
+auto named(std::vector<std::string_view> names) {
+  return [names = std::move(names)](const SystemReport& system) {
+    return std::ranges::find(names, system.name) != names.end();
+  };
+}
+
+bool deforms(const SystemReport& system) {
+  return is_deformation(system.module);
+}
+
+std::string_view rung_adds(const Rung& rung) {
+  if (rung.method == Method::ecd) return "81 nodes as in the paper, explicit: kept as the measure of the others";
+  if (!rung.moving) return "bellies follow their lines, without swing of their own";
+  if (rung.vectors <= 8) return "bellies swing: the slowest waves";
+  if (rung.vectors <= 16) return "waves after each heel strike";
+  return "as the fine mesh moves, to a percent or two";
+}
+
+/// Measures by switching each effect on in a crowd of that many and reading Simulation::report(). `progress` is told
+/// what is measured. Errors: what the simulation refuses.
+Result<EffectAccount> measure_effects(std::size_t humans, const std::function<void(const std::string&)>& progress) {
+  Simulation simulation;
+  EffectAccount account{humans, 2 * muscle_group_count, simulation.tick_s(), {}, {}};
+  std::vector<Entity> people;
+  progress("spawning");
+  for (std::size_t i = 0; i < humans; ++i) {
+    const auto human =
+        simulation.spawn({}, {.speed_m_s = 0.9F + 0.8F * static_cast<float>(i) / static_cast<float>(humans)});
+    if (!human) return tl::unexpected(human.error());
+    people.push_back(*human);
+  }
+  Meter meter(simulation, humans);
+  const auto add = [&](std::string name, std::string adds, std::string needs, double us, std::string systems) {
+    account.effects.push_back({std::move(name), std::move(adds), std::move(needs), us, std::move(systems)});
+  };
+  const auto everybody = [&](const auto& ask) -> Result<void> {
+    for (const Entity human : people) {
+      if (Result<void> done = ask(human); !done) return done;
+    }
+    return {};
+  };
+  std::string systems;
+
+  progress("walking");
+  for (int i = 0; i < 90; ++i) simulation.tick();  // until nobody steps in time with anybody else
+  double us = meter(named({"gait", "replan", "turn"}), &systems);
+  add("gait", "steps: where each foot falls, and when", "spawn()", us, systems);
+  us = meter(named({"kinematics", "centre of mass"}), &systems);
+  add("kinematics", "the skeleton's 48 segments", "gait, or a host's own poses (spawn_posed())", us, systems);
+
+  for (const Entity human : people) simulation.add_forces(human);
+  us = meter(named({"forces"}), &systems);
+  add("forces", "ground reactions and joint moments (nothing to see)", "kinematics; add_forces()", us, systems);
+  for (const Entity human : people) simulation.remove_forces(human);
+
+  progress("muscles");
+  LegMuscles choice;
+  choice.method = Method::none;
+  auto done = everybody([&](Entity human) { return simulation.add_leg_muscles(human, choice); });
+  if (!done) return tl::unexpected(done.error());
+  const auto change_all = [&] {
+    return everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
+  };
+  us = meter(named({"leg frames", "lines of action"}), &systems);
+  add("lines of action", "where muscles run, how long they are", "kinematics; add_leg_muscles()", us, systems);
+
+  choice.line_motion = true;
+  if (done = change_all(); !done) return tl::unexpected(done.error());
+  us = meter(named({"line motion"}), &systems);
+  add("line motion", "lengthening speed and moment arms (nothing to see)", "lines; LegMuscles::line_motion", us,
+      systems);
+  choice.line_motion = false;
+  choice.activation = ExcitationSource::phase;
+  if (done = change_all(); !done) return tl::unexpected(done.error());
+  us = meter(named({"activation"}), &systems);
+  add("activation", "muscles pull as the walk asks, tendons stretch", "lines; LegMuscles::activation", us, systems);
+  for (const Entity human : people) simulation.add_forces(human);
+  choice.activation = ExcitationSource::moments;
+  if (done = change_all(); !done) return tl::unexpected(done.error());
+  us = meter(named({"leg moments"}), &systems);
+  add("moments", "muscles share the walk's own moments as costs them least", "activation; forces", us, systems);
+  choice.activation = ExcitationSource::none;
+  if (done = change_all(); !done) return tl::unexpected(done.error());
+  for (const Entity human : people) simulation.remove_forces(human);
+
+  const auto set_all = [&](std::size_t rung, bool points, bool tuned = false) {
+    MuscleMethod method = rung_method(rung, points);
+    method.reduced.tuned = tuned;
+    return everybody([&](Entity human) -> Result<void> {
+      for (std::size_t g = 0; g < muscle_group_count; ++g) {
+        if (auto set = simulation.set_method(human, static_cast<Muscle>(g), method); !set) return set;
+      }
+      return {};
+    });
+  };
+  constexpr std::size_t shown_rung = 5;  // whose control points and inertia are reported
+  constexpr int fading_ticks = 30;
+  const auto settle = [&] {
+    for (int i = 0; i < fading_ticks; ++i) simulation.tick();
+  };
+  double moving_us = 0;
+  for (std::size_t r = 1; r < rung_count; ++r) {
+    if (rungs[r].cells == Cells{8, 8, 32}) continue;  // costs in a tick what the coarser one does, and long to make
+    progress(fmt::format("muscles, {}", rungs[r].name));
+    if (done = set_all(r, !rungs[r].moving); !done) return tl::unexpected(done.error());
+    settle();
+    us = meter(deforms, &systems);
+    if (r == shown_rung) moving_us = us;
+    const std::string needs = rungs[r].moving ? "lines; set_method()" : "lines; set_method(); with control points";
+    add(fmt::format("muscles, {}", rungs[r].name), std::string(rung_adds(rungs[r])), needs, us, systems);
+  }
+  if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
+  settle();
+  us = meter(deforms, &systems) - moving_us;
+  add("control points", fmt::format("81 points a muscle to draw from (of {})", rungs[shown_rung].name),
+      "a muscle that is simulated; ReducedChoice::control_points", std::max(us, 0.0), systems);
+
+  progress("finite shape");
+  const double points_us = us;
+  choice.method = Method::none;
+  choice.finite_shape = true;
+  if (done = change_all(); !done) return tl::unexpected(done.error());
+  if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
+  settle();
+  us = meter(named({"finite shape, reduced"}), &systems) - points_us;  // it places them too
+  add("finite shape", "bellies keep their volume, and are thick where they pull",
+      "control points; LegMuscles::finite_shape", std::max(us, 0.0), systems);
+  choice.finite_shape = false;
+  choice.activation = ExcitationSource::phase;
+  choice.method = Method::none;
+  if (done = change_all(); !done) return tl::unexpected(done.error());
+  if (done = set_all(shown_rung, false, true); !done) return tl::unexpected(done.error());
+  settle();
+  us = meter(deforms, &systems) - moving_us;
+  add("tuned", fmt::format("who pulls is shaken less, and for a shorter time (of {})", rungs[shown_rung].name),
+      "activation; ReducedChoice::tuned", std::max(us, 0.0), systems);
+
+  choice.finite_shape.reset();
+  choice.activation = ExcitationSource::none;
+  choice.method = Method::none;
+  if (done = change_all(); !done) return tl::unexpected(done.error());
+  if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
+  settle();
+
+  progress("surfaces");
+  const Human human = *simulation.human(people.front());
+  const auto figure = make_figure(human);
+  if (!figure) return tl::unexpected(figure.error());
+  WalkRecording recording = begin_recording(*figure, static_cast<float>(simulation.tick_s()));
+  const Measured skinned = measure(5, [&] {
+    recording.frames.clear();
+    for (auto& muscle : recording.muscles) muscle.position_m.clear();
+    record_frame(*figure, simulation, human, recording);
+  });
+  std::size_t vertices = 0;
+  for (const auto& muscle : recording.muscles) vertices += muscle.position_m.front().size();
+  add("surfaces", fmt::format("skin of every muscle, {} vertices", vertices), "control points; SurfaceWriter",
+      1e6 * skinned.best_s, "skinning");
+
+  progress("inertia");
+  if (done = set_all(shown_rung, false); !done) return tl::unexpected(done.error());
+  choice.inertia = true;
+  choice.method = Method::none;
+  if (done = change_all(); !done) return tl::unexpected(done.error());
+  if (done = set_all(shown_rung, false); !done) return tl::unexpected(done.error());
+  settle();
+  us = meter(named({"frame motion"}), &systems) + meter(deforms) - moving_us;
+  add("inertia", fmt::format("gravity and every jolt shake bellies (of {})", rungs[shown_rung].name),
+      "lines; LegMuscles::inertia", std::max(us, 0.0), systems + ", and more of deformation");
+
+  account.notes.emplace_back(
+      "pictures and files (capture, export) take what is there when they are asked for, and no part of a tick");
+  return account;
+}
+
+std::string effects_table(const EffectAccount& account) {
+  std::string text =
+      fmt::format("{} humans, {} muscles each, ticks of {:.4g} s; us a human and tick on one core, here and now\n\n",
+                  account.humans, account.muscles, account.tick_s);
+  std::size_t name = 6, adds = 4;
+  for (const Effect& effect : account.effects) {
+    name = std::max(name, effect.name.size());
+    adds = std::max(adds, effect.adds.size());
+  }
+  text += fmt::format("{:<{}}  {:>8}  {:<{}}  {}\n", "effect", name, "us", "adds", adds, "needs");
+  for (const Effect& effect : account.effects) {
+    text +=
+        fmt::format("{:<{}}  {:>8.3g}  {:<{}}  {}\n", effect.name, name, effect.us, effect.adds, adds, effect.needs);
+  }
+  for (const std::string& note : account.notes) text += note + "\n";
+  return text;
+}
+
+std::string effects_json(const EffectAccount& account) {
+  Json json;
+  json["humans"] = account.humans;
+  json["muscles"] = account.muscles;
+  json["tick_s"] = account.tick_s;
+  auto& all = json["effects"] = Json::array();
+  for (const Effect& effect : account.effects) {
+    all.push_back({{"name", effect.name},
+                   {"adds", effect.adds},
+                   {"needs", effect.needs},
+                   {"us_per_human_and_tick", effect.us},
+                   {"systems", effect.systems}});
+  }
+  return json.dump(2) + "\n";
+}
 
 constexpr std::size_t most_humans = 100000;
 

@@ -5,9 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
-#include <utility>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/muscle_table.h>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"

@@ -6,9 +6,7 @@
 #include <utility>
 
 #include <mobil/muscle_table.h>
-#include "assets/reduction/reduced_basis.h"
 #include "assets/surfaces/muscle_cage.h"
-#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 

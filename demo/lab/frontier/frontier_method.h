@@ -1,7 +1,6 @@
 #pragma once
 // A way to deform a muscle, made ready for sixteen individuals; for `mobil frontier`.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>

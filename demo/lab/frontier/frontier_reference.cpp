@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "assets/reduction/reduced_basis.h"
-#include "demo/lab/effects/accuracy_reference.h"
+#include "demo/lab/effects/accuracy_measure.h"
 #include "demo/lab/frontier/frontier.h"
 #include "systems/muscles/belly_library.h"
 

@@ -1,7 +1,6 @@
 #include "demo/lab/frontier/frontier_ways.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_plan.h>

@@ -1,14 +1,32 @@
 #pragma once
 // A table of steps over speed and step length, fitted node by node.
 
+#include <array>
 #include <functional>
 #include <vector>
 
 #include <mobil/engine/jobs.h>
 #include "assets/gait/step_table.h"
+#include "demo/lab/compare/compare_reference.h"
+#include "demo/lab/gait_fit/step_model.h"
 #include "demo/lab/gait_fit/step_objective.h"
 
 namespace mobil {
+
+struct StepQuality {
+  std::array<double, gait_quantity_count> rms, correlation, rate;  // against the targets; rate: over theirs
+  double lacking_m;                                                // most that the centre of pressure is moved
+  double aside_m;                                                  // most that it lies beside the feet's lines
+  double slack_m;                                                  // least
+  double clearance_m;                                              // least in the middle two thirds of swing
+  double pad_m;                                                    // most that the heel slides
+  double rise_m;                                                   // of the centre of mass
+};
+
+StepQuality step_quality(const StepTask& task, const StepTargets& targets, const StepShape& shape);
+
+/// samples_of the step every 2 %.
+CycleCurve published(const StepCycle& cycle, GaitQuantity quantity);
 
 /// One node while it is fitted. `cost`: the least sum of squares found.
 struct StepNode {

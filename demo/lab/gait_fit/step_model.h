@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include <mobil/components/lanes.h>
 #include <mobil/components/step_shape.h>

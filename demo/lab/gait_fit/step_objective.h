@@ -1,9 +1,7 @@
 #pragma once
 // What a step is fitted to: measured curves, and what every step must keep.
 
-#include <vector>
-
-#include "demo/lab/compare/compare_findings.h"
+#include "demo/lab/compare/compare_verdicts.h"
 #include "demo/lab/gait_fit/levenberg_marquardt.h"
 #include "demo/lab/gait_fit/step_model.h"
 

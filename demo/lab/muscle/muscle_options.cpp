@@ -3,19 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <string_view>
 #include <utility>
 
 #include <mobil/muscle_table.h>
 #include "assets/fem/element_size.h"
-#include "assets/fem/muscle_template.h"
-#include "assets/reduction/reduced_basis.h"
-#include "demo/program/choice.h"
 #include "demo/program/units.h"
 
 namespace mobil {

@@ -12,7 +12,6 @@
 #include <mobil/components/activation.h>
 #include "assets/body/bent_legs.h"
 #include "demo/lab/compare/compare_walk.h"
-#include "demo/lab/compare/steady_cycle.h"
 #include "demo/lab/paper/paper.h"
 #include "demo/pictures/contact_sheet.h"
 #include "demo/pictures/cycle_plot.h"

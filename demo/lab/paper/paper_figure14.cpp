@@ -10,7 +10,7 @@
 
 #include <mobil/engine/geometry.h>
 #include "assets/fem/muscle_template.h"
-#include "demo/lab/compare/steady_cycle.h"
+#include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/paper/paper.h"
 
 namespace mobil {

@@ -10,7 +10,7 @@
 #include "demo/lab/compare/compare_judge.h"
 #include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/paper/paper.h"
-#include "demo/lab/paper/paper_lengths.h"
+#include "demo/lab/paper/paper_cycle.h"
 #include "demo/pictures/cycle_plot.h"
 
 namespace mobil {

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
-
 #include "demo/lab/paper/paper.h"
 #include "demo/pictures/contact_sheet.h"
 #include "demo/pictures/cycle_plot.h"

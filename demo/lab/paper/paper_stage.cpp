@@ -1,9 +1,7 @@
 #include "demo/lab/paper/paper_stage.h"
 
-#include <algorithm>
 #include <cmath>
 #include <deque>
-#include <vector>
 
 #include <mobil/engine/geometry.h>
 #include <mobil/renderer.h>

@@ -1,7 +1,6 @@
 #include "demo/lab/rivals/block.h"
 
 #include <Eigen/SparseCholesky>
-#include <array>
 #include <cmath>
 
 namespace rivals {

@@ -8,9 +8,6 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <mobil/components/activation.h>
 #include "assets/body/bent_legs.h"

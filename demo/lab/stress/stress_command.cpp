@@ -8,8 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>

@@ -1,4 +1,5 @@
-// Loads that come all at once, for one step alone, or at the resonance, against what theory allows.
+// Loads that come all at once, for one step alone, or at the resonance, against what theory allows; and
+// whether energy stays over very many steps.
 
 #include <fmt/format.h>
 
@@ -8,7 +9,6 @@
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
@@ -70,35 +70,6 @@ void step(Pair& pair, double from_n, double to_n) {
   pair.reference.step({{0, 0, from_n}, {}, {}}, {{0, 0, to_n}, {}, {}});
 }
 
-}  // namespace
-
-Result<void> stress_step_load(StressRun& run) {
-  for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
-    auto pair = make_pair(method, 0);
-    if (!pair) return tl::unexpected(pair.error());
-    pair->reference.start({{0, 0, 1}, {}, {}});
-    copy_state(*pair);
-    double most = 0, least = 0, in_double = 0;
-    const int steps = run.quick ? 1000 : 20000;
-    for (int s = 0; s < steps; ++s) {
-      step(*pair, 1, 1);
-      const double now = static_cast<double>(pair->lanes.report.elongation_m[3]) / pair->at_rest_m;
-      if (!(now <= most)) most = now;
-      if (!(now >= least)) least = now;
-      in_double = std::max(in_double, pair->reference.report().elongation_m / pair->at_rest_m);
-    }
-    const std::string tried =
-        fmt::format("1 N all at once, undamped, {} steps by {}", steps, method_name[static_cast<std::size_t>(method)]);
-    run.at_most(tried, "largest elongation in parts of the static one", 2.001, most,
-                "2: every mode's part of the displacement under its own load swings between 0 and twice its rest",
-                fmt::format("in double {:.6g}", in_double));
-    run.at_least(tried, "least elongation in parts of the static one", -0.001, least, "0, likewise");
-  }
-  return {};
-}
-
-namespace {
-
 /// The lowest frequency that a load along z excites (1/s), in the time of central differences: pulled and let go, with
 /// so much stiffness damping that after a second it rings alone.
 Result<double> lowest_stretch(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
@@ -127,6 +98,31 @@ Result<double> lowest_stretch(const HexahedralMesh& mesh, const StiffnessTerms& 
 }
 
 }  // namespace
+
+Result<void> stress_step_load(StressRun& run) {
+  for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
+    auto pair = make_pair(method, 0);
+    if (!pair) return tl::unexpected(pair.error());
+    pair->reference.start({{0, 0, 1}, {}, {}});
+    copy_state(*pair);
+    double most = 0, least = 0, in_double = 0;
+    const int steps = run.quick ? 1000 : 20000;
+    for (int s = 0; s < steps; ++s) {
+      step(*pair, 1, 1);
+      const double now = static_cast<double>(pair->lanes.report.elongation_m[3]) / pair->at_rest_m;
+      if (!(now <= most)) most = now;
+      if (!(now >= least)) least = now;
+      in_double = std::max(in_double, pair->reference.report().elongation_m / pair->at_rest_m);
+    }
+    const std::string tried =
+        fmt::format("1 N all at once, undamped, {} steps by {}", steps, method_name[static_cast<std::size_t>(method)]);
+    run.at_most(tried, "largest elongation in parts of the static one", 2.001, most,
+                "2: every mode's part of the displacement under its own load swings between 0 and twice its rest",
+                fmt::format("in double {:.6g}", in_double));
+    run.at_least(tried, "least elongation in parts of the static one", -0.001, least, "0, likewise");
+  }
+  return {};
+}
 
 Result<void> stress_resonance(StressRun& run) {
   auto probe = make_pair(Method::ecd, 0);
@@ -185,6 +181,40 @@ Result<void> stress_resonance(StressRun& run) {
     }
     run.progress(method == Method::ecd ? 0.5 : 1.0);
   }
+  return {};
+}
+
+Result<void> stress_energy_single(StressRun& run) {
+  auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, {FarEnd::held, 0, 0.5, 2});
+  if (!made) return tl::unexpected(made.error());
+  Bellies bellies(std::move(*made));
+  make_sixteen_sizes(bellies);
+  shake(bellies, 0.005F);
+  const auto substeps = substeps_of(bellies, stress_tick_s);
+  if (!substeps) return tl::unexpected(substeps.error());
+  const auto dt = static_cast<float>(stress_tick_s / *substeps);
+  const EndDrive<Lanes<float>> still{};
+  bellies.tick({FarEnd::held, still}, 1, dt);
+  std::array<double, lane_count> first{};
+  for (std::size_t l = 0; l < lane_count; ++l) first[l] = bellies.energy_j(l);
+  constexpr std::uint32_t at_once = 1000;
+  const double steps = run.quick ? 5e4 : 1e7;
+  double worst = 0, after_a_tenth = 0;
+  for (double done = 0; done < steps; done += at_once) {
+    bellies.tick({FarEnd::held, still}, at_once, at_once * dt);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
+      keep_worst(worst, change);
+    }
+    if (done < 0.1 * steps) after_a_tenth = worst;
+    if (static_cast<std::uint64_t>(done) % 50000 == 0) run.progress(done / steps);
+  }
+  run.at_most(fmt::format("{:.0e} explicit steps of {:.2f} ms in single precision, sixteen bellies of 81 nodes, "
+                          "at most 0.9 of their critical steps",
+                          steps, 1e3 * static_cast<double>(dt)),
+              "largest change of energy in parts of itself", 1e-3, worst,
+              "conserved exactly but for rounding, which walks at random: ten times what was measured",
+              fmt::format("{:.2g} in the first tenth", after_a_tenth));
   return {};
 }
 

@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
-#include "demo/lab/stress/stress_limits.h"
 
 namespace mobil {
 namespace {

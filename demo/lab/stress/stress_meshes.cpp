@@ -14,7 +14,6 @@
 #include <mobil/assets/fem/hexahedral_mesh.h>
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
-#include "demo/lab/stress/stress_limits.h"
 
 namespace mobil {
 namespace {

@@ -11,7 +11,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "demo/lab/stress/stress.h"
 #include "systems/simulation_world.h"

@@ -24,12 +24,18 @@ std::vector<bool> moving_components(const Cells& cells, FarEnd end) {
   return moving;
 }
 
-StencilPencil make_pencil(const StiffnessTerms& terms, double across, double along, const StepCase& step_case) {
+StencilPencil empty_pencil(const StiffnessTerms& terms, const StepCase& step_case) {
+  return {terms.cells,
+          std::vector<std::array<double, 9>>(terms.pair.size()),
+          std::vector<double>(step_case.mass == Mass::consistent ? terms.pair.size() : 0),
+          moving_components(terms.cells, step_case.end)};
+}
+
+/// Fills what `empty_pencil` made, for a belly scaled so.
+void fill_pencil(const StiffnessTerms& terms, double across, double along, const StepCase& step_case,
+                 StencilPencil& pencil) {
   const Cells& cells = terms.cells;
-  StencilPencil pencil{
-      cells, std::vector<std::array<double, 9>>(terms.pair.size()), {}, moving_components(cells, step_case.end)};
   const bool consistent = step_case.mass == Mass::consistent;
-  if (consistent) pencil.mass.resize(terms.pair.size());
   const double foundation = step_case.foundation_1_s * step_case.foundation_1_s;
   const double scale = 1 / (across * across * along);
   for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
@@ -48,12 +54,6 @@ StencilPencil make_pencil(const StiffnessTerms& terms, double across, double alo
       }
     });
   });
-  return pencil;
-}
-
-double top_eigenvalue(const StiffnessTerms& terms, double across, double along, const StepCase& step_case,
-                      std::span<const double> start) {
-  return top_eigenvalue_bound(make_pencil(terms, across, along, step_case), start);
 }
 
 /// How far below its chord from x[i] to x[i + 1] a convex h(x) may lie: it is above the chords on either side,
@@ -69,7 +69,8 @@ class Tabulation {
       : table_(table),
         terms_(terms),
         step_case_(step_case),
-        start_(lanczos_start(moving_components(terms.cells, step_case.end))) {}
+        pencil_(empty_pencil(terms, step_case)),
+        start_(lanczos_start(pencil_.moving)) {}
 
   void insert_ratio(std::size_t place, double r) {
     for (std::size_t level = table_.foundation.size(); level-- > 0;) {
@@ -128,15 +129,18 @@ class Tabulation {
     return table_.top.begin() + static_cast<std::ptrdiff_t>(level * ratios + place);
   }
   /// At S = r, l = 1: K / (S²·l) = (A + r·B + r²·C) / r², so h = r²·ω².
-  double top(double r, double q) const {
+  double top(double r, double q) {
     StepCase step_case = step_case_;
     step_case.foundation_1_s = std::sqrt(q) / r;
-    return r * r * top_eigenvalue(terms_, r, 1, step_case, start_);
+    fill_pencil(terms_, r, 1, step_case, pencil_);
+    return r * r * top_eigenvalue_bound(pencil_, start_, work_);
   }
 
   CriticalSteps& table_;
   const StiffnessTerms& terms_;
   const StepCase& step_case_;
+  StencilPencil pencil_;
+  StencilMatrix work_;
   std::vector<double> start_;
 };
 
@@ -149,8 +153,10 @@ double central_difference_limit(double top_1_s2, double stiffness_damping_s) {
 }
 
 double critical_step(const StiffnessTerms& terms, double across, double along, const StepCase& step_case) {
-  const double top =
-      top_eigenvalue(terms, across, along, step_case, lanczos_start(moving_components(terms.cells, step_case.end)));
+  StencilPencil pencil = empty_pencil(terms, step_case);
+  fill_pencil(terms, across, along, step_case, pencil);
+  StencilMatrix work;
+  const double top = top_eigenvalue_bound(pencil, lanczos_start(pencil.moving), work);
   return central_difference_limit(top, step_case.stiffness_damping_s);
 }
 

@@ -12,9 +12,19 @@ namespace mobil::inline v0_3 {
 
 class StencilMatrix {
  public:
+  StencilMatrix() = default;
   /// `block(n, m, slot)`: the 3×3 coupling, row-major, of node n's forces to the displacements of its neighbour m.
   template <class Block>
   StencilMatrix(const Cells& cells, const Block& block) {
+    fill(cells, block);
+  }
+
+  /// Another matrix in the same memory.
+  template <class Block>
+  void fill(const Cells& cells, const Block& block) {
+    first_.clear();
+    coupling_.clear();
+    coupling_.reserve(stencil_size * node_count(cells));
     for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
       const std::uint32_t n = node_index(cells, i, j, k);
       first_.push_back(coupling_.size());

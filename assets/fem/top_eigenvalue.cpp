@@ -8,7 +8,6 @@
 #include <numbers>
 #include <random>
 
-#include "assets/fem/stencil_matrix.h"
 #include "assets/fem/stiffness_terms.h"
 #include "engine/exact_math.h"
 
@@ -91,10 +90,11 @@ WindowCholesky mass_factor(const StencilPencil& pencil, std::size_t component) {
 /// v ↦ L⁻¹·K·L⁻ᵀ·v, whose spectrum is the pencil's.
 class SymmetricOperator {
  public:
-  explicit SymmetricOperator(const StencilPencil& pencil)
-      : stiffness_(pencil.cells, [&](std::uint32_t n, std::uint32_t,
-                                     std::size_t slot) { return pencil.stiffness[n * stencil_size + slot]; }),
-        work_(pencil.moving.size()) {
+  SymmetricOperator(const StencilPencil& pencil, StencilMatrix& stiffness)
+      : stiffness_(stiffness), work_(pencil.moving.size()) {
+    stiffness_.fill(pencil.cells, [&](std::uint32_t n, std::uint32_t, std::size_t slot) {
+      return pencil.stiffness[n * stencil_size + slot];
+    });
     if (pencil.mass.empty()) return;
     for (const std::size_t component : {std::size_t{0}, std::size_t{2}})
       factor_.push_back(mass_factor(pencil, component));
@@ -131,7 +131,7 @@ class SymmetricOperator {
     }
   }
 
-  StencilMatrix stiffness_;
+  StencilMatrix& stiffness_;
   std::vector<WindowCholesky> factor_;  // of x and y, of z
   Numbers work_;
 };
@@ -229,9 +229,9 @@ std::vector<double> lanczos_start(const std::vector<bool>& moving) {
   return v;
 }
 
-double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double> start) {
+double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double> start, StencilMatrix& work) {
   if (std::find(pencil.moving.begin(), pencil.moving.end(), true) == pencil.moving.end()) return 0;
-  SymmetricOperator op(pencil);
+  SymmetricOperator op(pencil, work);
   const auto size = static_cast<double>(pencil.moving.size());
   const auto band = static_cast<double>(pencil_band(pencil.cells));
   constexpr double rounding = 1 + 1e-9;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <mobil/assets/fem/hexahedral_mesh.h>
+#include "assets/fem/stencil_matrix.h"
 
 namespace mobil::inline v0_3 {
 
@@ -29,6 +30,7 @@ std::vector<double> lanczos_start(const std::vector<bool>& moving);
 /// attempted: Lanczos runs on for so long that its estimate, from a start drawn at random, lies 2 % too low with a
 /// probability below 1e-12 whatever the spectrum (Kuczyński and Woźniakowski, SIAM J. Matrix Anal. Appl. 13, 1992);
 /// 2 % are added. `start`: lanczos_start(pencil.moving), which takes longer than a Lanczos step.
-double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double> start);
+/// `work`: memory that calls share.
+double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double> start, StencilMatrix& work);
 
 }  // namespace mobil::inline v0_3

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <mobil/anthropometry.h>
@@ -46,6 +47,13 @@ BodyRequest person(float height_m, float mass_kg, Sex sex = Sex::man) {
 const std::array<BodyRequest, 6> people = {person(1.75F, 75), person(1.90F, 84),  person(1.65F, 62, Sex::woman),
                                            person(1.75F, 58), person(1.75F, 105), person(1.60F, 85, Sex::woman)};
 
+/// Undressed, in the finest detail, of one of `people`; made once.
+const BodySkin& finest_skin(std::size_t person) {
+  static std::array<std::optional<BodySkin>, people.size()> made;
+  if (!made[person]) made[person] = *make_body_skin(*make_body(people[person]), SkinDetail::hero, {.dressed = false});
+  return *made[person];
+}
+
 TEST(Skin, IsClosedAndBoundEverywhere) {
   for (const Sex sex : {Sex::man, Sex::woman}) {
     for (const SkinDetail detail : details) {
@@ -82,9 +90,10 @@ TEST(Skin, IsClosedAndBoundEverywhere) {
 }
 
 TEST(Skin, WeighsWhatThePersonDoes) {
-  for (const BodyRequest& request : people) {
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const BodyRequest& request = people[i];
     const Body body = *make_body(request);
-    const BodySkin skin = *make_body_skin(body, SkinDetail::hero, {.dressed = false});
+    const BodySkin& skin = finest_skin(i);
     const double litres = 1e3 * volume(skin, skin.rest);
     // Air in the lungs apart (Quanjer 1993; of the heavy less), fat weighs 0.90 and all else 1.10 kg a litre (Siri).
     const auto height_m = static_cast<double>(request.height_m), mass_kg = static_cast<double>(request.mass_kg),
@@ -138,9 +147,10 @@ double tape(const BodySkin& skin, double y, double from_x, double to_x) {
 }
 
 TEST(Skin, HasTheGirthsOfTheSurvey) {
-  for (const BodyRequest& request : people) {
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const BodyRequest& request = people[i];
     const Body body = *make_body(request);
-    const BodySkin skin = *make_body_skin(body, SkinDetail::hero, {.dressed = false});
+    const BodySkin& skin = finest_skin(i);
     const BodyMeasures m = body_measures(request);
     const form::LegForm leg(body, m, false);
     const double size = static_cast<double>(request.height_m) / 1.75, far = 0.01;
@@ -208,7 +218,7 @@ double folded(const BodySkin& skin, const Placed& placed) {
 
 TEST(Skin, KeepsItsVolumeAndDoesNotFold) {
   const Body body = *make_body(people[0]);
-  const BodySkin skin = *make_body_skin(body, SkinDetail::hero, {.dressed = false});
+  const BodySkin& skin = finest_skin(0);
   const double at_rest = volume(skin, skin.rest);
   struct Bend {
     float knee_deg, hip_deg, elbow_deg;

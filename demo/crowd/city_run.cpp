@@ -20,7 +20,7 @@
 #include "demo/bake/baked_file.h"
 #include "demo/crowd/city_shard.h"
 #include "demo/crowd/crowd_picture.h"
-#include "demo/crowd/crowd_report.h"
+#include "demo/crowd/crowd_run.h"
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"

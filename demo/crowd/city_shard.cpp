@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <mobil/shard_bytes.h>
-#include "demo/crowd/crowd_report.h"
+#include "demo/crowd/crowd_run.h"
 #include "demo/measure/machine.h"
 #include "demo/measure/measure.h"
 #include "demo/program/json.h"

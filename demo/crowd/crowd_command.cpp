@@ -15,10 +15,8 @@
 #include <mobil/mpi_transport.h>
 #include <mobil/png.h>
 #include "demo/crowd/city_shard.h"
-#include "demo/crowd/crowd_export.h"
 #include "demo/crowd/crowd_options.h"
 #include "demo/crowd/crowd_picture.h"
-#include "demo/crowd/crowd_report.h"
 #include "demo/crowd/crowd_run.h"
 #include "demo/crowd/crowd_scene.h"
 #include "demo/program/commands.h"

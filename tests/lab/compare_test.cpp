@@ -302,10 +302,9 @@ TEST(Balance, WalksTurnStopLimpAndStepAsideWithinTheirSoles) {
                                     {{.height_m = 1.95F, .mass_kg = 95}, {}},
                                     {{.height_m = 1.75F, .mass_kg = 75}, forward}}) {
     const auto scenes = walk_balance_scenes(body, style);
-    ASSERT_TRUE(scenes) << scenes.error().message;
-    ASSERT_EQ(scenes->size(), std::size(bounds));
-    for (std::size_t i = 0; i < scenes->size(); ++i) {
-      const BalancedScene& walked = (*scenes)[i];
+    ASSERT_EQ(scenes.size(), std::size(bounds));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      const BalancedScene& walked = scenes[i];
       EXPECT_EQ(walked.name, bounds[i].scene);
       EXPECT_LT(walked.moment.pitch_rms, bounds[i].pitch) << walked.name << ", " << body.height_m << " m";
       EXPECT_LT(walked.moment.roll_rms, bounds[i].roll) << walked.name << ", " << body.height_m << " m";

@@ -21,18 +21,14 @@ namespace {
 
 constexpr std::size_t small_crowd_size = 512;
 
-Result<BenchCrowd*> made_once(std::shared_ptr<BenchCrowd>& crowd, std::size_t humans) {
-  if (crowd == nullptr) {
-    auto made = BenchCrowd::make(humans);
-    if (!made) return tl::unexpected(made.error());
-    crowd = std::move(*made);
-  }
+BenchCrowd* made_once(std::shared_ptr<BenchCrowd>& crowd, std::size_t humans) {
+  if (crowd == nullptr) crowd = std::make_shared<BenchCrowd>(humans);
   return crowd.get();
 }
 
 struct Bench {
   std::string_view name;
-  Result<void> (*run)(BenchRun&);
+  void (*run)(BenchRun&);
 };
 
 constexpr std::array benches = {Bench{"machine", &bench_machine},
@@ -145,19 +141,17 @@ int bench(const BenchText& text) {
   if (!first_by_environment()) {
     run.humans = request->humans;
     run.quick = text.quick;
-    return bench_cluster(run) ? 0 : 1;
+    return attempt([&] { bench_cluster(run); }) ? 0 : 1;
   }
   run.humans = request->humans;
   run.quick = text.quick;
   run.machine = describe_machine();
   show("measuring the machine");
   measure_machine(run.machine);
-  if (request->chosen.front().name != benches.front().name) {  // what the others are held against is always told
-    if (auto done = bench_machine(run); !done) return complain("bench", done.error().message, 1);
-  }
+  if (request->chosen.front().name != benches.front().name) bench_machine(run);  // the others are compared with it
   for (const Bench& chosen : request->chosen) {
     show(fmt::format("measuring {}", chosen.name));
-    if (auto done = chosen.run(run); !done)
+    if (auto done = attempt([&] { chosen.run(run); }); !done)
       return complain("bench", fmt::format("{}: {}", chosen.name, done.error().message), 1);
   }
   show("");
@@ -168,11 +162,11 @@ int bench(const BenchText& text) {
 
 }  // namespace
 
-Result<BenchCrowd*> BenchRun::crowd() {
+BenchCrowd* BenchRun::crowd() {
   return made_once(crowd_, humans);
 }
 
-Result<BenchCrowd*> BenchRun::small_crowd() {
+BenchCrowd* BenchRun::small_crowd() {
   if (humans <= small_crowd_size) return nullptr;
   return made_once(small_crowd_, small_crowd_size);
 }
@@ -195,7 +189,7 @@ std::string at_peak(const Machine& machine, double seconds) {
                      seconds * machine.fma_peak_gflops * 1e9 / 2);
 }
 
-Result<void> bench_machine(BenchRun& run) {
+void bench_machine(BenchRun& run) {
   const Machine& machine = run.machine;
   run.add_figure("machine.fma_peak_gflops", machine.fma_peak_gflops, "Gflop/s",
                  fmt::format("one core, single precision: {:.1f} operations a cycle of {:.2f} GHz",
@@ -206,7 +200,6 @@ Result<void> bench_machine(BenchRun& run) {
   run.add_figure("machine.bandwidth_all_cores_gbps", machine.all_cores_bandwidth_gbps, "GB/s",
                  fmt::format("{} cores at once", machine.cores))
       .median = machine.all_cores_bandwidth_median_gbps;
-  return {};
 }
 
 Subcommand bench_command() {

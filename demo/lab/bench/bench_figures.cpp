@@ -40,16 +40,12 @@ Mass mass_of(Method method) {
   return method == Method::icd ? Mass::consistent : Mass::lumped;
 }
 
-Result<Cost> second(const BenchRun& run, const MuscleTemplate& muscle, Method method, double dt_s) {
+Cost second(const BenchRun& run, const MuscleTemplate& muscle, Method method, double dt_s) {
   Cost cost{std::nullopt, INFINITY};
   if (method != Method::caa) cost.limit_s = paper_limit_s(muscle, mass_of(method));
   if (dt_s > cost.limit_s) return cost;
   std::optional<BellySolver> solver;
-  if (method != Method::ecd) {
-    auto made = make_belly_solver(muscle, method, mass_of(method), dt_s);
-    if (!made) return tl::unexpected(made.error());
-    solver = std::move(*made);
-  }
+  if (method != Method::ecd) solver = must(make_belly_solver(muscle, method, mass_of(method), dt_s));
   BenchBellies bellies(muscle, Stiffness::shared, 1);
   const auto a_tick = static_cast<std::uint32_t>(std::max(1L, std::lround(1.0 / 60 / dt_s)));
   const double ticks = 1 / (dt_s * a_tick);  // a second
@@ -60,7 +56,7 @@ Result<Cost> second(const BenchRun& run, const MuscleTemplate& muscle, Method me
   const Measured time = measure(repeats, [&] {
     for (int i = 0; i < runs; ++i) work();
   });
-  if (!bellies.finite()) return fail("a displacement is not a number");
+  if (!bellies.finite()) throw Stopped("a displacement is not a number");
   const double scale = ticks / runs;
   cost.block = Measured{time.best_s * scale, time.median_s * scale, *time.cpu_s * scale};
   return cost;
@@ -78,71 +74,55 @@ void add_cost(BenchRun& run, const std::string& name, const Cost& cost) {
 }
 
 /// Figure 18, one mesh; and of 81 nodes, figure 20 right is its first row.
-Result<std::map<double, Cost>> figure18(BenchRun& run, const FigureMesh& mesh, const MuscleTemplate& muscle) {
+std::map<double, Cost> figure18(BenchRun& run, const FigureMesh& mesh, const MuscleTemplate& muscle) {
   std::map<double, Cost> explicit_costs;
   for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
     const std::string_view name = method_name[static_cast<std::size_t>(method)];
     for (const double ms : steps_ms) {
       const auto cost = second(run, muscle, method, ms * 1e-3);
-      if (!cost) return tl::unexpected(cost.error());
-      add_cost(run, fmt::format("figure18.{}{}.{:.1f}ms", name, mesh.nodes, ms), *cost);
-      if (method == Method::ecd) explicit_costs[ms] = *cost;
+      add_cost(run, fmt::format("figure18.{}{}.{:.1f}ms", name, mesh.nodes, ms), cost);
+      if (method == Method::ecd) explicit_costs[ms] = cost;
     }
   }
   return explicit_costs;
 }
 
 /// Figure 20 left: ECD at 1 ms on three meshes; a mesh that 1 ms is too long for at 0.9 of its limit.
-Result<void> figure20_left(BenchRun& run) {
+void figure20_left(BenchRun& run) {
   for (const FigureMesh& mesh : {coarse, fine, finest}) {
     const auto muscle = paper_block(mesh.cells);
-    if (!muscle) return tl::unexpected(muscle.error());
-    const auto cost = second(run, *muscle, Method::ecd, 1e-3);
-    if (!cost) return tl::unexpected(cost.error());
-    add_cost(run, fmt::format("figure20.ecd{}.1.0ms", mesh.nodes), *cost);
-    if (cost->block) continue;
-    const double dt_s = 0.9 * cost->limit_s;
-    const auto shorter = second(run, *muscle, Method::ecd, dt_s);
-    if (!shorter) return tl::unexpected(shorter.error());
-    add_cost(run, fmt::format("figure20.ecd{}.{:.2f}ms", mesh.nodes, dt_s * 1e3), *shorter);
+    const auto cost = second(run, muscle, Method::ecd, 1e-3);
+    add_cost(run, fmt::format("figure20.ecd{}.1.0ms", mesh.nodes), cost);
+    if (cost.block) continue;
+    const double dt_s = 0.9 * cost.limit_s;
+    const auto shorter = second(run, muscle, Method::ecd, dt_s);
+    add_cost(run, fmt::format("figure20.ecd{}.{:.2f}ms", mesh.nodes, dt_s * 1e3), shorter);
   }
-  return {};
 }
 
 /// One second of elongation of the template's body, one sample a step.
-Result<std::vector<double>> history(const MuscleTemplate& muscle, Method method, double dt_s) {
+std::vector<double> history(const MuscleTemplate& muscle, Method method, double dt_s) {
   std::optional<BellySolver> solver;
-  if (method != Method::ecd) {
-    auto made = make_belly_solver(muscle, method, mass_of(method), dt_s);
-    if (!made) return tl::unexpected(made.error());
-    solver = std::move(*made);
-  }
+  if (method != Method::ecd) solver = must(make_belly_solver(muscle, method, mass_of(method), dt_s));
   return bench_histories(muscle, Stiffness::shared, dt_s, 1, solver ? &*solver : nullptr)[0];
 }
 
 /// Figure 19 as numbers, and the errors that the claim of a fourth group rests on.
-Result<void> figure19(BenchRun& run) {
+void figure19(BenchRun& run) {
   const auto few = paper_block(coarse.cells), many = paper_block(fine.cells), most = paper_block({8, 8, 32});
-  if (!few) return tl::unexpected(few.error());
-  if (!many) return tl::unexpected(many.error());
-  if (!most) return tl::unexpected(most.error());
-  const auto caa = history(*many, Method::caa, 1e-3), ecd2 = history(*few, Method::ecd, 2e-3),
-             ecd3 = history(*few, Method::ecd, 3e-3), converged2 = history(*most, Method::ecd, 5e-4),
-             converged3 = history(*most, Method::ecd, 7.5e-4), precise = history(*few, Method::ecd, 1e-4);
-  for (const auto* made : {&caa, &ecd2, &ecd3, &converged2, &converged3, &precise}) {
-    if (!*made) return tl::unexpected(made->error());
-  }
+  const auto caa = history(many, Method::caa, 1e-3), ecd2 = history(few, Method::ecd, 2e-3),
+             ecd3 = history(few, Method::ecd, 3e-3), converged2 = history(most, Method::ecd, 5e-4),
+             converged3 = history(most, Method::ecd, 7.5e-4), precise = history(few, Method::ecd, 1e-4);
   const auto add = [&](const char* name, const std::vector<double>& a, const std::vector<double>& b,
                        const std::string& what) {
     run.add_figure(name, history_error(a, b), "1", what + ", a second of elongation, rms over peak");
   };
-  add("figure19.ecd81_to_caa525", *ecd2, *caa, "ECD 81 at 2 ms from CAA 525 at 1 ms");
-  add("figure19.caa525_to_converged", *caa, *converged2, "CAA 525 at 1 ms from 2673 nodes at 0.5 ms");
-  add("figure19.ecd81_2ms_to_converged", *ecd2, *converged2, "ECD 81 at 2 ms from 2673 nodes at 0.5 ms");
-  add("figure19.ecd81_3ms_to_converged", *ecd3, *converged3, "ECD 81 at 3 ms from 2673 nodes at 0.75 ms");
-  add("figure19.ecd81_2ms_to_own", *ecd2, *precise, "ECD 81 at 2 ms from itself at 0.1 ms");
-  add("figure19.ecd81_3ms_to_own", *ecd3, *precise, "ECD 81 at 3 ms from itself at 0.1 ms");
-  return {};
+  add("figure19.ecd81_to_caa525", ecd2, caa, "ECD 81 at 2 ms from CAA 525 at 1 ms");
+  add("figure19.caa525_to_converged", caa, converged2, "CAA 525 at 1 ms from 2673 nodes at 0.5 ms");
+  add("figure19.ecd81_2ms_to_converged", ecd2, converged2, "ECD 81 at 2 ms from 2673 nodes at 0.5 ms");
+  add("figure19.ecd81_3ms_to_converged", ecd3, converged3, "ECD 81 at 3 ms from 2673 nodes at 0.75 ms");
+  add("figure19.ecd81_2ms_to_own", ecd2, precise, "ECD 81 at 2 ms from itself at 0.1 ms");
+  add("figure19.ecd81_3ms_to_own", ecd3, precise, "ECD 81 at 3 ms from itself at 0.1 ms");
 }
 
 /// "Also a four muscular group could be calculated with enough accuracy if Δt is increased to 0.003."
@@ -155,20 +135,16 @@ void four_groups(BenchRun& run, const std::map<double, Cost>& costs) {
 
 }  // namespace
 
-Result<void> bench_paper_figures(BenchRun& run) {
+void bench_paper_figures(BenchRun& run) {
   const FlushDenormals flushed;
   std::map<double, Cost> explicit_costs;
   for (const FigureMesh& mesh : {fine, coarse}) {
     const auto muscle = paper_block(mesh.cells);
-    if (!muscle) return tl::unexpected(muscle.error());
-    auto costs = figure18(run, mesh, *muscle);
-    if (!costs) return tl::unexpected(costs.error());
-    explicit_costs = std::move(*costs);
+    explicit_costs = figure18(run, mesh, muscle);
   }
-  if (auto done = figure19(run); !done) return done;
-  if (auto done = figure20_left(run); !done) return done;
+  figure19(run);
+  figure20_left(run);
   four_groups(run, explicit_costs);
-  return {};
 }
 
 }  // namespace mobil

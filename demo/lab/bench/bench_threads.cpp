@@ -44,10 +44,10 @@ class BenchScene {
 
   /// Until there are so many, the people of demo/scene/crowd_people.h, and until they walk steadily. Errors: what the
   /// simulation refuses.
-  Result<void> grow_to(std::size_t humans);
+  void grow_to(std::size_t humans);
   /// Everybody becomes compact (Simulation::compact), and whole again.
-  Result<void> compact();
-  Result<void> expand();
+  void compact();
+  void expand();
 
   std::size_t size() const { return people_.size(); }
   /// Seconds of processor time that the last people took to spawn, each.
@@ -116,9 +116,9 @@ const Threads& BenchScene::pool(int threads) {
 
 BenchScene::BenchScene(const LegMuscles& choice) : choice_(choice), simulation_({.jobs = jobs()}) {}
 
-Result<void> BenchScene::grow_to(std::size_t humans) {
+void BenchScene::grow_to(std::size_t humans) {
   constexpr std::size_t at_once = 1000;
-  if (auto done = simulation_.prepare(choice_); !done) return done;
+  must(simulation_.prepare(choice_));
   std::vector<SpawnRequest> requests;
   std::vector<Entity> entities;
   double spent_s = 0;
@@ -127,31 +127,26 @@ Result<void> BenchScene::grow_to(std::size_t humans) {
     requests.clear();
     while (requests.size() < std::min(at_once, humans - people_.size())) {
       std::uint8_t draw = 0;
-      const auto person = crowd_walker(seed, drawn_++, draw);
-      if (!person) return tl::unexpected(person.error());
-      requests.push_back({.body = person->body, .gait = person->gait, .muscles = choice_});
+      const auto person = must(crowd_walker(seed, drawn_++, draw));
+      requests.push_back({.body = person.body, .gait = person.gait, .muscles = choice_});
     }
     entities.resize(requests.size());
     const double start_s = process_cpu_now_s();
-    if (auto done = simulation_.spawn(requests, entities); !done) return done;
+    must(simulation_.spawn(requests, entities));
     spent_s += process_cpu_now_s() - start_s;
     people_.insert(people_.end(), entities.begin(), entities.end());
   }
   if (people_.size() > before) spawn_s_ = spent_s / static_cast<double>(people_.size() - before);
   for (int i = 0; i < settling_ticks; ++i) simulation_.tick();
-  return {};
 }
 
-Result<void> BenchScene::compact() {
-  const auto done = simulation_.compact(people_);
-  if (!done) return tl::unexpected(done.error());
-  if (*done < people_.size()) return fail("somebody does not become compact");
+void BenchScene::compact() {
+  if (must(simulation_.compact(people_)) < people_.size()) throw Stopped("somebody does not become compact");
   simulation_.tick();
-  return {};
 }
 
-Result<void> BenchScene::expand() {
-  return simulation_.expand(people_);
+void BenchScene::expand() {
+  must(simulation_.expand(people_));
 }
 
 double BenchScene::bytes_per_human() const {
@@ -296,33 +291,31 @@ double measure_cost(BenchRun& run, BenchScene& scene, const std::string& ending)
 
 }  // namespace
 
-Result<void> bench_threads(BenchRun& run) {
+void bench_threads(BenchRun& run) {
   BenchScene scene(bench_reduced_muscles());
-  if (auto done = scene.grow_to(run.humans); !done) return done;
+  scene.grow_to(run.humans);
   measure_scene(run, scene, "unseen");
-  if (auto done = scene.compact(); !done) return done;
+  scene.compact();
   measure_scene(run, scene, "compact");
-  return {};
 }
 
-Result<void> bench_crowds(BenchRun& run) {
+void bench_crowds(BenchRun& run) {
   const std::array sizes = {std::max<std::size_t>(16, run.humans / 10), run.humans,
                             std::min<std::size_t>(10 * run.humans, 200'000)};
   std::array<double, 3> whole_us{}, compact_us{};
   BenchScene scene(bench_reduced_muscles());
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (auto done = scene.grow_to(sizes[i]); !done) return done;
+    scene.grow_to(sizes[i]);
     whole_us[i] = measure_cost(run, scene, "");
-    if (auto done = scene.compact(); !done) return done;
+    scene.compact();
     compact_us[i] = measure_cost(run, scene, ".compact");
-    if (auto done = scene.expand(); !done) return done;
+    scene.expand();
   }
   run.add_figure("crowd.us_per_spawn", scene.spawn_s() * 1e6, "us",
                  "with eight muscles, a thousand at a time; processor time, what they share made before");
   const std::string among = fmt::format("a human's cost among {} over that among {}", sizes[2], sizes[0]);
   run.add_figure("crowd.large_over_small", whole_us[2] / whole_us[0], "1", among);
   run.add_figure("crowd.compact.large_over_small", compact_us[2] / compact_us[0], "1", among + ", everybody compact");
-  return {};
 }
 
 }  // namespace mobil

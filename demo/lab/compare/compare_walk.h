@@ -59,12 +59,12 @@ struct BalancedScene {
 };
 
 /// Straight on, faster and slower, turning, starting and stopping, limping. Errors: a body or style out of range.
-Result<std::vector<BalancedScene>> walk_balance_scenes(const BodyRequest& body, const GaitStyle& style);
+std::vector<BalancedScene> walk_balance_scenes(const BodyRequest& body, const GaitStyle& style);
 
 /// Walks until steady, then through one more cycle of the right leg. After each tick of it `row` is told where in the
 /// cycle that leg is, in cycles from heel strike at 0 to the next at 1; from somewhat before to the first tick beyond
 /// 1.1. Error: a walk too slow to get there.
-Result<void> over_steady_cycle(Simulation& simulation, Entity human, const std::function<void(double)>& row);
+void over_steady_cycle(Simulation& simulation, Entity human, const std::function<void(double)>& row);
 
 /// Ground reaction of the right foot in body weights, moments of the right leg in N m/kg, over the right leg's cycle.
 struct StrideForces {
@@ -88,7 +88,7 @@ struct WalkedStride {
 };
 
 /// Walks until steady and then one stride more, in ticks of 1/240 s. Errors: a body or gait out of range.
-Result<WalkedStride> walk_stride(const BodyRequest& body, const GaitRequest& gait);
+WalkedStride walk_stride(const BodyRequest& body, const GaitRequest& gait);
 
 /// Values at rows of rising cycle phase (in cycles, from at most 0 to at least 1), at every 2 % between.
 CycleCurve sample_cycle(const std::vector<double>& phase, const std::vector<double>& value);

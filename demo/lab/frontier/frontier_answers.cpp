@@ -8,6 +8,7 @@
 
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
+#include "demo/program/must.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"
 
@@ -32,12 +33,12 @@ std::vector<Group> groups_of(const std::vector<FrontierIndividual>& individuals)
 }
 
 /// The least number of ticks that is a whole number of steps.
-Result<std::size_t> meeting(double dt_s) {
+std::size_t meeting(double dt_s) {
   for (std::size_t ticks = 1; ticks <= 60; ++ticks) {
     const double steps = static_cast<double>(ticks) * frontier_tick_s / dt_s;
     if (std::abs(steps - std::round(steps)) < 1e-6) return ticks;
   }
-  return fail(
+  throw Stopped(
       fmt::format("frontier: steps of {} s never meet ticks of {:.6g} s; give another step", dt_s, frontier_tick_s));
 }
 
@@ -62,13 +63,11 @@ struct Calendar {
   }
 };
 
-Result<void> answer_by_elements(const FrontierDrive& drive, const FrontierMethod& method, const Group& group,
-                                bool loads, const Calendar& calendar) {
+void answer_by_elements(const FrontierDrive& drive, const FrontierMethod& method, const Group& group, bool loads,
+                        const Calendar& calendar) {
   const MuscleTemplate& shape = *group.individual->shape;
   const auto points = frontier_mesh(drive.muscle, frontier_points);
-  if (!points) return tl::unexpected(points.error());
-  const auto sampler = FrontierSampler::make(shape.mesh, *points);
-  if (!sampler) return tl::unexpected(sampler.error());
+  const FrontierSampler sampler(shape.mesh, points);
   std::vector<Lanes<float>> displacement(nodal_width(shape.mesh.cells)), velocity(displacement.size());
   std::vector<Lanes<float>> scratch(scratch_floats(shape, method.choice.method) / lane_count + 1);
   const std::uint32_t steps = method.fixed_step ? 1 : group.individual->steps;
@@ -86,8 +85,7 @@ Result<void> answer_by_elements(const FrontierDrive& drive, const FrontierMethod
           deform_implicit(block, *group.individual->solver, {FarEnd::held, end}, steps, call_s, scratch.data()->lane);
         }
       },
-      [&](Lanes<float>* to) { sampler->sample(displacement.data()->lane, group.lanes, to); });
-  return {};
+      [&](Lanes<float>* to) { sampler.sample(displacement.data()->lane, group.lanes, to); });
 }
 
 /// Sixteen individuals' numbers, sixteen lanes at each.
@@ -139,15 +137,14 @@ std::size_t FrontierAnswer::samples() const {
   return displacement_m.size() / point_width;
 }
 
-Result<FrontierSampler> FrontierSampler::make(const HexahedralMesh& mesh, const HexahedralMesh& points) {
+FrontierSampler::FrontierSampler(const HexahedralMesh& mesh, const HexahedralMesh& points) {
   const Cells &fine = mesh.cells, &coarse = points.cells;
   if (fine[0] % coarse[0] != 0 || fine[1] % coarse[1] != 0) {
-    return fail(
+    throw Stopped(
         fmt::format("frontier: a mesh of {}x{}x{} cells has not the control points of {}x{}x{} across; take"
                     " multiples",
                     fine[0], fine[1], fine[2], coarse[0], coarse[1], coarse[2]));
   }
-  FrontierSampler sampler;
   for_each_node(coarse, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const double z = points.node[node_index(coarse, i, j, k)].z;
     const auto node = [&](std::uint32_t at) {
@@ -158,9 +155,8 @@ Result<FrontierSampler> FrontierSampler::make(const HexahedralMesh& mesh, const 
     const double low = mesh.node[node(at)].z, high = mesh.node[node(at + 1)].z;
     double part = std::clamp((z - low) / (high - low), 0.0, 1.0);
     if (std::min(part, 1 - part) < 1e-4) part = std::round(part);
-    sampler.place_.push_back({node(at), node(at + 1), static_cast<float>(part)});
+    place_.push_back({node(at), node(at + 1), static_cast<float>(part)});
   });
-  return sampler;
 }
 
 void FrontierSampler::sample(const float* displacement, std::uint32_t lanes, Lanes<float>* to) const {
@@ -175,15 +171,13 @@ void FrontierSampler::sample(const float* displacement, std::uint32_t lanes, Lan
   }
 }
 
-Result<FrontierAnswer> answer_of(const FrontierDrive& drive, const FrontierMethod& method,
-                                 const std::vector<FrontierIndividual>& individuals, bool loads) {
+FrontierAnswer answer_of(const FrontierDrive& drive, const FrontierMethod& method,
+                         const std::vector<FrontierIndividual>& individuals, bool loads) {
   FrontierAnswer answer;
   Calendar calendar{.answer = &answer};
   if (method.fixed_step) {
     calendar.call_s = *method.choice.dt_s;
-    const auto ticks = meeting(calendar.call_s);
-    if (!ticks) return tl::unexpected(ticks.error());
-    answer.stride = *ticks;
+    answer.stride = meeting(calendar.call_s);
     calendar.calls =
         static_cast<std::size_t>(std::lround(static_cast<double>(answer.stride) * frontier_tick_s / calendar.call_s));
   }
@@ -192,21 +186,11 @@ Result<FrontierAnswer> answer_of(const FrontierDrive& drive, const FrontierMetho
   for (const Group& group : groups_of(individuals)) {
     if (method.reduced()) {
       answer_by_vectors(drive, method, individuals, group, loads, calendar);
-    } else if (auto done = answer_by_elements(drive, method, group, loads, calendar); !done) {
-      return tl::unexpected(done.error());
+    } else {
+      answer_by_elements(drive, method, group, loads, calendar);
     }
   }
   return answer;
-}
-
-FrontierAnswer extrapolated(const FrontierAnswer& fine, const FrontierAnswer& coarse) {
-  FrontierAnswer both = fine;
-  for (std::size_t i = 0; i < both.displacement_m.size(); ++i) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      both.displacement_m[i][l] += (fine.displacement_m[i][l] - coarse.displacement_m[i][l]) / 3;
-    }
-  }
-  return both;
 }
 
 void FrontierError::add(const FrontierAnswer& answer, const FrontierAnswer& truth, std::size_t walks) {

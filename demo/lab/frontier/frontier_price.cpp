@@ -17,7 +17,7 @@
 #include "demo/lab/bench/bench_fem_bellies.h"
 #include "demo/lab/frontier/frontier.h"
 #include "demo/lab/frontier/frontier_method.h"
-#include "demo/lab/frontier/frontier_walks.h"
+#include "demo/program/must.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"
 
@@ -243,9 +243,8 @@ std::unique_ptr<FrontierCrowd> crowd_of(const FrontierPriced& priced, std::span<
 
 }  // namespace
 
-Result<void> price(std::span<const FrontierPriced> all, std::span<const FrontierDrive> drives, bool loads,
-                   Frontier& frontier) {
-  if (all.empty()) return fail("frontier: no method is left to be measured; choose others");
+void price(std::span<const FrontierPriced> all, std::span<const FrontierDrive> drives, bool loads, Frontier& frontier) {
+  if (all.empty()) throw Stopped("frontier: no method is left to be measured; choose others");
   const FrontierRequest& request = frontier.request;
   std::vector<Meter> meters(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -261,7 +260,7 @@ Result<void> price(std::span<const FrontierPriced> all, std::span<const Frontier
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Meter& meter = meters[i];
     if (!meter.crowd->finite()) {
-      return fail(
+      throw Stopped(
           fmt::format("frontier: {} of {}: a displacement is not a number", all[i].row->method, all[i].row->cells));
     }
     FrontierRow& row = *all[i].row;
@@ -275,7 +274,6 @@ Result<void> price(std::span<const FrontierPriced> all, std::span<const Frontier
     if (least) frontier.least_muscles = meter.crowd->muscles();
   }
   if (!loads) frontier.shared_us = shared.us(shared.ticks);
-  return {};
 }
 
 }  // namespace mobil

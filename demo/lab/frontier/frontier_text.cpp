@@ -61,10 +61,8 @@ void add_scene(const Frontier& frontier, const FrontierChange& change, std::stri
                         fmt::format("{:.4g}", row->cost_us), fmt::format("{:.3g}", row->ratio),
                         fmt::format("{:.4g}", row->points_us), fmt::format("{:.3g}", row->points_ratio), also);
   }
-  text += fmt::format(
-      "  the reference's own change: {} from half the cells, {} from 24 vectors{}\n", percent(change.mesh),
-      percent(change.vectors),
-      change.elements ? fmt::format("; {} from plain explicit meshes extrapolated", percent(*change.elements)) : "");
+  text += fmt::format("  the reference's own change: {} from half the cells, {} from 24 vectors\n",
+                      percent(change.mesh), percent(change.vectors));
   add_shown(frontier, change.loads, false, text);
   add_shown(frontier, change.loads, true, text);
   const auto far =

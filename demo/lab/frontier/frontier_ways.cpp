@@ -6,6 +6,7 @@
 #include <mobil/assets/muscles/muscle_plan.h>
 #include "assets/finite/control_points.h"
 #include "demo/measure/measure.h"
+#include "demo/program/must.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/finite.h"
 #include "systems/deformation/finite_shape.h"
@@ -26,11 +27,10 @@ void set_lanes(Lanes<float>& lanes, double x) {
   std::ranges::fill(lanes.lane, static_cast<float>(x));
 }
 
-Result<Belly> living_belly(Muscle muscle, const LivingWay& way, BellyLibrary& library) {
-  auto plan = make_muscle_plan(*make_body({}), muscle);
-  if (!plan) return tl::unexpected(plan.error());
-  plan->scale = {1, 1};
-  return library.belly(*plan, way.choice, living_tick_s);
+Belly living_belly(Muscle muscle, const LivingWay& way, BellyLibrary& library) {
+  auto plan = must(make_muscle_plan(*make_body({}), muscle));
+  plan.scale = {1, 1};
+  return must(library.belly(plan, way.choice, living_tick_s));
 }
 
 /// Sixteen alike.
@@ -53,14 +53,14 @@ class LivingBellies {
     }
   }
 
-  void tick(const LivingLoad& to) {
+  void tick(const WalkLoad& to) {
     constexpr auto tick_s = static_cast<float>(living_tick_s);
     end_.from = end_.to;
     set_lanes(end_.to, -to.shortening * length_m_);
     frame_.constant_from = frame_.constant_to;
-    set_lanes(frame_.constant_to.x, to.acceleration_m_s2[0]);
-    set_lanes(frame_.constant_to.y, to.acceleration_m_s2[1]);
-    set_lanes(frame_.constant_to.z, to.acceleration_m_s2[2]);
+    set_lanes(frame_.constant_to.x, to.push.constant_m_s2[0]);
+    set_lanes(frame_.constant_to.y, to.push.constant_m_s2[1]);
+    set_lanes(frame_.constant_to.z, to.push.constant_m_s2[2]);
     set_lanes(activation_, to.activation);
     const FarFaceDrive drive(FarEnd::held, end_);
     if (choice_.method == Method::reduced) {
@@ -151,28 +151,26 @@ std::vector<LivingWay> living_ways() {
   return ways;
 }
 
-Result<LivingPoints> living_points_of(Muscle muscle, const LivingWay& way, std::span<const LivingLoad> loads,
-                                      BellyLibrary& library) {
+LivingPoints living_points_of(Muscle muscle, const LivingWay& way, std::span<const WalkLoad> loads,
+                              BellyLibrary& library) {
   const auto belly = living_belly(muscle, way, library);
-  if (!belly) return tl::unexpected(belly.error());
-  LivingBellies bellies(*belly, way.choice);
+  LivingBellies bellies(belly, way.choice);
   LivingPoints points;
-  for (const LivingLoad& load : loads) {
+  for (const WalkLoad& load : loads) {
     bellies.tick(load);
     points.push_back(bellies.shown());
   }
   return points;
 }
 
-Result<double> living_cost_us(Muscle muscle, const LivingWay& way, BellyLibrary& library) {
+double living_cost_us(Muscle muscle, const LivingWay& way, BellyLibrary& library) {
   constexpr std::size_t blocks = 64;
   const auto belly = living_belly(muscle, way, library);
-  if (!belly) return tl::unexpected(belly.error());
-  std::vector<LivingBellies> all(blocks, LivingBellies(*belly, way.choice));
+  std::vector<LivingBellies> all(blocks, LivingBellies(belly, way.choice));
   double sway = 0.02;
   const Measured ticking = measure_short([&] {
     sway = -sway;
-    for (LivingBellies& one : all) one.tick({sway, 0.3, {0, 9.8 * sway, 0}});
+    for (LivingBellies& one : all) one.tick({sway, 0.3, {{0, 9.8 * sway, 0}, {}}});
   });
   return 1e6 * ticking.best_s / (blocks * lane_count);
 }

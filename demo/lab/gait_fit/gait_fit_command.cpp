@@ -17,7 +17,6 @@
 #include "assets/muscles/excitation_curves.h"
 #include "demo/lab/compare/reference_tables.h"
 #include "demo/lab/gait_fit/step_grid.h"
-#include "demo/lab/gait_fit/step_styles.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 #include "engine/eigen.h"

@@ -195,25 +195,23 @@ std::string csv_of(const std::vector<Row>& rows) {
 
 }  // namespace
 
-Result<void> paper_figure14(PaperRun& run) {
+void paper_figure14(PaperRun& run) {
   SimulationOptions options;
   options.tick_s = sample_s;
   Simulation simulation(options);
-  const auto entity = simulation.spawn(paper_body(), paper_gait());
-  if (!entity) return tl::unexpected(entity.error());
+  const auto entity = must(simulation.spawn(paper_body(), paper_gait()));
   LegMuscles choice = only({Muscle::hamstrings});
   choice.drive = Drive::force;
   choice.method = Method::caa;
   choice.cells = paper_mesh;
   choice.dt_s = step_s;
-  if (auto added = simulation.add_leg_muscles(*entity, choice); !added) return added;
-  const Entity muscle = simulation.muscle(*entity, Muscle::hamstrings, Side::right);
-  const BellyScale<float> scale = simulation.human(*entity)->muscles.front().plan.scale;
+  must(simulation.add_leg_muscles(entity, choice));
+  const Entity muscle = simulation.muscle(entity, Muscle::hamstrings, Side::right);
+  const BellyScale<float> scale = simulation.human(entity)->muscles.front().plan.scale;
   std::vector<Row> rows;
-  auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {
+  over_steady_cycle(simulation, entity, [&](double phase) {
     if (phase >= 0 && phase <= 1) rows.push_back(row_now(simulation, muscle, scale, phase));
   });
-  if (!walked) return walked;
   const auto moments = moments_of(rows);
   PaperTable table{"moment", {{"", "% of\ncycle", 0}, {"", "pull\nN", 2}, {"", "displacement\nmm", 1}}, {}};
   for (const Moment& moment : moments) {
@@ -228,9 +226,8 @@ Result<void> paper_figure14(PaperRun& run) {
                               "longest.\n",
                               low->pull_n, high->pull_n,
                               std::abs(rows[moments[0].row].displacement_mm - rows[moments[2].row].displacement_mm));
-  if (auto done = run.write_csv(csv_of(rows)); !done) return done;
-  return run.write(
-      figure_of(rows, mesh_at_rest(simulation.world().shared<MuscleTemplate>(muscle)->mesh, scale), moments));
+  run.write_csv(csv_of(rows));
+  run.write(figure_of(rows, mesh_at_rest(simulation.world().shared<MuscleTemplate>(muscle)->mesh, scale), moments));
 }
 
 }  // namespace mobil

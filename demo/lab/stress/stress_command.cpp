@@ -39,7 +39,7 @@ namespace {
 
 struct Stress {
   std::string_view name, about;
-  Result<void> (*run)(StressRun&);
+  void (*run)(StressRun&);
 };
 
 constexpr std::array stresses = {
@@ -140,7 +140,7 @@ void try_one(const Stress& stress, StressRun& run) {
   const std::size_t before = run.rows.size();
   run.entry = stress.name;
   run.progress(0);
-  if (const auto done = stress.run(run); !done) {
+  if (const auto done = attempt([&] { stress.run(run); }); !done) {
     run.at_most(std::string(stress.about), "failures before anything could be tried", 0, 1,
                 "all of this is within range", done.error().message);
   }

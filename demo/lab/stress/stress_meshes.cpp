@@ -75,29 +75,26 @@ struct MeshFigures {
   double least_step_s = 1e300, least_quality = 1;
   std::size_t refused = 0;
 
-  Result<void> take(const HexahedralMesh& mesh, Element element, FarEnd end, std::uint32_t steps);
+  void take(const HexahedralMesh& mesh, Element element, FarEnd end, std::uint32_t steps);
 };
 
-Result<void> MeshFigures::take(const HexahedralMesh& mesh, Element element, FarEnd end, std::uint32_t steps) {
+void MeshFigures::take(const HexahedralMesh& mesh, Element element, FarEnd end, std::uint32_t steps) {
   const auto terms = assemble(mesh, Material{}, element);
   if (!terms) {
     ++refused;  // inverted inside, between corners that are not
-    if (terms.error().message.starts_with("element ")) return {};
-    return tl::unexpected(terms.error());
+    if (terms.error().message.starts_with("element ")) return;
+    throw Stopped(terms.error().message);
   }
   least_quality = std::min(least_quality, smallest_scaled_jacobian(mesh));
   const double residual = patch_residual(mesh, *terms);
   if (!(residual <= patch)) patch = residual;
   const auto tried = probe_limit(mesh, *terms, {.method = Method::ecd, .end = end}, steps);
-  if (!tried) return tl::unexpected(tried.error());
-  probe.take(*tried);
-  least_step_s = std::min(least_step_s, tried->limit_s);
+  probe.take(tried);
+  least_step_s = std::min(least_step_s, tried.limit_s);
 
   MuscleOptions options{end, 0, 0.7, 1.5};
   options.element = element;
-  auto made = make_muscle_template(mesh, Material{}, options);
-  if (!made) return tl::unexpected(made.error());
-  Bellies bellies(std::move(*made));
+  Bellies bellies(must(make_muscle_template(mesh, Material{}, options)));
   make_sixteen_sizes(bellies);
   shake(bellies, 1e-3F);
   double limit = 1e300;
@@ -118,7 +115,6 @@ Result<void> MeshFigures::take(const HexahedralMesh& mesh, Element element, FarE
     const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
     if (!(change <= lane_drift)) lane_drift = change;
   }
-  return {};
 }
 
 void tell(StressRun& run, const std::string& tried, const MeshFigures& f) {
@@ -134,7 +130,7 @@ void tell(StressRun& run, const std::string& tried, const MeshFigures& f) {
 
 }  // namespace
 
-Result<void> stress_slivers(StressRun& run) {
+void stress_slivers(StressRun& run) {
   std::mt19937 random(20250607);
   MeshFigures figures;
   const int count = run.quick ? 3 : 20;
@@ -143,12 +139,11 @@ Result<void> stress_slivers(StressRun& run) {
     const HexahedralMesh mesh = sliver(random, quality);
     for (const Element element : all_elements) {
       const FarEnd end = i % 2 == 0 ? FarEnd::free : FarEnd::held;
-      if (auto done = figures.take(mesh, element, end, run.quick ? 500 : 3000); !done) return done;
+      figures.take(mesh, element, end, run.quick ? 500 : 3000);
     }
     run.progress((i + 1.0) / count);
   }
   tell(run, fmt::format("{} blocks, a node moved until an element all but folds", count), figures);
-  return {};
 }
 
 namespace {
@@ -165,16 +160,14 @@ struct StaticError {
   double bent;    // the tip's sideways displacement against double precision
 };
 
-Result<StaticError> static_error(double aspect, Element element) {
+StaticError static_error(double aspect, Element element) {
   MuscleOptions options{FarEnd::free, 0, 1, 1};
   options.element = element;
   const Material material{1000, 10000, 0};
   const HexahedralMesh mesh = stretched(aspect);
-  auto made = make_muscle_template(mesh, material, options);
-  if (!made) return tl::unexpected(made.error());
-  Bellies bellies(std::move(*made));
+  Bellies bellies(must(make_muscle_template(mesh, material, options)));
   bellies.stiffness = Stiffness::shared;
-  if (auto ok = bellies.solve_by(Method::statics, Mass::lumped, 1); !ok) return tl::unexpected(ok.error());
+  bellies.solve_by(Method::statics, Mass::lumped, 1);
   constexpr float load_n = 0.1F;
   EndTraction<Lanes<float>> pull{}, bend{};
   for (std::size_t l = 0; l < lane_count; ++l) pull.to_n.z[l] = bend.to_n.x[l] = load_n;
@@ -184,17 +177,17 @@ Result<StaticError> static_error(double aspect, Element element) {
   const double exact = load * 0.08 * aspect / (material.young_pa * 0.02 * 0.02);
   StaticError error{std::fabs(static_cast<double>(bellies.report.elongation_m[5]) / exact - 1), 0};
   for (int tick = 0; tick < ticks; ++tick) bellies.tick(bend, 1, 1);
-  auto reference = ReferenceBelly::make(mesh, bellies.muscle.terms, {.method = Method::statics, .end = FarEnd::free});
-  if (!reference) return tl::unexpected(reference.error());
-  reference->start({{load, 0, 0}, {}, {}});
+  auto reference =
+      must(ReferenceBelly::make(mesh, bellies.muscle.terms, {.method = Method::statics, .end = FarEnd::free}));
+  reference.start({{load, 0, 0}, {}, {}});
   const std::size_t tip = 3 * std::size_t{insertion_centre(mesh.cells).front()};
-  error.bent = std::fabs(static_cast<double>(bellies.displacement[tip][5]) / reference->displacement()[tip] - 1);
+  error.bent = std::fabs(static_cast<double>(bellies.displacement[tip][5]) / reference.displacement()[tip] - 1);
   return error;
 }
 
 }  // namespace
 
-Result<void> stress_aspect(StressRun& run) {
+void stress_aspect(StressRun& run) {
   MeshFigures figures;
   double pulled = 0, bent = 0;
   const std::vector<double> aspects =
@@ -202,12 +195,10 @@ Result<void> stress_aspect(StressRun& run) {
   double done_part = 0;
   for (const double aspect : aspects) {
     for (const Element element : all_elements) {
-      if (auto done = figures.take(stretched(aspect), element, FarEnd::free, run.quick ? 500 : 3000); !done)
-        return done;
+      figures.take(stretched(aspect), element, FarEnd::free, run.quick ? 500 : 3000);
       const auto error = static_error(aspect, element);
-      if (!error) return tl::unexpected(error.error());
-      if (!(error->pulled <= pulled)) pulled = error->pulled;
-      if (!(error->bent <= bent)) bent = error->bent;
+      if (!(error.pulled <= pulled)) pulled = error.pulled;
+      if (!(error.bent <= bent)) bent = error.bent;
     }
     run.progress(++done_part / static_cast<double>(aspects.size()));
   }
@@ -219,7 +210,6 @@ Result<void> stress_aspect(StressRun& run) {
   run.at_most(tried + ", bent in static lanes, twenty ticks",
               "the tip's displacement against double precision, relative", 1e-4, bent,
               "the factor is made in double; single precision, ten times what was measured");
-  return {};
 }
 
 namespace {
@@ -252,7 +242,7 @@ std::vector<std::uint32_t> folded(const HexahedralMesh& mesh) {
 
 }  // namespace
 
-Result<void> stress_inverted(StressRun& run) {
+void stress_inverted(StressRun& run) {
   const HexahedralMesh sound = spindle({3, 2, 5});
   const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
   std::size_t tried = 0, named = 0;
@@ -296,7 +286,6 @@ Result<void> stress_inverted(StressRun& run) {
               "meshes not refused with a folded element's name", 0, static_cast<double>(tried - named),
               "an inverted element makes energy out of nothing",
               missed.empty() ? fmt::format("{} refused, as in \"{}\"", named, example) : missed);
-  return {};
 }
 
 }  // namespace mobil

@@ -6,19 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <memory>
-#include <optional>
-#include <string>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/local_transport.h>
 #include <mobil/mpi_transport.h>
 #include <mobil/png.h>
 #include "demo/crowd/city_shard.h"
-#include "demo/crowd/crowd_options.h"
-#include "demo/crowd/crowd_picture.h"
-#include "demo/crowd/crowd_run.h"
-#include "demo/crowd/crowd_scene.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 

@@ -19,7 +19,6 @@
 #include <mobil/usd_writer.h>
 #include "demo/program/commands.h"
 #include "demo/walk/drawn_skin.h"
-#include "demo/walk/recorded_scene.h"
 
 namespace mobil {
 namespace {

@@ -2,17 +2,9 @@
 // A crowd as pictures: people with their skin and clothes; of those in front the legs' muscles and bones are seen
 // through it. A crowd as a scene for other programs: all people dressed, walking.
 
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
 #include <map>
-#include <memory>
-#include <span>
-#include <vector>
 
 #include <mobil/assets/export/walk_recording.h>
-#include <mobil/engine/error.h>
-#include <mobil/simulation.h>
 #include <mobil/systems/capture/image.h>
 #include <mobil/systems/capture/scene.h>
 #include "demo/crowd/crowd_scene.h"

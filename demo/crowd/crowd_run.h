@@ -1,19 +1,11 @@
 #pragma once
 // A crowd at work, measured; its figures on the terminal and as JSON.
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include <mobil/systems/relevance/accuracy_table.h>
 #include "demo/crowd/crowd_options.h"
-#include "demo/crowd/crowd_scene.h"
 #include "demo/program/json.h"
 
 namespace mobil {

@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <mobil/assets/files/output_file.h>
-#include <mobil/engine/error.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/png.h>
 #include <mobil/video.h>
@@ -21,7 +18,6 @@
 #include "demo/program/json.h"
 #include "demo/program/progress.h"
 #include "demo/program/units.h"
-#include "demo/town/town_map.h"
 #include "demo/town/town_scene.h"
 
 namespace mobil {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
-#include <string_view>
 
 #include <mobil/bvh_writer.h>
 #include <mobil/gl_writer.h>

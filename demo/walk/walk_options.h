@@ -2,15 +2,9 @@
 // Options of `mobil walk`, checked; and the files of other programs that it exports to.
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <mobil/assets/export/walk_recording.h>
-#include <mobil/components/body.h>
-#include <mobil/components/gait.h>
 #include <mobil/components/leg_muscles.h>
-#include <mobil/engine/error.h>
 #include "demo/program/body_options.h"
 #include "demo/program/options.h"
 #include "demo/walk/walk_ground.h"

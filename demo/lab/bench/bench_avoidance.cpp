@@ -7,8 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <string>
-#include <vector>
 
 #include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>

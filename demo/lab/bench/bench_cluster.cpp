@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include <mobil/cluster.h>
 #include <mobil/local_transport.h>

@@ -6,23 +6,16 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <string>
 #include <thread>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
-#include "assets/fem/muscle_template.h"
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_fem_bellies.h"
-#include "demo/measure/measure.h"
 
 namespace mobil {
 namespace {

@@ -6,17 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
-#include <vector>
 
 #include <mobil/components/gait.h>
 #include <mobil/pose_writer.h>
-#include <mobil/schedule.h>
-#include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd.h"
-#include "demo/measure/measure.h"
 
 namespace mobil {
 namespace {

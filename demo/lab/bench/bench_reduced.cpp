@@ -9,9 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <memory>
 #include <new>
-#include <string>
 
 #include <mobil/engine/jobs.h>
 #include "assets/reduction/reduced_basis.h"

@@ -1,14 +1,10 @@
 // What a change of method takes: the figures that Relevance plans its updates by (switch_us, accuracy_table.h).
 
 #include <algorithm>
-#include <cstddef>
-#include <string>
-#include <vector>
 
 #include <mobil/relevance.h>
 #include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
-#include "demo/measure/measure.h"
 
 namespace mobil {
 

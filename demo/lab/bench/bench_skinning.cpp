@@ -6,8 +6,6 @@
 #include <cmath>
 #include <deque>
 #include <span>
-#include <string>
-#include <vector>
 
 #include <mobil/anthropometry.h>
 #include <mobil/simulation.h>

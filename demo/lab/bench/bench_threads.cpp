@@ -6,19 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <numeric>
-#include <string>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
-#include "demo/measure/measure.h"
 #include "demo/scene/crowd_people.h"
 
 namespace mobil {

@@ -6,11 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/files/output_file.h>

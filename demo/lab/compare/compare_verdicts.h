@@ -2,13 +2,8 @@
 // Findings of a comparison (one walk, one quantity, every measured set), the bounds that a walk is held to, and
 // whether it keeps them; both in words and as JSON.
 
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/compare/compare_walk.h"
 
 namespace mobil {

@@ -2,21 +2,15 @@
 // One steady stride of a simulated walk, sampled as measured ones are published; and whether the ground's forces on it
 // could make its motion.
 
-#include <array>
 #include <functional>
-#include <optional>
-#include <string_view>
-#include <vector>
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/gait_style.h>
 #include <mobil/components/pose.h>
 #include <mobil/components/segments.h>
-#include <mobil/engine/error.h>
 #include <mobil/forces.h>
 #include <mobil/simulation.h>
-#include "demo/lab/compare/compare_judge.h"
 #include "demo/lab/compare/compare_reference.h"
 
 namespace mobil {

@@ -12,7 +12,6 @@
 #include <mobil/muscle_table.h>
 #include <mobil/relevance.h>
 #include "assets/finite/control_points.h"
-#include "assets/finite/finite_motion.h"
 #include "assets/finite/shape_tables.h"
 #include "demo/program/commands.h"
 #include "demo/program/must.h"

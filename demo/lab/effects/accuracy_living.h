@@ -2,10 +2,6 @@
 // The accuracy table's part of muscles that pull: people walk with each rung of their ladder, beside tissue at finite
 // strain whose fibres pull (assets/finite/finite_motion.h).
 
-#include <array>
-#include <vector>
-
-#include <mobil/systems/relevance/accuracy_table.h>
 #include "assets/finite/finite_motion.h"
 #include "demo/lab/effects/accuracy_measure.h"
 

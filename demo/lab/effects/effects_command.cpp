@@ -3,17 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
-#include <memory>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <mobil/assets/export/walk_recording.h>
-#include <mobil/engine/error.h>
 #include <mobil/relevance.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/relevance/accuracy_table.h>
 #include "demo/lab/effects/accuracy_measure.h"
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"

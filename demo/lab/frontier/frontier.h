@@ -2,17 +2,11 @@
 // What accuracy costs: every way to deform a muscle over the same walks, how far it is from a converged reference and
 // what a tick of it takes. The parts of `mobil frontier`.
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include "demo/lab/frontier/frontier_answers.h"
-#include "demo/lab/frontier/frontier_method.h"
 #include "demo/measure/machine.h"
 #include "demo/pictures/svg_plot.h"
 

@@ -1,12 +1,6 @@
 #pragma once
 // What a method makes of a muscle's walks, for `mobil frontier`: where the control points are, tick by tick.
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
-#include <mobil/components/lanes.h>
-#include <mobil/engine/error.h>
 #include "demo/lab/frontier/frontier_method.h"
 
 namespace mobil {

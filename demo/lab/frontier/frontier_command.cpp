@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/muscle_table.h>

@@ -5,18 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
-#include "assets/reduction/reduced_basis.h"
 #include "demo/lab/bench/bench_fem_bellies.h"
 #include "demo/lab/frontier/frontier.h"
-#include "demo/lab/frontier/frontier_method.h"
 #include "demo/program/must.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"

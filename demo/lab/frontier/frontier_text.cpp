@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include <mobil/muscle_table.h>
 #include "demo/lab/frontier/frontier.h"

@@ -2,7 +2,6 @@
 // A table of steps over speed and step length, fitted node by node; and how a step changes with the manner of a
 // walk, and stays in balance.
 
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -10,7 +9,6 @@
 #include "assets/gait/step_styles.h"
 #include "assets/gait/step_table.h"
 #include "demo/lab/compare/compare_reference.h"
-#include "demo/lab/gait_fit/step_model.h"
 #include "demo/lab/gait_fit/step_objective.h"
 
 namespace mobil {

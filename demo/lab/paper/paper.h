@@ -1,14 +1,8 @@
 #pragma once
 // The paper's figures and questions, as `mobil paper` makes them.
 
-#include <filesystem>
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include "demo/lab/paper/paper_cycle.h"
 #include "demo/lab/paper/paper_table.h"
 #include "demo/pictures/svg_plot.h"

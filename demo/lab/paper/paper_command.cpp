@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <memory>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/png.h>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <mobil/components/activation.h>
 #include "assets/body/bent_legs.h"

@@ -18,8 +18,8 @@
 #include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/compare/reference_tables.h"
 #include "demo/program/must.h"
+#include "demo/walk/drawn_skin.h"
 #include "demo/walk/figure.h"
-#include "demo/walk/recorded_scene.h"
 #include "demo/walk/walk_lines.h"
 
 namespace mobil {

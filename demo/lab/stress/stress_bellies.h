@@ -6,12 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <random>
-#include <string>
-#include <vector>
 
 #include <mobil/assets/fem/hexahedral_mesh.h>
 #include <mobil/components/muscle.h>
-#include <mobil/engine/error.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/fem/stiffness_terms.h"

@@ -4,13 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 
-#include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 
 namespace mobil {

@@ -2,13 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
-#include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 
 namespace mobil {

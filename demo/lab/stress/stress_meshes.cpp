@@ -3,16 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <random>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include <mobil/assets/fem/hexahedral_mesh.h>
-#include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 
 namespace mobil {

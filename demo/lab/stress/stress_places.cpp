@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
-#include <string>
-#include <vector>
 
 #include <mobil/components/fade.h>
 #include <mobil/engine/geometry.h>

@@ -3,16 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "assets/fem/critical_step.h"
 #include "demo/lab/muscle/muscle_options.h"
-#include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 
 namespace mobil {

@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
 #include <optional>
-#include <string>
-#include <string_view>
 
 #include "assets/body/bent_legs.h"
 #include "demo/lab/stress/stress.h"

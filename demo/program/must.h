@@ -1,6 +1,6 @@
 #pragma once
-// Errors that end a measurement: thrown where they appear and caught by the subcommand, which reports them. Functions of
-// the laboratory without a Result throw Stopped for the errors that their comments name.
+// Errors that end a measurement: thrown where they appear and caught by the subcommand, which reports them. Functions
+// of the laboratory without a Result throw Stopped for the errors that their comments name.
 
 #include <stdexcept>
 #include <type_traits>

@@ -378,7 +378,7 @@ TEST(Plot, WhatCannotBeShownBreaksTheLineAndNothingElse) {
   PlotPanel panel{"<&>", {"cost \"µs\"", {}, {}, true}, {"error", {}, {}, true}, {}, {}, {}, false};
   panel.lines.push_back({{1, 10, 100, 1000, 1e4}, {1, 0.1, nan, 0.01, 0.02}, "#000", "ours", 1, false});
   panel.bands.push_back({{1, 10, 100}, {0.5, -1, 0.2}, {2, 2, infinite}, "#00f", "band", 0.2});
-  panel.points.push_back({{1, 0, 10}, {1, 1, -1}, {0.5, 0.5, 0.5}, {"a<b", "no", "no"}, "#f00", "points"});
+  panel.points.push_back({{1, 0, 10}, {1, 1, -1}, {"a<b", "no", "no"}, "#f00", "points"});
   const std::string text = svg({.title = "title", .panels = {panel}});
   EXPECT_EQ(text.find("nan"), std::string::npos);
   EXPECT_EQ(text.find("inf"), std::string::npos);

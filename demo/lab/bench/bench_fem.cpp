@@ -28,19 +28,6 @@ struct RivalTime {
   bool holds = false;
 };
 
-/// The best of several rounds by the name of the measurement.
-class RivalRounds {
- public:
-  /// One more round of each of `names`.
-  void add(const std::vector<std::string>& names, bool quick);
-  /// Null where it was not measured.
-  const RivalTime* find(const std::string& name) const;
-
- private:
-  std::map<std::string, RivalTime> best_;
-  std::map<std::string, std::vector<double>> medians_;
-};
-
 namespace fs = std::filesystem;
 
 fs::path program() {
@@ -90,22 +77,31 @@ RivalTime measure_rival(const std::string& name, bool quick) {
   return time;
 }
 
-void RivalRounds::add(const std::vector<std::string>& names, bool quick) {
-  for (const std::string& name : names) {
-    const RivalTime time = measure_rival(name, quick);
-    const std::string stem = name.substr(0, name.find('@'));
-    auto& medians = medians_[stem];
-    medians.push_back(time.median_us);
-    auto [known, is_new] = best_.try_emplace(stem, time);
-    if (!is_new && time.us_per_step < known->second.us_per_step) known->second = time;
-    known->second.median_us = median(medians);
+/// The best of several rounds by the name of the measurement.
+class RivalRounds {
+ public:
+  /// One more round of each of `names`.
+  void add(const std::vector<std::string>& names, bool quick) {
+    for (const std::string& name : names) {
+      const RivalTime time = measure_rival(name, quick);
+      const std::string stem = name.substr(0, name.find('@'));
+      auto& medians = medians_[stem];
+      medians.push_back(time.median_us);
+      auto [known, is_new] = best_.try_emplace(stem, time);
+      if (!is_new && time.us_per_step < known->second.us_per_step) known->second = time;
+      known->second.median_us = median(medians);
+    }
   }
-}
+  /// Null where it was not measured.
+  const RivalTime* find(const std::string& name) const {
+    const auto known = best_.find(name);
+    return known == best_.end() ? nullptr : &known->second;
+  }
 
-const RivalTime* RivalRounds::find(const std::string& name) const {
-  const auto known = best_.find(name);
-  return known == best_.end() ? nullptr : &known->second;
-}
+ private:
+  std::map<std::string, RivalTime> best_;
+  std::map<std::string, std::vector<double>> medians_;
+};
 
 constexpr int fem_rounds = 5;
 

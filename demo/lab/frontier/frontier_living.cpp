@@ -393,7 +393,7 @@ PlotFigure living_figure(const std::vector<LivingFrontier>& muscles) {
   PlotPanel panel;
   panel.title = "displacement across, all muscles";
   double least = 1e9, most = 0;
-  PlotPoints linear{{}, {}, {}, {}, "#1f77b4", "linear"}, shaped{{}, {}, {}, {}, "#2ca02c", "finite strain"};
+  PlotPoints linear{{}, {}, {}, "#1f77b4", "linear"}, shaped{{}, {}, {}, "#2ca02c", "finite strain"};
   for (const LivingError& way : muscles.back().ways) {
     const bool finite = way.way.find("finite") != std::string::npos;  // shape or method
     PlotPoints& points = finite ? shaped : linear;

@@ -130,7 +130,7 @@ std::string number_beside(const Frontier& frontier, const FrontierRow& row) {
 void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
   const auto add = [&](std::string_view method, std::string_view label, std::string_view colour,
                        double FrontierRow::*cost, bool numbered) {
-    PlotPoints points{{}, {}, {}, {}, std::string(colour), std::string(label)};
+    PlotPoints points{{}, {}, {}, std::string(colour), std::string(label)};
     for (const FrontierRow& row : frontier.rows) {
       if (row.loads != loads || row.method != method) continue;
       points.x.push_back(row.*cost);
@@ -143,7 +143,7 @@ void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
     add(one.method, one.label, one.colour, &FrontierRow::cost_us, one.method == "reduced");
   }
   add("reduced", placed_label, placed_colour, &FrontierRow::points_us, false);
-  PlotPoints paper{{}, {}, {}, {}, std::string(paper_colour), std::string(paper_label)};
+  PlotPoints paper{{}, {}, {}, std::string(paper_colour), std::string(paper_label)};
   for (const FrontierRow& row : frontier.rows) {
     if (row.loads != loads || row.mark.empty()) continue;
     paper.x.push_back(row.cost_us);

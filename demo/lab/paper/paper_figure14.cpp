@@ -161,7 +161,7 @@ PlotPanel curve_panel(const std::vector<Row>& rows, double Row::*quantity, const
   panel.y.high = high + 0.25 * (high - low);  // there the points' names stand
   panel.lines = {std::move(all), std::move(until)};
   const Row& now = rows[moment.row];
-  panel.points.push_back({{now.percent}, {now.*quantity}, {}, {std::string(1, moment.name)}, "#111", ""});
+  panel.points.push_back({{now.percent}, {now.*quantity}, {std::string(1, moment.name)}, "#111", ""});
   return panel;
 }
 

@@ -21,6 +21,27 @@ double flexibility(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
   return belly.displacement()[3 * std::size_t{insertion_centre(mesh.cells).front()}];
 }
 
+/// The motion of sixteen shaken sizes over some ticks by a method, in steps that scale with the material's period.
+Bellies ring(const Material& material, double dt_s, Method method, int ticks) {
+  Bellies bellies(must(make_muscle_template(spindle({2, 2, 8}), material, {FarEnd::held, 0, 0.5, 2})));
+  make_sixteen_sizes(bellies);
+  shake(bellies, 1e-3F);
+  if (method != Method::ecd) bellies.solve_by(method, Mass::consistent, dt_s);
+  const EndDrive<Lanes<float>> still{};
+  for (int tick = 0; tick < ticks; ++tick) bellies.tick({FarEnd::held, still}, 8, static_cast<float>(8 * dt_s));
+  return bellies;
+}
+
+std::size_t different_displacements(const Bellies& a, const Bellies& b) {
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.displacement.size(); ++i) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if (!(a.displacement[i][l] == b.displacement[i][l])) ++different;
+    }
+  }
+  return different;
+}
+
 }  // namespace
 
 void stress_poisson(StressRun& run) {
@@ -80,31 +101,6 @@ void stress_poisson(StressRun& run) {
   run.at_most("Poisson's ratio of -1, above 0.4999, no number, infinite", "not refused", 0,
               static_cast<double>(accepted), "no stiffness, or one that no precision holds");
 }
-
-namespace {
-
-/// The motion of sixteen shaken sizes over some ticks by a method, in steps that scale with the material's period.
-Bellies ring(const Material& material, double dt_s, Method method, int ticks) {
-  Bellies bellies(must(make_muscle_template(spindle({2, 2, 8}), material, {FarEnd::held, 0, 0.5, 2})));
-  make_sixteen_sizes(bellies);
-  shake(bellies, 1e-3F);
-  if (method != Method::ecd) bellies.solve_by(method, Mass::consistent, dt_s);
-  const EndDrive<Lanes<float>> still{};
-  for (int tick = 0; tick < ticks; ++tick) bellies.tick({FarEnd::held, still}, 8, static_cast<float>(8 * dt_s));
-  return bellies;
-}
-
-std::size_t different_displacements(const Bellies& a, const Bellies& b) {
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < a.displacement.size(); ++i) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      if (!(a.displacement[i][l] == b.displacement[i][l])) ++different;
-    }
-  }
-  return different;
-}
-
-}  // namespace
 
 /// Rings of materials whose square root of stiffness over mass is a power of two from one to the next: in steps of the
 /// same part of their periods they are the same numbers.

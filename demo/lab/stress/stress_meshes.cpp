@@ -68,47 +68,45 @@ struct MeshFigures {
   double least_step_s = 1e300, least_quality = 1;
   std::size_t refused = 0;
 
-  void take(const HexahedralMesh& mesh, Element element, FarEnd end, std::uint32_t steps);
+  void take(const HexahedralMesh& mesh, Element element, FarEnd end, std::uint32_t steps) {
+    const auto terms = assemble(mesh, Material{}, element);
+    if (!terms) {
+      ++refused;  // inverted inside, between corners that are not
+      if (terms.error().message.starts_with("element ")) return;
+      throw Stopped(terms.error().message);
+    }
+    least_quality = std::min(least_quality, smallest_scaled_jacobian(mesh));
+    const double residual = patch_residual(mesh, *terms);
+    if (!(residual <= patch)) patch = residual;
+    const auto tried = probe_limit(mesh, *terms, {.method = Method::ecd, .end = end}, steps);
+    probe.take(tried);
+    least_step_s = std::min(least_step_s, tried.limit_s);
+
+    MuscleOptions options{end, 0, 0.7, 1.5};
+    options.element = element;
+    Bellies bellies(must(make_muscle_template(mesh, Material{}, options)));
+    make_sixteen_sizes(bellies);
+    shake(bellies, 1e-3F);
+    double limit = 1e300;
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      limit = std::min(limit, critical_step(bellies.muscle.critical_steps, static_cast<double>(bellies.scale.across[l]),
+                                            static_cast<double>(bellies.scale.along[l]))
+                                  .value());
+    }
+    const EndTraction<Lanes<float>> slack{};
+    const EndDrive<Lanes<float>> still{};
+    const FarFaceDrive drive = end == FarEnd::free ? FarFaceDrive(slack) : FarFaceDrive(end, still);
+    const auto tick = static_cast<float>(0.9 * limit * steps);
+    bellies.tick(drive, 1, tick / static_cast<float>(steps));
+    std::array<double, lane_count> first{};
+    for (std::size_t l = 0; l < lane_count; ++l) first[l] = bellies.energy_j(l);
+    bellies.tick(drive, steps, tick);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
+      if (!(change <= lane_drift)) lane_drift = change;
+    }
+  }
 };
-
-void MeshFigures::take(const HexahedralMesh& mesh, Element element, FarEnd end, std::uint32_t steps) {
-  const auto terms = assemble(mesh, Material{}, element);
-  if (!terms) {
-    ++refused;  // inverted inside, between corners that are not
-    if (terms.error().message.starts_with("element ")) return;
-    throw Stopped(terms.error().message);
-  }
-  least_quality = std::min(least_quality, smallest_scaled_jacobian(mesh));
-  const double residual = patch_residual(mesh, *terms);
-  if (!(residual <= patch)) patch = residual;
-  const auto tried = probe_limit(mesh, *terms, {.method = Method::ecd, .end = end}, steps);
-  probe.take(tried);
-  least_step_s = std::min(least_step_s, tried.limit_s);
-
-  MuscleOptions options{end, 0, 0.7, 1.5};
-  options.element = element;
-  Bellies bellies(must(make_muscle_template(mesh, Material{}, options)));
-  make_sixteen_sizes(bellies);
-  shake(bellies, 1e-3F);
-  double limit = 1e300;
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    limit = std::min(limit, critical_step(bellies.muscle.critical_steps, static_cast<double>(bellies.scale.across[l]),
-                                          static_cast<double>(bellies.scale.along[l]))
-                                .value());
-  }
-  const EndTraction<Lanes<float>> slack{};
-  const EndDrive<Lanes<float>> still{};
-  const FarFaceDrive drive = end == FarEnd::free ? FarFaceDrive(slack) : FarFaceDrive(end, still);
-  const auto tick = static_cast<float>(0.9 * limit * steps);
-  bellies.tick(drive, 1, tick / static_cast<float>(steps));
-  std::array<double, lane_count> first{};
-  for (std::size_t l = 0; l < lane_count; ++l) first[l] = bellies.energy_j(l);
-  bellies.tick(drive, steps, tick);
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
-    if (!(change <= lane_drift)) lane_drift = change;
-  }
-}
 
 void tell(StressRun& run, const std::string& tried, const MeshFigures& f) {
   const std::string figures =
@@ -120,26 +118,6 @@ void tell(StressRun& run, const std::string& tried, const MeshFigures& f) {
   run.at_most(tried + ", sixteen sizes in lanes at 0.9 of it", "change of energy in parts of itself", 1e-4,
               f.lane_drift, "conserved; single precision, ten times what was measured");
 }
-
-}  // namespace
-
-void stress_slivers(StressRun& run) {
-  std::mt19937 random(20250607);
-  MeshFigures figures;
-  const int count = run.quick ? 3 : 20;
-  for (int i = 0; i < count; ++i) {
-    const double quality = std::pow(10, uniform(random, -2.98, -1.5));
-    const HexahedralMesh mesh = sliver(random, quality);
-    for (const Element element : all_elements) {
-      const FarEnd end = i % 2 == 0 ? FarEnd::free : FarEnd::held;
-      figures.take(mesh, element, end, run.quick ? 500 : 3000);
-    }
-    run.progress((i + 1.0) / count);
-  }
-  tell(run, fmt::format("{} blocks, a node moved until an element all but folds", count), figures);
-}
-
-namespace {
 
 HexahedralMesh stretched(double aspect) {
   HexahedralMesh mesh = make_block({2, 2, 8}, 0.01).value();
@@ -178,35 +156,6 @@ StaticError static_error(double aspect, Element element) {
   return error;
 }
 
-}  // namespace
-
-void stress_aspect(StressRun& run) {
-  MeshFigures figures;
-  double pulled = 0, bent = 0;
-  const std::vector<double> aspects =
-      run.quick ? std::vector{0.01, 100.0} : std::vector{0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0};
-  double done_part = 0;
-  for (const double aspect : aspects) {
-    for (const Element element : all_elements) {
-      figures.take(stretched(aspect), element, FarEnd::free, run.quick ? 500 : 3000);
-      const auto error = static_error(aspect, element);
-      if (!(error.pulled <= pulled)) pulled = error.pulled;
-      if (!(error.bent <= bent)) bent = error.bent;
-    }
-    run.progress(++done_part / static_cast<double>(aspects.size()));
-  }
-  const std::string tried = "2x2x8 blocks of elements 100 times wider than long to 100 times longer than wide";
-  tell(run, tried, figures);
-  run.at_most(tried + ", pulled in static lanes at a Poisson's ratio of 0, twenty ticks",
-              "elongation against F L / (E A), relative", 1e-5, pulled,
-              "exact for all three elements; single precision, ten times what was measured");
-  run.at_most(tried + ", bent in static lanes, twenty ticks",
-              "the tip's displacement against double precision, relative", 1e-4, bent,
-              "the factor is made in double; single precision, ten times what was measured");
-}
-
-namespace {
-
 /// The elements with a corner whose three edges are left-handed or flat, reckoned from the node numbers alone.
 std::vector<std::uint32_t> folded(const HexahedralMesh& mesh) {
   std::vector<std::uint32_t> found;
@@ -234,6 +183,47 @@ std::vector<std::uint32_t> folded(const HexahedralMesh& mesh) {
 }
 
 }  // namespace
+
+void stress_slivers(StressRun& run) {
+  std::mt19937 random(20250607);
+  MeshFigures figures;
+  const int count = run.quick ? 3 : 20;
+  for (int i = 0; i < count; ++i) {
+    const double quality = std::pow(10, uniform(random, -2.98, -1.5));
+    const HexahedralMesh mesh = sliver(random, quality);
+    for (const Element element : all_elements) {
+      const FarEnd end = i % 2 == 0 ? FarEnd::free : FarEnd::held;
+      figures.take(mesh, element, end, run.quick ? 500 : 3000);
+    }
+    run.progress((i + 1.0) / count);
+  }
+  tell(run, fmt::format("{} blocks, a node moved until an element all but folds", count), figures);
+}
+
+void stress_aspect(StressRun& run) {
+  MeshFigures figures;
+  double pulled = 0, bent = 0;
+  const std::vector<double> aspects =
+      run.quick ? std::vector{0.01, 100.0} : std::vector{0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0};
+  double done_part = 0;
+  for (const double aspect : aspects) {
+    for (const Element element : all_elements) {
+      figures.take(stretched(aspect), element, FarEnd::free, run.quick ? 500 : 3000);
+      const auto error = static_error(aspect, element);
+      if (!(error.pulled <= pulled)) pulled = error.pulled;
+      if (!(error.bent <= bent)) bent = error.bent;
+    }
+    run.progress(++done_part / static_cast<double>(aspects.size()));
+  }
+  const std::string tried = "2x2x8 blocks of elements 100 times wider than long to 100 times longer than wide";
+  tell(run, tried, figures);
+  run.at_most(tried + ", pulled in static lanes at a Poisson's ratio of 0, twenty ticks",
+              "elongation against F L / (E A), relative", 1e-5, pulled,
+              "exact for all three elements; single precision, ten times what was measured");
+  run.at_most(tried + ", bent in static lanes, twenty ticks",
+              "the tip's displacement against double precision, relative", 1e-4, bent,
+              "the factor is made in double; single precision, ten times what was measured");
+}
 
 void stress_inverted(StressRun& run) {
   const HexahedralMesh sound = spindle({3, 2, 5});

@@ -91,6 +91,29 @@ std::size_t different_reports(const BellyReport<Lanes<float>>& a, const BellyRep
   return different;
 }
 
+std::size_t subnormals(const Bellies& bellies) {
+  std::size_t count = 0;
+  for (const auto* column : {&bellies.displacement, &bellies.velocity}) {
+    for (const auto& lanes : *column) {
+      count += static_cast<std::size_t>(
+          std::ranges::count_if(lanes.lane, [](float x) { return std::fpclassify(x) == FP_SUBNORMAL; }));
+    }
+  }
+  return count;
+}
+
+double largest_difference(const Bellies& a, const Bellies& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.displacement.size(); ++i) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double difference =
+          std::fabs(static_cast<double>(a.displacement[i][l]) - static_cast<double>(b.displacement[i][l]));
+      if (!(difference <= largest)) largest = difference;
+    }
+  }
+  return largest;
+}
+
 }  // namespace
 
 void stress_nan(StressRun& run) {
@@ -160,33 +183,6 @@ void stress_explosion(StressRun& run) {
                  "else nothing was tried; no number counts as infinitely far");
   }
 }
-
-namespace {
-
-std::size_t subnormals(const Bellies& bellies) {
-  std::size_t count = 0;
-  for (const auto* column : {&bellies.displacement, &bellies.velocity}) {
-    for (const auto& lanes : *column) {
-      count += static_cast<std::size_t>(
-          std::ranges::count_if(lanes.lane, [](float x) { return std::fpclassify(x) == FP_SUBNORMAL; }));
-    }
-  }
-  return count;
-}
-
-double largest_difference(const Bellies& a, const Bellies& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.displacement.size(); ++i) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const double difference =
-          std::fabs(static_cast<double>(a.displacement[i][l]) - static_cast<double>(b.displacement[i][l]));
-      if (!(difference <= largest)) largest = difference;
-    }
-  }
-  return largest;
-}
-
-}  // namespace
 
 void stress_denormals(StressRun& run) {
   for (const Method method : {Method::ecd, Method::icd, Method::caa}) {

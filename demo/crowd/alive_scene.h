@@ -2,20 +2,8 @@
 // Very many people who are alive, of whom a camera sees some: who is too far away to be seen soon sleeps. The camera
 // flies, turns, and cuts to another place; people turn, stop and go on, asleep or awake.
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <span>
-#include <vector>
-
-#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
-#include <mobil/relevance.h>
-#include <mobil/simulation.h>
 #include "demo/crowd/crowd_picture.h"
-#include "demo/crowd/crowd_scene.h"
 
 namespace mobil {
 

@@ -5,12 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
-#include <map>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include <mobil/png.h>
 #include <mobil/schedule.h>
@@ -19,8 +15,6 @@
 #include <mobil/systems/cluster/ranks.h>
 #include "demo/bake/baked_file.h"
 #include "demo/crowd/city_shard.h"
-#include "demo/crowd/crowd_picture.h"
-#include "demo/crowd/crowd_report.h"
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"

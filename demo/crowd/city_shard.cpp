@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include <mobil/shard_bytes.h>
-#include "demo/crowd/crowd_report.h"
 #include "demo/measure/machine.h"
 #include "demo/measure/measure.h"
-#include "demo/program/json.h"
 
 namespace mobil {
 namespace {

@@ -1,16 +1,8 @@
 #pragma once
 // The scenes of `mobil crowd` as shards of a crowd on several ranks, and the report of all ranks.
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <mobil/cluster.h>
 #include <mobil/relevance.h>
 #include <mobil/systems/cluster/shard.h>
-#include "demo/crowd/crowd_options.h"
 #include "demo/crowd/crowd_picture.h"
 #include "demo/crowd/crowd_run.h"
 

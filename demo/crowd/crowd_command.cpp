@@ -6,9 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <memory>
-#include <optional>
-#include <string>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/local_transport.h>
@@ -16,12 +13,6 @@
 #include <mobil/png.h>
 #include "demo/anatomy/real_figure.h"
 #include "demo/crowd/city_shard.h"
-#include "demo/crowd/crowd_export.h"
-#include "demo/crowd/crowd_options.h"
-#include "demo/crowd/crowd_picture.h"
-#include "demo/crowd/crowd_report.h"
-#include "demo/crowd/crowd_run.h"
-#include "demo/crowd/crowd_scene.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 #include "demo/walk/walk_command.h"

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include <mobil/mpi_transport.h>
-#include "demo/crowd/crowd_export.h"
+#include "demo/crowd/crowd_picture.h"
 #include "demo/program/nearest_name.h"
 #include "demo/program/units.h"
 

@@ -1,16 +1,10 @@
 #pragma once
 // What `mobil crowd` or `mobil city` was asked for, checked.
 
-#include <cstddef>
-#include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include <mobil/cluster.h>
-#include <mobil/engine/error.h>
 #include "demo/crowd/alive_scene.h"
-#include "demo/crowd/crowd_scene.h"
 #include "demo/program/options.h"
 
 namespace mobil {

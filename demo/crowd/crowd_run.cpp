@@ -1,11 +1,15 @@
 #include "demo/crowd/crowd_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include <mobil/components/fade.h>
 #include <mobil/schedule.h>
 #include "demo/crowd/heap_count.h"
+#include "demo/measure/machine.h"
 #include "demo/measure/measure.h"
 
 namespace mobil {
@@ -61,6 +65,31 @@ Result<void> measured_tick(CrowdScene& scene, CrowdRun& run) {
 std::size_t row_bytes(const World& world, Entity entity) {
   const auto place = world.find(entity);
   return place ? place.table->block_bytes() / lane_count + sizeof(Entity) : 0;
+}
+
+Json options_json(const CrowdOptions& options) {
+  const CrowdRequest& crowd = options.crowd;
+  Json json;
+  json["seconds"] = options.seconds;
+  json["tolerance_mm"] = 1e3 * crowd.tolerance_m;
+  json["near"] = crowd.near;
+  json["near_tolerance_mm"] = 1e3 * crowd.near_tolerance_m;
+  json["budget_ms"] = crowd.budget_s ? Json(1e3 * *crowd.budget_s) : Json(nullptr);
+  json["effects"] = Json::array();
+  for (const auto& [name, on] :
+       {std::pair("muscles", crowd.effects.muscles), std::pair("forces", crowd.effects.forces),
+        std::pair("inertia", crowd.effects.inertia), std::pair("line-motion", crowd.effects.line_motion),
+        std::pair("activation", crowd.effects.activation), std::pair("avoidance", crowd.effects.avoidance)}) {
+    if (on) json["effects"].push_back(name);
+  }
+  json["churn_per_s"] = crowd.churn_per_s;
+  json["burst"] = crowd.burst;
+  json["all_seen"] = crowd.all_seen;
+  return json;
+}
+
+std::size_t threads_of(const CrowdRequest& crowd) {
+  return static_cast<std::size_t>(Threads(crowd.threads).count());
 }
 
 }  // namespace
@@ -164,6 +193,163 @@ Result<CrowdLimit> raise_crowd(CrowdScene& scene, std::size_t ticks, std::size_t
     (*kept ? limit.humans : limit.missed_with) = middle;
   }
   return limit;
+}
+
+std::size_t peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  std::size_t kib = 0;
+  while (status >> word) {
+    if (word == "VmHWM:" && status >> kib) return 1024 * kib;
+  }
+  return 0;
+}
+
+CrowdMemory crowd_memory(const CrowdScene& scene) {
+  CrowdMemory memory;
+  if (!scene.walkers().empty()) memory.per_human = scene.bytes_of_people() / scene.walkers().size();
+  memory.far_human = far_bytes(scene);
+  memory.peak = peak_bytes();
+  return memory;
+}
+
+std::string crowd_live_line(const CrowdRun& run, std::size_t of) {
+  std::string line = fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms  missed {}", run.ticks.size(), of,
+                                 percentile_ms(run.ticks, 0.5), percentile_ms(run.ticks, 0.99), run.missed);
+  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+    line += fmt::format("  {} {}", method, count);
+  return line;
+}
+
+std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene) {
+  const CrowdRequest& crowd = scene.request();
+  std::string text =
+      fmt::format("{} humans on {:.0f} m x {:.0f} m, {} thread{}, seed {}\n", scene.walkers().size(), scene.side_m(),
+                  scene.side_m(), threads_of(crowd), threads_of(crowd) == 1 ? "" : "s", crowd.seed);
+  text += ticks_line(run.ticks, run.tick_s, run.missed) + processor_line(run.ticks, "threads");
+  text += parts_line(run.ticks, run.systems, 5e-4) + "\nmuscles:";
+  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+    text += fmt::format(" {} {}", count, method);
+  text += fmt::format("\n{} came, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.spawned,
+                      run.despawned, run.turned, run.changed_speed, 2 * run.switched);
+  text += fmt::format("memory: {} bytes a human, {} of those far away; {:.0f} MB at most\n", memory.per_human,
+                      memory.far_human, 1e-6 * static_cast<double>(memory.peak));
+  if (heap_is_counted()) {
+    text += fmt::format("heap: {} requests in the {} ticks in which nobody came, went or changed method\n",
+                        run.steady_allocations, run.steady_ticks);
+  }
+  return text;
+}
+
+std::string ticks_line(const std::vector<CrowdTick>& ticks, double tick_s, std::size_t missed, std::string_view of) {
+  return fmt::format("{} ticks of {:.2f} ms: {} missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms{}\n",
+                     ticks.size(), 1e3 * tick_s, missed, percentile_ms(ticks, 0.5), percentile_ms(ticks, 0.99),
+                     percentile_ms(ticks, 1), of);
+}
+
+std::string processor_line(const std::vector<CrowdTick>& ticks, std::string_view of) {
+  return fmt::format("processor time of all {}: p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms a tick\n", of,
+                     percentile_ms(ticks, 0.5, &CrowdTick::cpu_ms), percentile_ms(ticks, 0.99, &CrowdTick::cpu_ms),
+                     percentile_ms(ticks, 1, &CrowdTick::cpu_ms));
+}
+
+std::string parts_line(const std::vector<CrowdTick>& ticks, const std::vector<CrowdSystem>& systems, double least_ms) {
+  std::string line = fmt::format("a tick, mean: host's decisions {:.3f} ms, choosing of methods {:.3f} ms",
+                                 mean_ms(ticks, &CrowdTick::host_ms), mean_ms(ticks, &CrowdTick::relevance_ms));
+  for (const CrowdSystem& system : systems) {
+    if (system.mean_ms >= least_ms) line += fmt::format(", {} {:.3f} ms", system.name, system.mean_ms);
+  }
+  return line;
+}
+
+std::vector<std::pair<std::string, std::size_t>> by_method(const MusclesByRung& muscles, bool living) {
+  std::vector<std::pair<std::string, std::size_t>> all;
+  for (std::size_t r = 0; r < muscles.size(); ++r) {
+    if (muscles[r] > 0) all.emplace_back(r < rung_count ? rungs_of(living)[r].name : "other", muscles[r]);
+  }
+  return all;
+}
+
+void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& json) {
+  json["ticks"] = ticks.size();
+  json["missed_ticks"] = missed;
+  json["tick_ms_p50"] = percentile_ms(ticks, 0.5);
+  json["tick_ms_p99"] = percentile_ms(ticks, 0.99);
+  json["tick_ms_max"] = percentile_ms(ticks, 1);
+  json["tick_cpu_ms_p50"] = percentile_ms(ticks, 0.5, &CrowdTick::cpu_ms);
+  json["tick_cpu_ms_p99"] = percentile_ms(ticks, 0.99, &CrowdTick::cpu_ms);
+  json["tick_cpu_ms_max"] = percentile_ms(ticks, 1, &CrowdTick::cpu_ms);
+  json["host_ms"] = mean_ms(ticks, &CrowdTick::host_ms);
+  json["relevance_ms"] = mean_ms(ticks, &CrowdTick::relevance_ms);
+}
+
+void add_systems(const std::vector<CrowdSystem>& systems, Json& json) {
+  json["system_ms"] = Json::object();
+  for (const CrowdSystem& system : systems) json["system_ms"][system.name] = system.mean_ms;
+}
+
+std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene,
+                       const CrowdOptions& options) {
+  Json json;
+  json["humans"] = scene.walkers().size();
+  json["muscles_by_method"] = Json::object();
+  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+    json["muscles_by_method"][method] = count;
+  json["tick_s"] = run.tick_s;
+  add_ticks(run.ticks, run.missed, json);
+  add_systems(run.systems, json);
+  json["bytes_per_human"] = memory.per_human;
+  json["far_bytes_per_human"] = memory.far_human;
+  json["peak_bytes"] = memory.peak;
+  json["steady_allocations"] = heap_is_counted() ? Json(run.steady_allocations) : Json(nullptr);
+  json["steady_ticks"] = run.steady_ticks;
+  json["spawns"] = run.spawned;
+  json["despawns"] = run.despawned;
+  json["turns"] = run.turned;
+  json["speed_changes"] = run.changed_speed;
+  json["method_changes"] = 2 * run.switched;
+  json["refusals"] = run.refused;
+  json["state_hash"] = Json::array();
+  for (const std::uint64_t hash : run.hashes) json["state_hash"].push_back(fmt::format("{:016x}", hash));
+  json["threads"] = threads_of(options.crowd);
+  json["seed"] = options.crowd.seed;
+  json["options"] = options_json(options);
+  json["machine"] = machine_json(describe_machine());
+  return json.dump(2) + "\n";
+}
+
+std::string tried_line(const CrowdLimit::Tried& tried) {
+  return fmt::format(
+      "{:>7} humans: {} of {} ticks missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms; processor "
+      "time p50 {:.2f} ms",
+      tried.humans, tried.missed, tried.ticks, tried.p50_ms, tried.p99_ms, tried.max_ms, tried.cpu_p50_ms);
+}
+
+std::string limit_text(const CrowdLimit& limit) {
+  if (limit.humans == 0) return fmt::format("{} humans already miss ticks; begin with fewer\n", limit.missed_with);
+  if (limit.missed_with == 0) return fmt::format("{} humans, the most there can be: no tick missed\n", limit.humans);
+  return fmt::format("{} humans: no tick missed; {}: missed\n", limit.humans, limit.missed_with);
+}
+
+std::string limit_json(const CrowdLimit& limit, const CrowdOptions& options) {
+  Json json;
+  json["humans"] = limit.humans;
+  json["missed_with"] = limit.missed_with;
+  json["tried"] = Json::array();
+  for (const CrowdLimit::Tried& t : limit.tried) {
+    json["tried"].push_back({{"humans", t.humans},
+                             {"missed_ticks", t.missed},
+                             {"ticks", t.ticks},
+                             {"tick_ms_p50", t.p50_ms},
+                             {"tick_ms_p99", t.p99_ms},
+                             {"tick_ms_max", t.max_ms},
+                             {"tick_cpu_ms_p50", t.cpu_p50_ms}});
+  }
+  json["threads"] = threads_of(options.crowd);
+  json["seed"] = options.crowd.seed;
+  json["options"] = options_json(options);
+  json["machine"] = machine_json(describe_machine());
+  return json.dump(2) + "\n";
 }
 
 }  // namespace mobil

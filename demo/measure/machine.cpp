@@ -73,7 +73,6 @@ HWY_AFTER_NAMESPACE();
 #include <sstream>
 #include <thread>
 #include <tuple>
-#include <vector>
 
 #include "demo/measure/measure.h"
 #include "demo/program/json.h"

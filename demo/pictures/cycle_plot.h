@@ -1,9 +1,6 @@
 #pragma once
 // Curves over the gait cycle as series of a plot.
 
-#include <string>
-#include <vector>
-
 #include "demo/pictures/cycle_curve.h"
 #include "demo/pictures/svg_plot.h"
 

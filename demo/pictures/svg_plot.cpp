@@ -83,13 +83,7 @@ void include_y(const PlotPanel& panel, Range& range) {
     range.include(band.high);
   }
   for (const auto& line : panel.lines) range.include(line.y);
-  for (const auto& points : panel.points) {
-    range.include(points.y);
-    for (std::size_t i = 0; i < std::min(points.y.size(), points.error.size()); ++i) {
-      range.include(points.y[i] - points.error[i]);
-      range.include(points.y[i] + points.error[i]);
-    }
-  }
+  for (const auto& points : panel.points) range.include(points.y);
 }
 
 /// A panel's place on the page and the way from data to pixels.
@@ -234,10 +228,6 @@ void draw_points(Page& page, const PlotPoints& points, const Frame& frame, std::
   for (std::size_t i = 0; i < std::min(points.x.size(), points.y.size()); ++i) {
     if (!frame.shows(points.x[i], points.y[i])) continue;
     const double x = frame.at_x(points.x[i]), y = frame.at_y(points.y[i]);
-    if (i < points.error.size() && frame.y.shows(points.y[i] - points.error[i])) {
-      page.add(R"(<path d="M{:.1f} {:.1f}V{:.1f}" stroke="{}"/>)", x, frame.at_y(points.y[i] - points.error[i]),
-               frame.at_y(points.y[i] + points.error[i]), points.colour);
-    }
     page.add(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)", x, y, points.colour);
     taken.push_back({x - 4, x + 4, y + 3});
   }

@@ -24,10 +24,9 @@ struct PlotBand {
   double opacity = 0.22;
 };
 
-/// Single points. `error`: half the length of a vertical bar, empty for none; `text`: written beside each, empty for
-/// none.
+/// Single points. `text`: written beside each, empty for none.
 struct PlotPoints {
-  std::vector<double> x, y, error;
+  std::vector<double> x, y;
   std::vector<std::string> text;
   std::string colour, label;
 };

@@ -1,7 +1,5 @@
 #include "demo/program/body_options.h"
 
-#include <fmt/format.h>
-
 #include "demo/program/units.h"
 
 namespace mobil {

@@ -2,9 +2,7 @@
 // The options that every subcommand about one person shares: what body is asked for.
 
 #include <array>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <mobil/components/body.h>
 #include <mobil/engine/error.h>

@@ -11,6 +11,7 @@
 namespace mobil {
 
 int complain(std::string_view command, std::string_view message, int status) {
+  show("");
   fmt::print(stderr, "mobil {}: {}\n", command, one_line(std::string(message)));
   return status;
 }

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string_view>
-#include <vector>
 
 #include <mobil/engine/error.h>
 #include "demo/program/options.h"

@@ -2,7 +2,6 @@
 // The programs `mobil`, `mobil-crowd` and `mobil-lab` as data: what they say of themselves, their subcommands.
 
 #include <string_view>
-#include <vector>
 
 #include <mobil/engine/error.h>
 #include "demo/program/options.h"

@@ -1,8 +1,5 @@
 #include "demo/program/units.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>

@@ -3,13 +3,9 @@
 // them apart, Terrain puts their feet on kerbs, stairs and ramp.
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include <mobil/avoidance.h>
-#include <mobil/engine/error.h>
 #include <mobil/simulation.h>
-#include <mobil/terrain.h>
 #include "demo/town/town_map.h"
 
 namespace mobil {

@@ -4,12 +4,9 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <memory>
-#include <string>
 
 #include <mobil/components/gait_style.h>
 #include <mobil/png.h>

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <mobil/engine/geometry.h>
 #include <mobil/systems/skinning/follow_skin.h>
 #include "demo/scene/scatter.h"
 
@@ -19,6 +20,28 @@ constexpr std::array shirts = {Colour{0.40F, 0.48F, 0.56F}, Colour{0.74F, 0.70F,
 constexpr std::array shorts = {Colour{0.22F, 0.26F, 0.34F}, Colour{0.38F, 0.36F, 0.34F}, Colour{0.55F, 0.50F, 0.42F},
                                Colour{0.27F, 0.36F, 0.47F}, Colour{0.18F, 0.18F, 0.19F}};
 constexpr std::array shoes = {Colour{0.16F, 0.15F, 0.15F}, Colour{0.34F, 0.25F, 0.19F}, Colour{0.82F, 0.81F, 0.79F}};
+
+struct PosedSkin {
+  std::vector<Vec3<float>> position, normal;
+};
+PosedSkin posed(const BodySkin& skin, float lengths, const Pose<float>& pose, const LegVertices& muscles,
+                const FatBeside* fat) {
+  PosedSkin at{std::vector<Vec3<float>>(skin.rest.size()), std::vector<Vec3<float>>(skin.rest.size())};
+  std::vector<FrameMap> maps(skin_mesh(skin.sex, skin.detail).frame.size());
+  constexpr std::size_t stride = sizeof(Vec3<float>);
+  pose_skin(skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, nullptr, fat, maps,
+            {std::as_writable_bytes(std::span(at.position)).data(), std::as_writable_bytes(std::span(at.normal)).data(),
+             stride, stride});
+  return at;
+}
+
+using namespace geometry;
+
+/// sRGB as the renderer takes it, from the recording's linear colour.
+Colour display_colour(const Vec3<float>& linear) {
+  const auto encode = [](float x) { return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F; };
+  return {encode(linear.x), encode(linear.y), encode(linear.z)};
+}
 
 }  // namespace
 
@@ -44,24 +67,6 @@ SkinColours bare_colours() {
   all.fill(skins[0]);
   return all;
 }
-
-namespace {
-
-struct PosedSkin {
-  std::vector<Vec3<float>> position, normal;
-};
-PosedSkin posed(const BodySkin& skin, float lengths, const Pose<float>& pose, const LegVertices& muscles,
-                const FatBeside* fat) {
-  PosedSkin at{std::vector<Vec3<float>>(skin.rest.size()), std::vector<Vec3<float>>(skin.rest.size())};
-  std::vector<FrameMap> maps(skin_mesh(skin.sex, skin.detail).frame.size());
-  constexpr std::size_t stride = sizeof(Vec3<float>);
-  pose_skin(skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, nullptr, fat, maps,
-            {std::as_writable_bytes(std::span(at.position)).data(), std::as_writable_bytes(std::span(at.normal)).data(),
-             stride, stride});
-  return at;
-}
-
-}  // namespace
 
 void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles, const FatBeside* fat) {
   PosedSkin at = posed(*skin, lengths, pose, muscles, fat);
@@ -115,6 +120,41 @@ void DrawnSkin::draw(std::vector<DrawMesh>& out) const {
                    .colour = colours.front(),
                    .wetness = wetness,
                    .opacity = opacity.front()});
+}
+
+void add_bones(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, std::uint64_t first_key,
+               RecordedScene& scene) {
+  const Pose<float>& pose = recording.frames[frame];
+  for (std::size_t i = 0; i < recording.bones.size(); ++i) {
+    const BoneSurface& bone = recording.bones[i];
+    const std::size_t s = index(bone.segment);
+    scene.placement.push_back({.position = pose.position_m[s] + shift, .rotation = pose.rotation[s]});
+    scene.meshes.push_back({.position = bone.mesh.position,
+                            .triangle = bone.mesh.triangle,
+                            .colour = bone_ivory,
+                            .placement = {&scene.placement.back(), 1},
+                            .key = first_key == 0 ? 0 : first_key + i});
+  }
+}
+
+LegVertices muscles_of(const WalkRecording& recording, std::size_t frame) {
+  LegVertices muscles;
+  for (const RecordedMuscle& muscle : recording.muscles) {
+    auto& own = muscles[muscle.name.ends_with("_left") ? Side::left : Side::right];
+    own.insert(own.end(), muscle.position_m[frame].begin(), muscle.position_m[frame].end());
+  }
+  return muscles;
+}
+
+void add_muscles(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, RecordedScene& scene) {
+  for (const RecordedMuscle& muscle : recording.muscles) {
+    scene.placement.push_back({.position = shift});
+    scene.meshes.push_back({.position = muscle.position_m[frame],
+                            .triangle = muscle.triangle,
+                            .colour = display_colour(muscle.colour),
+                            .wetness = 0.5F,
+                            .placement = {&scene.placement.back(), 1}});
+  }
 }
 
 }  // namespace mobil

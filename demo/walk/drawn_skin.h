@@ -1,12 +1,15 @@
 #pragma once
-// A person's skin and clothes, as a renderer draws them.
+// A person's skin and clothes, and a recorded walk, as a renderer draws them.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include <mobil/assets/export/walk_recording.h>
 #include <mobil/assets/skin/body_skin.h>
 #include <mobil/assets/skin/own_skin.h>
 #include <mobil/components/pose.h>
@@ -57,5 +60,21 @@ struct DrawnSkin {
   /// One mesh a part; good until the next `pose`.
   void draw(std::vector<DrawMesh>& out) const;
 };
+
+/// Meshes that look into recordings, and the placements that they look at.
+struct RecordedScene {
+  std::vector<DrawMesh> meshes;
+  std::deque<Placement> placement;
+};
+
+/// Adds the bones of a frame, moved by `shift`. `first_key`: bone i is sent to the device once, as this + i; 0 for each
+/// time.
+void add_bones(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, std::uint64_t first_key,
+               RecordedScene& scene);
+
+/// A frame's muscles.
+LegVertices muscles_of(const WalkRecording& recording, std::size_t frame);
+/// Adds the muscles of a frame, moved by `shift`.
+void add_muscles(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, RecordedScene& scene);
 
 }  // namespace mobil

@@ -1,22 +1,36 @@
 #pragma once
-// What `mobil walk` was asked for, checked.
+// Options of `mobil walk`, checked; and the files of other programs that it exports to.
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include <mobil/components/body.h>
-#include <mobil/components/gait.h>
+#include <mobil/assets/export/walk_recording.h>
 #include <mobil/components/leg_muscles.h>
-#include <mobil/engine/error.h>
 #include "demo/program/body_options.h"
 #include "demo/program/options.h"
-#include "demo/walk/walk_exports.h"
 #include "demo/walk/walk_ground.h"
 #include "demo/walk/walk_script.h"
 
 namespace mobil {
+
+enum class WalkFormat { glb, bvh, mot, sto, usda, wrl, x3d, gl };
+
+struct WalkExport {
+  std::string file;  // in the folder of results
+  WalkFormat format;
+};
+
+/// From names, whose endings say the format. Errors: an ending that is none, a name with a folder, the same name twice.
+Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& names);
+
+/// Whether it tells of every tick, without surfaces; the others are of every picture.
+bool of_every_tick(const WalkExport& wanted);
+
+/// Writes one file into `folder`. `ticks`: poses of every tick and forces, where they are; `pictures`: with surfaces.
+Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& ticks,
+                          const std::filesystem::path& folder);
+
+/// What --help says of them.
+extern const char* const walk_exports_help;
 
 enum class WalkView { stick, wireframe, surface, skin, glass };
 

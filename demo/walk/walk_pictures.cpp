@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 #include <mobil/engine/geometry.h>
 #include <mobil/png.h>
 #include <mobil/renderer.h>
 #include <mobil/video.h>
 #include "demo/walk/drawn_skin.h"
-#include "demo/walk/recorded_scene.h"
 
 namespace mobil {
 namespace {

@@ -2,13 +2,8 @@
 // A recorded walk as pictures: frame_*.png, walk.mp4.
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
-#include <vector>
 
-#include <mobil/assets/export/walk_recording.h>
-#include <mobil/components/body.h>
-#include <mobil/engine/error.h>
 #include <mobil/systems/skinning/place_skin.h>
 #include "demo/walk/figure.h"
 #include "demo/walk/walk_options.h"

@@ -1,9 +1,6 @@
 #pragma once
 // summary.json: what was asked for, what came of it, and what it cost.
 
-#include <string>
-#include <vector>
-
 #include <mobil/gltf_writer.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>

@@ -302,10 +302,9 @@ TEST(Balance, WalksTurnStopLimpAndStepAsideWithinTheirSoles) {
                                     {{.height_m = 1.95F, .mass_kg = 95}, {}},
                                     {{.height_m = 1.75F, .mass_kg = 75}, forward}}) {
     const auto scenes = walk_balance_scenes(body, style);
-    ASSERT_TRUE(scenes) << scenes.error().message;
-    ASSERT_EQ(scenes->size(), std::size(bounds));
-    for (std::size_t i = 0; i < scenes->size(); ++i) {
-      const BalancedScene& walked = (*scenes)[i];
+    ASSERT_EQ(scenes.size(), std::size(bounds));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      const BalancedScene& walked = scenes[i];
       EXPECT_EQ(walked.name, bounds[i].scene);
       EXPECT_LT(walked.moment.pitch_rms, bounds[i].pitch) << walked.name << ", " << body.height_m << " m";
       EXPECT_LT(walked.moment.roll_rms, bounds[i].roll) << walked.name << ", " << body.height_m << " m";
@@ -379,7 +378,7 @@ TEST(Plot, WhatCannotBeShownBreaksTheLineAndNothingElse) {
   PlotPanel panel{"<&>", {"cost \"µs\"", {}, {}, true}, {"error", {}, {}, true}, {}, {}, {}, false};
   panel.lines.push_back({{1, 10, 100, 1000, 1e4}, {1, 0.1, nan, 0.01, 0.02}, "#000", "ours", 1, false});
   panel.bands.push_back({{1, 10, 100}, {0.5, -1, 0.2}, {2, 2, infinite}, "#00f", "band", 0.2});
-  panel.points.push_back({{1, 0, 10}, {1, 1, -1}, {0.5, 0.5, 0.5}, {"a<b", "no", "no"}, "#f00", "points"});
+  panel.points.push_back({{1, 0, 10}, {1, 1, -1}, {"a<b", "no", "no"}, "#f00", "points"});
   const std::string text = svg({.title = "title", .panels = {panel}});
   EXPECT_EQ(text.find("nan"), std::string::npos);
   EXPECT_EQ(text.find("inf"), std::string::npos);

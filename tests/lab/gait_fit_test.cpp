@@ -8,7 +8,6 @@
 
 #include "assets/gait/step_lookup.h"
 #include "demo/lab/gait_fit/step_grid.h"
-#include "demo/lab/gait_fit/step_styles.h"
 #include "demo/lab/gait_fit/upper_body.h"
 
 namespace mobil::gait_fit_test {

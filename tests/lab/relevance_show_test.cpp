@@ -72,14 +72,9 @@ Result<std::vector<Walk>> begin(const Plan& plan, Simulation& simulation, Releva
       for (std::size_t m = 0; m < walker.muscles.size(); ++m) {
         const auto own =
             std::ranges::find(human.muscles, walker.muscles[m], [](const HumanMuscle& h) { return h.plan.muscle; });
-        if (bases.size() <= m) {
-          auto made = reference_basis(own->plan, human.leg_muscles);
-          if (!made) return tl::unexpected(made.error());
-          bases.push_back(std::move(*made));
-        }
-        auto reference = ReferenceMuscle::make(bases[m], *own, human.leg_muscles, simulation.tick_s());
-        if (!reference) return tl::unexpected(reference.error());
-        walk.reference.push_back({*reference, *reference});
+        if (bases.size() <= m) bases.push_back(reference_basis(own->plan, human.leg_muscles));
+        const ReferenceMuscle reference(bases[m], *own, human.leg_muscles, simulation.tick_s());
+        walk.reference.push_back({reference, reference});
       }
       walks.push_back(std::move(walk));
     }
@@ -93,8 +88,7 @@ Result<void> follow(const Simulation& simulation, const Relevance& relevance, fl
     const Muscle muscle = walk.muscles[m];
     for (const Side side : {Side::right, Side::left}) {
       ReferenceMuscle& reference = walk.reference[m][side];
-      if (auto done = reference.follow(simulation, simulation.muscle(walk.copies.front(), muscle, side)); !done)
-        return done;
+      reference.follow(simulation, simulation.muscle(walk.copies.front(), muscle, side));
       if (tallies == nullptr) continue;
       for (std::size_t c = 0; c < walk.copies.size(); ++c) {
         const Entity belly = simulation.muscle(walk.copies[c], muscle, side);

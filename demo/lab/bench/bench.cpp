@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <filesystem>
-#include <string_view>
 #include <utility>
 
 #include <mobil/mpi_transport.h>
@@ -21,18 +19,14 @@ namespace {
 
 constexpr std::size_t small_crowd_size = 512;
 
-Result<BenchCrowd*> made_once(std::shared_ptr<BenchCrowd>& crowd, std::size_t humans) {
-  if (crowd == nullptr) {
-    auto made = BenchCrowd::make(humans);
-    if (!made) return tl::unexpected(made.error());
-    crowd = std::move(*made);
-  }
+BenchCrowd* made_once(std::shared_ptr<BenchCrowd>& crowd, std::size_t humans) {
+  if (crowd == nullptr) crowd = std::make_shared<BenchCrowd>(humans);
   return crowd.get();
 }
 
 struct Bench {
   std::string_view name;
-  Result<void> (*run)(BenchRun&);
+  void (*run)(BenchRun&);
 };
 
 constexpr std::array benches = {Bench{"machine", &bench_machine},
@@ -59,31 +53,18 @@ struct BenchText {
   bool quick = false;
 };
 
-struct BenchRequest {
-  std::vector<Bench> chosen;  // in the order above
-  std::size_t humans = 0;
-  std::filesystem::path json;
-};
-
-Result<std::size_t> parse_humans(const std::string& text) {
+/// The benches to run, in the order above; the run's own choices are set.
+std::vector<Bench> read_request(const BenchText& text, BenchRun& run) {
+  auto chosen = must(choose_named(benches, text.names, "bench"));
   constexpr std::size_t most = 200'000;
-  if (const auto humans = parse_count(text, 1, most)) return *humans;
-  return fail(fmt::format("--humans '{}' must be a whole number from 1 to {}", text, most));
-}
-
-Result<BenchRequest> read_request(const BenchText& text) {
-  BenchRequest request;
-  auto chosen = choose_named(benches, text.names, "bench");
-  if (!chosen) return tl::unexpected(chosen.error());
-  request.chosen = std::move(*chosen);
-  const auto humans = parse_humans(text.humans);
-  if (!humans) return tl::unexpected(humans.error());
-  request.humans = *humans;
-  if (text.json) {
-    if (auto ok = check_result_place("--json", *text.json); !ok) return tl::unexpected(ok.error());
-    request.json = *text.json;
-  }
-  return request;
+  const auto humans = parse_count(text.humans, 1, most);
+  if (!humans) throw Stopped(fmt::format("--humans '{}' must be a whole number from 1 to {}", text.humans, most));
+  run.humans = *humans;
+  run.quick = text.quick;
+  if (text.json) must(check_result_place("--json", *text.json));
+  if (started_as_rank() && (chosen.size() != 1 || chosen.front().run != &bench_cluster))
+    throw Stopped("under mpirun cluster alone is measured; give mpirun -n 2 mobil bench cluster");
+  return chosen;
 }
 
 std::string percent(const std::optional<double>& fraction) {
@@ -131,48 +112,32 @@ std::string to_json(const BenchRun& run) {
   return json.dump(2) + "\n";
 }
 
-/// Under mpirun: what ranks cost, told by the first of them.
-Result<void> check_ranks(const BenchRequest& request) {
-  if (!started_as_rank() || (request.chosen.size() == 1 && request.chosen.front().run == &bench_cluster)) return {};
-  return fail("under mpirun cluster alone is measured; give mpirun -n 2 mobil bench cluster");
-}
-
 int bench(const BenchText& text) {
-  const auto request = read_request(text);
-  const auto fits = request ? check_ranks(*request) : tl::unexpected(request.error());
-  if (!fits) return first_by_environment() ? complain("bench", fits.error().message) : 2;
   BenchRun run;
-  if (!first_by_environment()) {
-    run.humans = request->humans;
-    run.quick = text.quick;
-    return bench_cluster(run) ? 0 : 1;
-  }
-  run.humans = request->humans;
-  run.quick = text.quick;
+  const auto chosen = attempt([&] { return read_request(text, run); });
+  if (!chosen) return first_by_environment() ? complain("bench", chosen.error().message) : 2;
+  if (!first_by_environment()) return attempt([&] { bench_cluster(run); }) ? 0 : 1;
   run.machine = describe_machine();
   show("measuring the machine");
   measure_machine(run.machine);
-  if (request->chosen.front().name != benches.front().name) {  // what the others are held against is always told
-    if (auto done = bench_machine(run); !done) return complain("bench", done.error().message, 1);
-  }
-  for (const Bench& chosen : request->chosen) {
-    show(fmt::format("measuring {}", chosen.name));
-    if (auto done = chosen.run(run); !done)
-      return complain("bench", fmt::format("{}: {}", chosen.name, done.error().message), 1);
+  if (chosen->front().name != benches.front().name) bench_machine(run);  // the others are compared with it
+  for (const Bench& one : *chosen) {
+    show(fmt::format("measuring {}", one.name));
+    if (auto done = attempt([&] { one.run(run); }); !done)
+      return complain("bench", fmt::format("{}: {}", one.name, done.error().message), 1);
   }
   show("");
   print_table(run);
-  if (request->json.empty()) return 0;
-  return exit_status_of("bench", write_result("--json", request->json, to_json(run)));
+  return text.json ? exit_status_of("bench", write_result("--json", *text.json, to_json(run))) : 0;
 }
 
 }  // namespace
 
-Result<BenchCrowd*> BenchRun::crowd() {
+BenchCrowd* BenchRun::crowd() {
   return made_once(crowd_, humans);
 }
 
-Result<BenchCrowd*> BenchRun::small_crowd() {
+BenchCrowd* BenchRun::small_crowd() {
   if (humans <= small_crowd_size) return nullptr;
   return made_once(small_crowd_, small_crowd_size);
 }
@@ -195,7 +160,7 @@ std::string at_peak(const Machine& machine, double seconds) {
                      seconds * machine.fma_peak_gflops * 1e9 / 2);
 }
 
-Result<void> bench_machine(BenchRun& run) {
+void bench_machine(BenchRun& run) {
   const Machine& machine = run.machine;
   run.add_figure("machine.fma_peak_gflops", machine.fma_peak_gflops, "Gflop/s",
                  fmt::format("one core, single precision: {:.1f} operations a cycle of {:.2f} GHz",
@@ -206,7 +171,6 @@ Result<void> bench_machine(BenchRun& run) {
   run.add_figure("machine.bandwidth_all_cores_gbps", machine.all_cores_bandwidth_gbps, "GB/s",
                  fmt::format("{} cores at once", machine.cores))
       .median = machine.all_cores_bandwidth_median_gbps;
-  return {};
 }
 
 Subcommand bench_command() {

@@ -1,7 +1,7 @@
 #pragma once
 // What every bench is made of: what it is asked, and what it hands back.
 //
-// A bench is one function, `Result<void> bench_x(BenchRun&)`, in a file of its own and one line in the list of
+// A bench is one function, `void bench_x(BenchRun&)`, in a file of its own and one line in the list of
 // bench.cpp.
 
 #include <cstddef>
@@ -13,6 +13,7 @@
 #include <mobil/engine/error.h>
 #include "demo/measure/machine.h"
 #include "demo/measure/measure.h"
+#include "demo/program/must.h"
 
 namespace mobil {
 
@@ -38,9 +39,9 @@ struct BenchRun {
   std::vector<std::string> notes;  // what was not measured, and why
 
   /// A crowd in which everybody is someone else; made when first asked for. Errors: those of spawning.
-  Result<BenchCrowd*> crowd();
+  BenchCrowd* crowd();
   /// A part of it small enough for the caches; null when the crowd itself is no larger.
-  Result<BenchCrowd*> small_crowd();
+  BenchCrowd* small_crowd();
 
   /// How often to do what is usually done `usual` times.
   int rounds(int usual) const { return quick ? 1 : usual; }
@@ -57,22 +58,22 @@ struct BenchRun {
 /// "instructions; n multiply-adds at peak take as long".
 std::string at_peak(const Machine& machine, double seconds);
 
-Result<void> bench_machine(BenchRun& run);
-Result<void> bench_gait(BenchRun& run);
-Result<void> bench_kinematics(BenchRun& run);
-Result<void> bench_lines(BenchRun& run);
-Result<void> bench_activation(BenchRun& run);
-Result<void> bench_skinning(BenchRun& run);
-Result<void> bench_skin(BenchRun& run);
-Result<void> bench_avoidance(BenchRun& run);
-Result<void> bench_table1(BenchRun& run);
-Result<void> bench_fem(BenchRun& run);
-Result<void> bench_fem_implicit(BenchRun& run);  // the part of bench_fem by CAA, ICD and static on 81 nodes
-Result<void> bench_reduced(BenchRun& run);
-Result<void> bench_paper_figures(BenchRun& run);
-Result<void> bench_threads(BenchRun& run);
-Result<void> bench_relevance(BenchRun& run);
-Result<void> bench_cluster(BenchRun& run);
-Result<void> bench_crowds(BenchRun& run);
+void bench_machine(BenchRun& run);
+void bench_gait(BenchRun& run);
+void bench_kinematics(BenchRun& run);
+void bench_lines(BenchRun& run);
+void bench_activation(BenchRun& run);
+void bench_skinning(BenchRun& run);
+void bench_skin(BenchRun& run);
+void bench_avoidance(BenchRun& run);
+void bench_table1(BenchRun& run);
+void bench_fem(BenchRun& run);
+void bench_fem_implicit(BenchRun& run);  // the part of bench_fem by CAA, ICD and static on 81 nodes
+void bench_reduced(BenchRun& run);
+void bench_paper_figures(BenchRun& run);
+void bench_threads(BenchRun& run);
+void bench_relevance(BenchRun& run);
+void bench_cluster(BenchRun& run);
+void bench_crowds(BenchRun& run);
 
 }  // namespace mobil

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <utility>
-#include <vector>
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_plan.h>
@@ -42,7 +41,7 @@ void set_all(Lanes<float>& lanes, double x) {
 }
 
 /// The shape at finite strain over what a method computed, of sixteen muscles whose points lie in a cache.
-Result<void> bench_shape(BenchRun& run) {
+void bench_shape(BenchRun& run) {
   const Muscle muscle = *find_muscle("gastrocnemius_medial");
   const HexahedralMesh mesh = finite_mesh(muscle, {2, 2, 8});
   StaticStretch linear;
@@ -58,20 +57,18 @@ Result<void> bench_shape(BenchRun& run) {
   });
   run.add_time("activation.finite_shape.us_per_muscle_tick", adding, 64.0 * lane_count, 1e-6, "us").bound =
       at_peak(run.machine, adding.best_s / (64.0 * lane_count));
-  return {};
 }
 
 /// Twelve motions of bellies that vibrate, and what it takes more that tension stiffens them.
-Result<void> bench_tuned(BenchRun& run) {
+void bench_tuned(BenchRun& run) {
   const Muscle muscle = *find_muscle("gastrocnemius_medial");
-  const auto basis = make_reduced_basis(finite_mesh(muscle, {4, 4, 16}), Material{}, Element::full, {});
-  if (!basis) return tl::unexpected(basis.error());
+  const auto basis = must(make_reduced_basis(finite_mesh(muscle, {4, 4, 16}), Material{}, Element::full, {}));
   constexpr float tick_s = 1.0F / 60;
   constexpr std::size_t blocks = 64;  // in a quarter of a megabyte
   BellyScale<Lanes<float>> scale;
   set_all(scale.across, 1), set_all(scale.along, 1);
-  const std::size_t motion = reduced_motion_width(basis->vectors, basis->inputs);
-  const std::size_t state = reduced_state_width(basis->vectors);
+  const std::size_t motion = reduced_motion_width(basis.vectors, basis.inputs);
+  const std::size_t state = reduced_state_width(basis.vectors);
   EndDrive<Lanes<float>> end;
   set_all(end.from, 0), set_all(end.to, 1e-3);
   Lanes<float> activation;
@@ -81,13 +78,13 @@ Result<void> bench_tuned(BenchRun& run) {
     ReducedBellies bellies;
     bellies.tuned = tuned;
     const std::vector<BellyScale<float>> bodies(lane_count, {1, 1});
-    if (auto solved = solve_bellies(*basis, bodies, bellies); !solved) return solved;
+    must(solve_bellies(basis, bodies, bellies));
     std::vector<Lanes<float>> motions(blocks * motion), states(blocks * state);
     for (std::size_t b = 0; b < blocks; ++b) write_motions(bellies, 8, double{tick_s}, motions[b * motion].lane);
     const Measured moving = measure_short([&] {
       std::swap(end.from, end.to);
       for (std::size_t b = 0; b < blocks; ++b) {
-        const ReducedBlock block{*basis, scale, states[b * state].lane, motions[b * motion].lane};
+        const ReducedBlock block{basis, scale, states[b * state].lane, motions[b * motion].lane};
         if (tuned) {
           deform_tuned(block, {FarEnd::held, end}, activation, tick_s);
         } else {
@@ -101,7 +98,6 @@ Result<void> bench_tuned(BenchRun& run) {
   }
   run.add_figure("activation.tuned_more.us_per_muscle_tick", us[1] - us[0], "us",
                  "of twelve motions; " + at_peak(run.machine, 1e-6 * (us[1] - us[0])));
-  return {};
 }
 
 constexpr std::size_t most_people = 256;  // their muscles' lines and legs take half a megabyte
@@ -121,7 +117,7 @@ constexpr Side side_of(std::size_t lane) {
   return lane % 2 == 0 ? Side::right : Side::left;
 }
 
-Result<std::vector<LineBlock>> make_blocks(BenchCrowd& crowd) {
+std::vector<LineBlock> make_blocks(BenchCrowd& crowd) {
   std::vector<LineBlock> blocks;
   const auto& people = crowd.people();
   for (std::size_t first = 0; first < people.size(); first += lane_count / 2) {
@@ -130,14 +126,14 @@ Result<std::vector<LineBlock>> make_blocks(BenchCrowd& crowd) {
       block.group = g;
       for (std::size_t l = 0; l < lane_count; ++l) {
         block.owner[l] = people[std::min(first + l / 2, people.size() - 1)];
-        const auto plan = make_muscle_plan(crowd.simulation().human(block.owner[l])->body, static_cast<Muscle>(g));
-        if (!plan) return tl::unexpected(plan.error());
-        block.scale.thigh[l] = plan->leg_scale.thigh;
-        block.scale.shank[l] = plan->leg_scale.shank;
-        block.scale.across[l] = plan->leg_scale.across;
-        block.line.rest_length_m[l] = static_cast<float>(plan->rest_length_m);
+        const auto plan =
+            must(make_muscle_plan(crowd.simulation().human(block.owner[l])->body, static_cast<Muscle>(g)));
+        block.scale.thigh[l] = plan.leg_scale.thigh;
+        block.scale.shank[l] = plan.leg_scale.shank;
+        block.scale.across[l] = plan.leg_scale.across;
+        block.line.rest_length_m[l] = static_cast<float>(plan.rest_length_m);
         block.line.stiffness_n_per_m[l] =
-            static_cast<float>(bar_stiffness(Material{}, plan->section_m2, plan->rest_length_m));
+            static_cast<float>(bar_stiffness(Material{}, plan.section_m2, plan.rest_length_m));
       }
     }
   }
@@ -146,7 +142,7 @@ Result<std::vector<LineBlock>> make_blocks(BenchCrowd& crowd) {
 
 }  // namespace
 
-Result<void> bench_activation(BenchRun& run) {
+void bench_activation(BenchRun& run) {
   const Muscle muscle = *find_muscle("gastrocnemius_medial");
   const MemberPlan plan = make_muscle_plan(*make_body({}), muscle)->member[0];
   const RowExcitation row = row_excitation(muscle);
@@ -183,17 +179,14 @@ Result<void> bench_activation(BenchRun& run) {
       at_peak(run.machine, exciting.best_s / muscles);
   run.add_time("activation.kernel.us_per_muscle_tick", pulling, muscles, 1e-6, "us").bound =
       at_peak(run.machine, pulling.best_s / muscles);
-  if (auto done = bench_shape(run); !done) return done;
-  return bench_tuned(run);
+  bench_shape(run);
+  bench_tuned(run);
 }
 
-Result<void> bench_lines(BenchRun& run) {
-  const auto made = BenchCrowd::make(std::min(most_people, run.humans));
-  if (!made) return tl::unexpected(made.error());
-  BenchCrowd& crowd = **made;
+void bench_lines(BenchRun& run) {
+  BenchCrowd crowd(std::min(most_people, run.humans));
   crowd.simulation().advance(0.2);
   auto blocks = make_blocks(crowd);
-  if (!blocks) return tl::unexpected(blocks.error());
   std::array<MuscleLines, muscle_group_count> lines;
   for (std::size_t g = 0; g < muscle_group_count; ++g) lines[g] = make_muscle_lines(static_cast<Muscle>(g));
 
@@ -206,7 +199,7 @@ Result<void> bench_lines(BenchRun& run) {
   };
   const auto time = [&](const auto& work) {
     return measure_short([&] {
-      for (LineBlock& block : *blocks) work(block);
+      for (LineBlock& block : blocks) work(block);
     });
   };
   const Measured both = time([&](LineBlock& block) {
@@ -218,14 +211,13 @@ Result<void> bench_lines(BenchRun& run) {
   const Measured moving = time([&](LineBlock& block) {
     line_motion(lines[block.group], block.scale, block.leg, block.line, block.motion, tick_s);
   });
-  const double muscles = static_cast<double>(blocks->size() * lane_count);
+  const double muscles = static_cast<double>(blocks.size() * lane_count);
   run.add_time("lines.us_per_muscle_tick", both, muscles, 1e-6, "us").bound =
       fmt::format("{:.0f} % is the kernel, the rest gathers the legs", 100 * following.best_s / both.best_s);
   run.add_time("lines.kernel.us_per_muscle_tick", following, muscles, 1e-6, "us").bound =
       at_peak(run.machine, following.best_s / muscles);
   run.add_time("lines.motion.us_per_muscle_tick", moving, muscles, 1e-6, "us").bound = fmt::format(
       "speed and moment arms, as an effect: {:.1f} of the line's own kernel", moving.best_s / following.best_s);
-  return {};
 }
 
 }  // namespace mobil

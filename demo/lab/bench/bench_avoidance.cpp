@@ -7,8 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <string>
-#include <vector>
 
 #include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
@@ -286,7 +284,7 @@ void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a
 
 }  // namespace
 
-Result<void> bench_avoidance(BenchRun& run) {
+void bench_avoidance(BenchRun& run) {
   time_flow(run, "avoidance.one_way_0.5", Flow::one_way, 0.5F);
   time_flow(run, "avoidance.one_way_1", Flow::one_way, 1);
   time_flow(run, "avoidance.one_way_2", Flow::one_way, 2);
@@ -299,7 +297,6 @@ Result<void> bench_avoidance(BenchRun& run) {
   time_flow(run, "avoidance.crossing_0.5", Flow::crossing, 0.5F);
   time_flow(run, "avoidance.crossing_1", Flow::crossing, 1);
   time_flow(run, "avoidance.door", Flow::door, 0.7F);
-  return {};
 }
 
 }  // namespace mobil

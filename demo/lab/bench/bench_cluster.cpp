@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include <mobil/cluster.h>
 #include <mobil/local_transport.h>
@@ -231,17 +228,16 @@ Result<void> measure_rank(Ranks& ranks, std::size_t people, int rounds, ClusterT
 
 }  // namespace
 
-Result<void> bench_cluster(BenchRun& run) {
+void bench_cluster(BenchRun& run) {
   const int rounds = run.rounds(usual_rounds);
   ClusterTimes times;
   if (started_as_rank()) {
-    auto transport = mpi_transport();
-    if (!transport) return tl::unexpected(transport.error());
-    Ranks ranks(**transport);
+    auto transport = must(mpi_transport());
+    Ranks ranks(*transport);
     const std::size_t people = run.humans * static_cast<std::size_t>(ranks.count());
-    if (auto done = ranks.agree(measure_rank(ranks, people, rounds, times)); !done) return done;
+    must(ranks.agree(measure_rank(ranks, people, rounds, times)));
     if (ranks.first()) tell(run, times, people, ranks.count(), true);
-    return {};
+    return;
   }
   constexpr int threads = 2;
   LocalRanks local(threads);
@@ -257,9 +253,9 @@ Result<void> bench_cluster(BenchRun& run) {
     own = measure_rank(ranks, people, rounds, times);
   }
   other.join();
-  if (!own) return own;
+  must(own);
   tell(run, times, people, threads, false);
-  return others;
+  must(others);
 }
 
 }  // namespace mobil

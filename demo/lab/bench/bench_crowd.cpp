@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <mobil/engine/access.h>
+#include "demo/program/must.h"
 #include "demo/program/progress.h"
 
 namespace mobil {
@@ -14,35 +15,26 @@ constexpr double settling_s = 2;       // until nobody steps in time with anybod
 
 }  // namespace
 
-Result<std::shared_ptr<BenchCrowd>> BenchCrowd::make(std::size_t humans) {
-  std::shared_ptr<BenchCrowd> crowd(new BenchCrowd);
-  if (auto done = crowd->spawn(humans); !done) return tl::unexpected(done.error());
-  return crowd;
-}
-
-Result<void> BenchCrowd::spawn(std::size_t humans) {
+BenchCrowd::BenchCrowd(std::size_t humans) {
   ProgressBar progress("spawning", humans);
   std::vector<double> wall;
   double wall_s = 0, cpu_s = 0;
   for (std::size_t i = 0; i < humans; ++i) {
     std::uint8_t draw = 0;
-    const auto person = crowd_walker(seed, i, draw);
-    if (!person) return tl::unexpected(person.error());
+    const auto person = must(crowd_walker(seed, i, draw));
     const double wall_start = wall_now_s(), cpu_start = thread_cpu_now_s();
-    const auto entity = simulation_.spawn(person->body, person->gait);
+    const auto entity = must(simulation_.spawn(person.body, person.gait));
     const double wall_end = wall_now_s(), cpu_end = thread_cpu_now_s();
-    if (!entity) return tl::unexpected(entity.error());
     wall.push_back(wall_end - wall_start);
     wall_s += wall_end - wall_start;
     cpu_s += cpu_end - cpu_start;
-    people_.push_back(*entity);
-    asked_.push_back(*person);
+    people_.push_back(entity);
+    asked_.push_back(person);
     drawn_again_ += draw;
     progress.at(i + 1);
   }
   const auto count = static_cast<double>(humans);
   spawn_ = {wall_s / count, median(wall), cpu_s / count};
-  return {};
 }
 
 const Table* BenchCrowd::table_of(const System& system) const {
@@ -111,14 +103,13 @@ std::size_t BenchCrowd::bytes_per_human(std::string_view name) {
   return 0;
 }
 
-Result<void> BenchCrowd::change_speeds(std::uint32_t round, float forward_swing) {
+void BenchCrowd::change_speeds(std::uint32_t round, float forward_swing) {
   for (std::size_t i = 0; i < people_.size(); ++i) {
     CrowdRandom random(seed, i, 0x1000 + round);
     asked_[i].gait.speed_m_s = crowd_speed(random);
     asked_[i].gait.style.forward_swing = forward_swing;
-    if (auto done = simulation_.set_gait(people_[i], asked_[i].gait); !done) return done;
+    must(simulation_.set_gait(people_[i], asked_[i].gait));
   }
-  return {};
 }
 
 }  // namespace mobil

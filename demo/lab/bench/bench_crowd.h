@@ -23,9 +23,11 @@ class BenchCrowd {
  public:
   static constexpr std::uint64_t seed = 1;
 
-  /// Spawns one after the other, with a bar on a terminal; who cannot walk as drawn is drawn again. Errors: the last
-  /// refusal, when twenty draws in a row were refused.
-  static Result<std::shared_ptr<BenchCrowd>> make(std::size_t humans);
+  /// Spawns one after the other, with a bar on a terminal; who cannot walk as drawn is drawn again. Throws Stopped
+  /// with the last refusal when twenty draws in a row were refused.
+  explicit BenchCrowd(std::size_t humans);
+  BenchCrowd(const BenchCrowd&) = delete;
+  BenchCrowd& operator=(const BenchCrowd&) = delete;
 
   Simulation& simulation() { return simulation_; }
   const std::vector<Entity>& people() const { return people_; }
@@ -43,14 +45,10 @@ class BenchCrowd {
   /// schedule's timings.
   std::vector<double> cpu_of(const std::function<void()>& work);
 
-  /// Asks everybody for another speed, drawn as the first one was. Errors: the first refusal.
-  Result<void> change_speeds(std::uint32_t round, float forward_swing);
+  /// Asks everybody for another speed, drawn as the first one was. Throws Stopped at the first refusal.
+  void change_speeds(std::uint32_t round, float forward_swing);
 
  private:
-  BenchCrowd() = default;
-  BenchCrowd(const BenchCrowd&) = delete;
-  BenchCrowd& operator=(const BenchCrowd&) = delete;
-  Result<void> spawn(std::size_t humans);
   const Table* table_of(const System& system) const;
 
   Simulation simulation_;

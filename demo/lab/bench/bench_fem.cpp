@@ -6,23 +6,16 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <string>
 #include <thread>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
-#include "assets/fem/muscle_template.h"
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_fem_bellies.h"
-#include "demo/measure/measure.h"
 
 namespace mobil {
 namespace {
@@ -33,19 +26,6 @@ struct RivalTime {
   double far_z_m = 0;  // its first muscle's far face after 248 steps, where it says
   std::string variant, check;
   bool holds = false;
-};
-
-/// The best of several rounds by the name of the measurement.
-class RivalRounds {
- public:
-  /// One more round of each of `names`.
-  Result<void> add(const std::vector<std::string>& names, bool quick);
-  /// Null where it was not measured.
-  const RivalTime* find(const std::string& name) const;
-
- private:
-  std::map<std::string, RivalTime> best_;
-  std::map<std::string, std::vector<double>> medians_;
 };
 
 namespace fs = std::filesystem;
@@ -69,18 +49,18 @@ bool rivals_found() {
 
 /// Runs it once for the measurement `name`; `quick`: for a moment, whatever else the machine does. Fails with its own
 /// words.
-Result<RivalTime> measure_rival(const std::string& name, bool quick) {
+RivalTime measure_rival(const std::string& name, bool quick) {
   const std::string command = quoted(program().string()) + (quick ? " --quick " : " ") + quoted(name) + " 2>&1";
   const auto close = [](FILE* f) { return pclose(f); };
   std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return fail("mobil_rivals could not be started");
+  if (pipe == nullptr) throw Stopped("mobil_rivals could not be started");
   std::string said;
   std::array<char, 4096> part{};
   for (std::size_t got = 0; (got = std::fread(part.data(), 1, part.size(), pipe)) > 0;) said.append(part.data(), got);
   const int status = close(pipe);
   const auto json = nlohmann::json::parse(said, nullptr, false);
   if (status != 0 || !json.is_object()) {
-    return fail(fmt::format("mobil_rivals {}: {}", name, said.substr(0, said.find('\n'))));
+    throw Stopped(fmt::format("mobil_rivals {}: {}", name, said.substr(0, said.find('\n'))));
   }
   RivalTime time;
   try {
@@ -92,29 +72,36 @@ Result<RivalTime> measure_rival(const std::string& name, bool quick) {
     time.check = fmt::format("{}: {:.1e}", json.at("check").get<std::string>(), json.at("check_error").get<double>());
     time.holds = json.at("holds").get<bool>();
   } catch (const nlohmann::json::exception& error) {
-    return fail(fmt::format("mobil_rivals {}: {}; build it again with mobil", name, error.what()));
+    throw Stopped(fmt::format("mobil_rivals {}: {}; build it again with mobil", name, error.what()));
   }
   return time;
 }
 
-Result<void> RivalRounds::add(const std::vector<std::string>& names, bool quick) {
-  for (const std::string& name : names) {
-    const auto time = measure_rival(name, quick);
-    if (!time) return tl::unexpected(time.error());
-    const std::string stem = name.substr(0, name.find('@'));
-    auto& medians = medians_[stem];
-    medians.push_back(time->median_us);
-    auto [known, is_new] = best_.try_emplace(stem, *time);
-    if (!is_new && time->us_per_step < known->second.us_per_step) known->second = *time;
-    known->second.median_us = median(medians);
+/// The best of several rounds by the name of the measurement.
+class RivalRounds {
+ public:
+  /// One more round of each of `names`.
+  void add(const std::vector<std::string>& names, bool quick) {
+    for (const std::string& name : names) {
+      const RivalTime time = measure_rival(name, quick);
+      const std::string stem = name.substr(0, name.find('@'));
+      auto& medians = medians_[stem];
+      medians.push_back(time.median_us);
+      auto [known, is_new] = best_.try_emplace(stem, time);
+      if (!is_new && time.us_per_step < known->second.us_per_step) known->second = time;
+      known->second.median_us = median(medians);
+    }
   }
-  return {};
-}
+  /// Null where it was not measured.
+  const RivalTime* find(const std::string& name) const {
+    const auto known = best_.find(name);
+    return known == best_.end() ? nullptr : &known->second;
+  }
 
-const RivalTime* RivalRounds::find(const std::string& name) const {
-  const auto known = best_.find(name);
-  return known == best_.end() ? nullptr : &known->second;
-}
+ private:
+  std::map<std::string, RivalTime> best_;
+  std::map<std::string, std::vector<double>> medians_;
+};
 
 constexpr int fem_rounds = 5;
 
@@ -124,7 +111,7 @@ struct Comparison {
 };
 
 /// Ours and theirs in turn, so that a busy moment hits all alike.
-Result<Comparison> compare(const BenchRun& run, const MuscleTemplate& muscle, bool with_rivals) {
+Comparison compare(const BenchRun& run, const MuscleTemplate& muscle, bool with_rivals) {
   BenchBellies shared(muscle, Stiffness::shared, crowd_blocks);
   BenchBellies individual(muscle, Stiffness::individual, crowd_blocks);
   Comparison found;
@@ -133,15 +120,12 @@ Result<Comparison> compare(const BenchRun& run, const MuscleTemplate& muscle, bo
     found.shared.add(measure(run.rounds(20), [&] { shared.tick(steps_a_tick, paper_tick_s); }));
     found.individual.add(measure(run.rounds(20), [&] { individual.tick(steps_a_tick, paper_tick_s); }));
     if (!with_rivals) continue;
-    if (auto done = found.rivals.add({"eigen", "eigen_individual", "eigen_batched"}, run.quick); !done) {
-      return tl::unexpected(done.error());
-    }
+    found.rivals.add({"eigen", "eigen_individual", "eigen_batched"}, run.quick);
     if (round > 0 && !bullet_dt_s) continue;  // it was not there
-    if (found.rivals.add({bullet_dt_s ? fmt::format("bullet@{:.9g}", *bullet_dt_s) : "bullet"}, run.quick)) {
-      bullet_dt_s = found.rivals.find("bullet")->dt_s;
-    }
+    const std::string bullet = bullet_dt_s ? fmt::format("bullet@{:.9g}", *bullet_dt_s) : "bullet";
+    if (attempt([&] { found.rivals.add({bullet}, run.quick); })) bullet_dt_s = found.rivals.find("bullet")->dt_s;
   }
-  if (!shared.finite() || !individual.finite()) return fail("a belly's displacement is not a number");
+  if (!shared.finite() || !individual.finite()) throw Stopped("a belly's displacement is not a number");
   return found;
 }
 
@@ -218,11 +202,11 @@ void place_threads(const Jobs& jobs, const cpu_set_t& allowed, bool apart) {
 }
 
 /// Blocks of a crowd that fits the caches, one after the other and shared out between two threads.
-Result<void> bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
+void bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
   const Threads pool(2);
   if (pool.count() < 2) {
     run.notes.emplace_back("fem.threads2_speedup: this machine has one core");
-    return {};
+    return;
   }
   BenchBellies bellies(muscle, Stiffness::shared, crowd_blocks);
   struct Work {
@@ -268,7 +252,6 @@ Result<void> bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
     run.notes.emplace_back(
         "fem.threads2_speedup: the second core had other work throughout; measure again when it is free");
   }
-  return {};
 }
 
 /// Adds the time of one muscle's step from that of all muscles' steps of a tick, and its share of the peak.
@@ -282,26 +265,24 @@ void add_step_time(BenchRun& run, const std::string& stem, const Measured& time,
 
 }  // namespace
 
-Result<void> bench_fem(BenchRun& run) {
+void bench_fem(BenchRun& run) {
   const FlushDenormals flushed;
   const auto muscle = paper_block({2, 2, 8});
-  if (!muscle) return tl::unexpected(muscle.error());
-  const Cells& cells = muscle->mesh.cells;
+  const Cells& cells = muscle.mesh.cells;
   const bool with_rivals = rivals_found();
   if (!with_rivals) {
     run.notes.emplace_back(
         "fem.ecd81.ratio_to_*: mobil_rivals is not beside this program; build the CMake target mobil_rivals");
   }
-  const auto found = compare(run, *muscle, with_rivals);
-  if (!found) return tl::unexpected(found.error());
-  const Measured shared = found->shared.all(), individual = found->individual.all();
+  const auto found = compare(run, muscle, with_rivals);
+  const Measured shared = found.shared.all(), individual = found.individual.all();
   add_step_time(run, "fem.ecd81.shared", shared, cells);
   add_step_time(run, "fem.ecd81.individual", individual, cells);
   run.add_figure("fem.ecd81.individual_over_shared", individual.best_s / shared.best_s, "1",
                  "everybody's own length and section against one stiffness for all");
-  if (with_rivals) add_rivals(run, *muscle, *found);
-  if (auto done = bench_two_threads(run, *muscle); !done) return done;
-  return bench_fem_implicit(run);
+  if (with_rivals) add_rivals(run, muscle, found);
+  bench_two_threads(run, muscle);
+  bench_fem_implicit(run);
 }
 
 }  // namespace mobil

@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "assets/fem/belly_solver.h"
+#include "demo/program/must.h"
 
 namespace mobil {
 
-Result<MuscleTemplate> paper_block(const Cells& cells) {
+MuscleTemplate paper_block(const Cells& cells) {
   constexpr double side_m = 0.03, length_m = 0.12;
-  auto mesh = make_block(cells, side_m / cells[0]);
-  if (!mesh) return tl::unexpected(mesh.error());
-  const double stretch = length_m / mesh->node.back().z;
-  for (Vec3<double>& node : mesh->node) node.z *= stretch;
-  return make_muscle_template(std::move(*mesh), {}, {.far_end = FarEnd::free});
+  auto mesh = must(make_block(cells, side_m / cells[0]));
+  const double stretch = length_m / mesh.node.back().z;
+  for (Vec3<double>& node : mesh.node) node.z *= stretch;
+  return must(make_muscle_template(std::move(mesh), {}, {.far_end = FarEnd::free}));
 }
 
 double paper_limit_s(const MuscleTemplate& muscle, Mass mass) {

@@ -21,7 +21,7 @@ inline constexpr float paper_tick_s = 0.016F;
 inline constexpr std::size_t crowd_blocks = 64;  // 1024 muscles
 
 /// The paper's body (30 × 30 × 120 mm, its material, a free far face) in so many elements; 2×2×8 are 15 mm cubes.
-Result<MuscleTemplate> paper_block(const Cells& cells);
+MuscleTemplate paper_block(const Cells& cells);
 double paper_limit_s(const MuscleTemplate& muscle, Mass mass = Mass::lumped);
 
 /// Multiply-adds of one step's K·u without clamped rows and columns: 9702 on 81 nodes.

@@ -6,17 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
-#include <vector>
 
 #include <mobil/components/gait.h>
 #include <mobil/pose_writer.h>
-#include <mobil/schedule.h>
-#include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd.h"
-#include "demo/measure/measure.h"
 
 namespace mobil {
 namespace {
@@ -32,39 +27,36 @@ std::optional<std::uint64_t> rows_of(const T* timing) {
 
 /// Adds what one system takes for a human and tick in the crowd, and in the small crowd beside it. `bytes`: what it
 /// must move for one human.
-Result<void> add_system(BenchRun& run, std::string_view system, const std::string& name, double bytes) {
+void add_system(BenchRun& run, std::string_view system, const std::string& name, double bytes) {
   const auto crowd = run.crowd();
-  if (!crowd) return tl::unexpected(crowd.error());
   const auto small = run.small_crowd();
-  if (!small) return tl::unexpected(small.error());
-  const auto& times = (*crowd)->steady_ticks();
+  const auto& times = crowd->steady_ticks();
   const auto time = times.find(system);
   if (time == times.end()) {
     run.notes.push_back(fmt::format("{}: not measured, as there is no system '{}' that has people", name, system));
-    return {};
+    return;
   }
-  const double per_human_s = time->second.best_s / static_cast<double>((*crowd)->size());
+  const double per_human_s = time->second.best_s / static_cast<double>(crowd->size());
   BenchResult& large =
-      run.add_time(name + ".us_per_human_tick", time->second, static_cast<double>((*crowd)->size()), 1e-6, "us");
+      run.add_time(name + ".us_per_human_tick", time->second, static_cast<double>(crowd->size()), 1e-6, "us");
   large.of_bandwidth = bytes / per_human_s * 1e-9 / run.machine.bandwidth_gbps;
   large.bound = fmt::format("{:.0f} bytes a human", bytes);
-  if (*small == nullptr) return {};
+  if (small == nullptr) return;
 
-  const auto& small_times = (*small)->steady_ticks();
+  const auto& small_times = small->steady_ticks();
   const auto small_time = small_times.find(system);
-  if (small_time == small_times.end()) return {};
+  if (small_time == small_times.end()) return;
   const Measured& in_cache = small_time->second;
-  const auto people = static_cast<double>((*small)->size());
+  const auto people = static_cast<double>(small->size());
   const double ratio = per_human_s / (in_cache.best_s / people);
   large.bound += ratio > 1.25 ? fmt::format("; memory: {:.1f} times the small crowd's", ratio)
                               : std::string("; instructions: no dearer than the small crowd's");
   run.add_time(name + ".small_crowd.us_per_human_tick", in_cache, people, 1e-6, "us").bound =
       at_peak(run.machine, in_cache.best_s / people);
-  return {};
 }
 
 /// Everybody changes speed, and the steps that follow are solved anew.
-Result<void> add_resolve(BenchRun& run, BenchCrowd& crowd, std::string_view name, float forward_swing) {
+void add_resolve(BenchRun& run, BenchCrowd& crowd, std::string_view name, float forward_swing) {
   static constexpr auto solver = "replan";
   constexpr int rounds = 5;
   constexpr double longest_change_s = 1.5;
@@ -73,7 +65,7 @@ Result<void> add_resolve(BenchRun& run, BenchCrowd& crowd, std::string_view name
   std::vector<double> wall, cpu;
   std::uint64_t solved = 0;
   for (int round = 0; round < rounds && rows_of(schedule.timing(solver)); ++round) {
-    if (auto done = crowd.change_speeds(static_cast<std::uint32_t>(round), forward_swing); !done) return done;
+    crowd.change_speeds(static_cast<std::uint32_t>(round), forward_swing);
     const auto cpu_s = crowd.cpu_of([&] {
       for (int i = 0; i < ticks; ++i) crowd.simulation().tick();
     });
@@ -87,17 +79,16 @@ Result<void> add_resolve(BenchRun& run, BenchCrowd& crowd, std::string_view name
   }
   if (solved == 0) {
     run.notes.push_back(fmt::format("{}: not measured, as no step was solved after a change of speed", name));
-    return {};
+    return;
   }
   BenchResult& result =
       run.add_time(std::string(name), {std::ranges::min(wall), median(wall), std::ranges::min(cpu)}, 1, 1e-6, "us");
   result.bound = fmt::format("{}; {:.0f} steps a tick", at_peak(run.machine, result.value * 1e-6),
                              static_cast<double>(solved) / (rounds * ticks));
-  return {};
 }
 
 /// Everybody's whole pose into a host's memory: as the tables hold it, and halfway to the next tick.
-Result<void> add_poses(BenchRun& run, BenchCrowd& crowd, const std::string& name) {
+void add_poses(BenchRun& run, BenchCrowd& crowd, const std::string& name) {
   PoseWriter writer;
   constexpr std::size_t floats_a_segment = 7;
   std::vector<float> out(crowd.size() * segment_count * floats_a_segment);
@@ -107,12 +98,11 @@ Result<void> add_poses(BenchRun& run, BenchCrowd& crowd, const std::string& name
     Result<void> done;
     const Measured time = measure_short(
         [&] { done = writer.write(world, crowd.people(), ahead_s, {}, {std::as_writable_bytes(std::span(out))}); });
-    if (!done) return done;
+    must(done);
     run.add_time(name + (between ? ".between_ticks.us_per_human" : ".us_per_human"), time,
                  static_cast<double>(crowd.size()), 1e-6, "us")
         .bound = "48 places and quaternions in a host's memory";
   }
-  return {};
 }
 
 /// As printed, on a Pentium 4 at 2.8 GHz, 25 frames a second.
@@ -130,11 +120,10 @@ constexpr std::array paper_rows = {PaperRow{3, 1.27, 30, 0.078}, PaperRow{4, 1.8
 constexpr double frame_s = 0.04;
 
 /// Spawns the person of the table and walks until so many steps are done; returns the frames that took.
-Result<int> walk_steps(int steps) {
+int walk_steps(int steps) {
   Simulation simulation({.tick_s = frame_s});
-  const auto human = simulation.spawn({.height_m = 1.80F, .mass_kg = 80.0F}, {.speed_m_s = 5.0F / 3.6F});
-  if (!human) return tl::unexpected(human.error());
-  const double duration = simulation.get<StepPlan>(*human)->duration_s;
+  const auto human = must(simulation.spawn({.height_m = 1.80F, .mass_kg = 80.0F}, {.speed_m_s = 5.0F / 3.6F}));
+  const double duration = simulation.get<StepPlan>(human)->duration_s;
   const int frames = static_cast<int>(std::floor(steps * duration / frame_s));
   for (int i = 0; i < frames; ++i) simulation.tick();
   return frames;
@@ -142,45 +131,41 @@ Result<int> walk_steps(int steps) {
 
 }  // namespace
 
-Result<void> bench_gait(BenchRun& run) {
+void bench_gait(BenchRun& run) {
   // of the step's plan the clock reads its duration and its length
   const double bytes = 2.0 * sizeof(GaitState<float>) + 2 * sizeof(float);
-  if (auto done = add_system(run, "gait", "gait", bytes); !done) return done;
-  BenchCrowd& crowd = **run.crowd();
+  add_system(run, "gait", "gait", bytes);
+  BenchCrowd& crowd = *run.crowd();
   BenchResult& spawn = run.add_time("gait.us_per_spawn", crowd.spawn(), 1, 1e-6, "us");
   spawn.bound = "the mean of all: body, gait, first step, first pose";
   if (crowd.drawn_again() > 0) {
     run.notes.push_back(fmt::format("gait.us_per_spawn: {} of {} could not walk as drawn and were drawn again",
                                     crowd.drawn_again(), crowd.size()));
   }
-  if (auto done = add_resolve(run, crowd, "gait.us_per_resolve_forward_swing", 1); !done) return done;
-  return add_resolve(run, crowd, "gait.us_per_resolve", 0);
+  add_resolve(run, crowd, "gait.us_per_resolve_forward_swing", 1);
+  add_resolve(run, crowd, "gait.us_per_resolve", 0);
 }
 
-Result<void> bench_kinematics(BenchRun& run) {
+void bench_kinematics(BenchRun& run) {
   const auto crowd = run.crowd();
-  if (!crowd) return tl::unexpected(crowd.error());
-  const auto bytes = [&](std::string_view system) { return static_cast<double>((*crowd)->bytes_per_human(system)); };
-  if (auto done = add_system(run, "kinematics", "kinematics", bytes("kinematics")); !done) return done;
-  if (auto done = add_system(run, "centre of mass", "centre_of_mass", bytes("centre of mass")); !done) return done;
-  if (auto done = add_poses(run, **crowd, "poses"); !done) return done;
+  const auto bytes = [&](std::string_view system) { return static_cast<double>(crowd->bytes_per_human(system)); };
+  add_system(run, "kinematics", "kinematics", bytes("kinematics"));
+  add_system(run, "centre of mass", "centre_of_mass", bytes("centre of mass"));
+  add_poses(run, *crowd, "poses");
   const auto small = run.small_crowd();
-  if (!small) return tl::unexpected(small.error());
-  return *small == nullptr ? Result<void>{} : add_poses(run, **small, "poses.small_crowd");
+  if (small != nullptr) add_poses(run, *small, "poses.small_crowd");
 }
 
-Result<void> bench_table1(BenchRun& run) {
+void bench_table1(BenchRun& run) {
   for (const PaperRow& row : paper_rows) {
     auto frames = walk_steps(row.steps);
-    if (!frames) return tl::unexpected(frames.error());
     const Measured time = measure(20, [&] { frames = walk_steps(row.steps); });
     BenchResult& result = run.add_time(fmt::format("table1.{}_steps.us", row.steps), time, 1, 1e-6, "us");
     result.bound = fmt::format(
         "{:.2f} s simulated, {} frames; the paper: {:.2f} s, {} frames, {:.3f} s of a Pentium 4 "
         "at 2.8 GHz, {:.0f} times as long",
-        *frames * frame_s, *frames, row.simulated_s, row.frames, row.cpu_s, row.cpu_s / time.best_s);
+        frames * frame_s, frames, row.simulated_s, row.frames, row.cpu_s, row.cpu_s / time.best_s);
   }
-  return {};
 }
 
 }  // namespace mobil

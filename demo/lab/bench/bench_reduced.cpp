@@ -9,9 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <memory>
 #include <new>
-#include <string>
 
 #include <mobil/engine/jobs.h>
 #include "assets/reduction/reduced_basis.h"
@@ -168,7 +166,7 @@ std::string stem_of(const Shape& shape, bool cached) {
                      shape.what == What::tick ? "" : ".control_points", cached ? ".cached" : "");
 }
 
-Result<BenchResult> measure_crowd(BenchRun& run, const Shape& shape, std::size_t blocks, bool cached) {
+BenchResult measure_crowd(BenchRun& run, const Shape& shape, std::size_t blocks, bool cached) {
   ReducedCrowd crowd(shape, blocks);
   // A part at a time, so that some fall within a turn of ours on a busy machine; by its next turn the others have
   // driven it out of the caches.
@@ -179,7 +177,7 @@ Result<BenchResult> measure_crowd(BenchRun& run, const Shape& shape, std::size_t
   const Measured time = measure(run.rounds(cached ? bench_repeats : 10 * static_cast<int>(parts)), [&] {
     for (std::size_t n = 0; n < times; ++n) tick_some();
   });
-  if (!crowd.finite()) return fail("a reduced belly's state is not a number");
+  if (!crowd.finite()) throw Stopped("a reduced belly's state is not a number");
   BenchResult& result =
       run.add_time(stem_of(shape, cached) + ".us_per_tick", time,
                    crowd.muscles() / static_cast<double>(parts) * static_cast<double>(times), 1e-6, "us");
@@ -193,7 +191,7 @@ Result<BenchResult> measure_crowd(BenchRun& run, const Shape& shape, std::size_t
 
 }  // namespace
 
-Result<void> bench_reduced(BenchRun& run) {
+void bench_reduced(BenchRun& run) {
   const FlushDenormals flushed;
   const std::size_t blocks = std::max<std::size_t>(1, run.humans * muscles_a_human / lane_count);
   std::map<std::string, double> us;
@@ -201,8 +199,7 @@ Result<void> bench_reduced(BenchRun& run) {
                              Shape{16, true, What::placed}}) {
     for (const bool cached : {false, true}) {
       const auto result = measure_crowd(run, shape, cached ? std::min(blocks, cached_blocks) : blocks, cached);
-      if (!result) return tl::unexpected(result.error());
-      us[stem_of(shape, cached)] = result->value;
+      us[stem_of(shape, cached)] = result.value;
     }
   }
   run.add_figure("reduced.us_per_tick", us["reduced.n12"], "us", "12 vectors, a line's drive, the whole crowd");
@@ -210,7 +207,6 @@ Result<void> bench_reduced(BenchRun& run) {
                  "the same and its 81 nodes");
   run.add_figure("reduced.us_per_tick_with_frame_loads", us["reduced.n16.frame_loads"], "us",
                  "16 vectors, a line's drive and the frame's loads, the whole crowd");
-  return {};
 }
 
 }  // namespace mobil

@@ -1,14 +1,10 @@
 // What a change of method takes: the figures that Relevance plans its updates by (switch_us, accuracy_table.h).
 
 #include <algorithm>
-#include <cstddef>
-#include <string>
-#include <vector>
 
 #include <mobil/relevance.h>
 #include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
-#include "demo/measure/measure.h"
 
 namespace mobil {
 
@@ -18,24 +14,20 @@ constexpr std::size_t people = 64;
 
 /// Both legs' hamstrings of people, pulling or not, who begin with the ladder's dearest rung; `rounds` times there and
 /// back.
-Result<void> bench_ladder(BenchRun& run, bool living) {
+void bench_ladder(BenchRun& run, bool living) {
   Simulation simulation;
   std::vector<Entity> walkers;
   LegMuscles choice;
   choice.muscles = MuscleSet(1);
   if (living) choice.activation = ExcitationSource::phase;
   for (std::size_t i = 0; i < people; ++i) {
-    const auto walker = simulation.spawn({}, {.speed_m_s = 1 + 0.01F * static_cast<float>(i)});
-    if (!walker) return tl::unexpected(walker.error());
-    if (auto added = simulation.add_leg_muscles(*walker, choice); !added) return added;
-    walkers.push_back(*walker);
+    const auto walker = must(simulation.spawn({}, {.speed_m_s = 1 + 0.01F * static_cast<float>(i)}));
+    must(simulation.add_leg_muscles(walker, choice));
+    walkers.push_back(walker);
   }
-  const auto all_to = [&](std::size_t rung) -> Result<void> {
-    for (const Entity walker : walkers) {
-      if (auto done = simulation.set_method(walker, Muscle::hamstrings, rung_method(rung, true, living)); !done)
-        return done;
-    }
-    return {};
+  const auto all_to = [&](std::size_t rung) {
+    for (const Entity walker : walkers)
+      must(simulation.set_method(walker, Muscle::hamstrings, rung_method(rung, true, living)));
   };
   const Ladder& ladder = rungs_of(living);
   const std::size_t full = rung_count - 1;
@@ -43,13 +35,13 @@ Result<void> bench_ladder(BenchRun& run, bool living) {
     const bool fine = ladder[rung].cells[2] > ReducedChoice{}.cells[2];
     if (run.quick && fine) continue;  // its basis takes a second to make
     const std::size_t from = rung == full ? 0 : full;
-    if (auto done = all_to(rung); !done) return done;  // what it shares is made
+    all_to(rung);  // what it shares is made
     std::vector<double> wall_s;
     for (int round = 0; round < run.rounds(5); ++round) {
-      if (auto done = all_to(from); !done) return done;
+      all_to(from);
       simulation.tick();
       const double start_s = wall_now_s();
-      if (auto done = all_to(rung); !done) return done;
+      all_to(rung);
       wall_s.push_back(wall_now_s() - start_s);
     }
     const Measured time{*std::min_element(wall_s.begin(), wall_s.end()), median(wall_s)};
@@ -57,14 +49,13 @@ Result<void> bench_ladder(BenchRun& run, bool living) {
     run.add_time("relevance.us_per_switch." + name, time, people, 1e-6, "us").bound =
         "both legs; to " + std::string(ladder[rung].name) + " from " + std::string(ladder[from].name);
   }
-  return {};
 }
 
 }  // namespace
 
-Result<void> bench_relevance(BenchRun& run) {
-  if (auto done = bench_ladder(run, false); !done) return done;
-  return bench_ladder(run, true);
+void bench_relevance(BenchRun& run) {
+  bench_ladder(run, false);
+  bench_ladder(run, true);
 }
 
 }  // namespace mobil

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <deque>
 #include <span>
-#include <string>
-#include <vector>
 
 #include <mobil/anthropometry.h>
 #include <mobil/simulation.h>
@@ -61,33 +59,28 @@ double bytes_of(const BodySurfaces& surfaces) {
 }
 
 /// People of one body, with one set of surfaces for all of them or everybody's own in memory.
-Result<void> gather(Scene& scene, std::size_t count, bool shared, const SurfaceChoice& choice) {
+void gather(Scene& scene, std::size_t count, bool shared, const SurfaceChoice& choice) {
   for (std::size_t i = 0; i < count; ++i) {
-    const auto entity = scene.simulation.spawn({});
-    if (!entity) return tl::unexpected(entity.error());
-    if (auto done = scene.simulation.add_leg_muscles(*entity); !done) return done;
-    const Human human = *scene.simulation.human(*entity);
+    const auto entity = must(scene.simulation.spawn({}));
+    must(scene.simulation.add_leg_muscles(entity));
+    const Human human = *scene.simulation.human(entity);
     if (i == 0) {
-      auto bound = bind_surfaces(human.body, choice);
-      if (!bound) return tl::unexpected(bound.error());
-      scene.surfaces.push_back(std::move(*bound));
+      scene.surfaces.push_back(must(bind_surfaces(human.body, choice)));
     } else if (!shared) {
       scene.surfaces.push_back(BodySurfaces(scene.surfaces.front()));
     }
-    Person person{*entity, {}, &scene.surfaces.back()};
+    Person person{entity, {}, &scene.surfaces.back()};
     for (const HumanMuscle& own : human.muscles) person.muscles.push_back({own.plan.muscle, own.entity});
     scene.vertices += person.surfaces->vertices;
     scene.people.push_back(std::move(person));
   }
   for (const BodySurfaces& surfaces : scene.surfaces) scene.bound_bytes += bytes_of(surfaces) / scene.vertices;
   scene.simulation.advance(0.2);
-  return {};
 }
 
 /// Times one way to write everybody, `stride` bytes a vertex (12: positions alone; from 24 on normals, from 40 on
 /// tangents).
-Result<void> time_writing(BenchRun& run, const std::string& name, const Scene& scene, std::size_t stride,
-                          double flops) {
+void time_writing(BenchRun& run, const std::string& name, const Scene& scene, std::size_t stride, double flops) {
   std::vector<std::byte> buffer(static_cast<std::size_t>(scene.vertices) * stride);
   std::span<std::byte> free = buffer;
   std::vector<SurfaceRequest> requests;
@@ -100,7 +93,7 @@ Result<void> time_writing(BenchRun& run, const std::string& name, const Scene& s
     requests.push_back(request);
   }
   SurfaceWriter writer;
-  if (auto done = writer.write(scene.simulation.world(), requests); !done) return done;
+  must(writer.write(scene.simulation.world(), requests));
   const Measured time = measure_short([&] { (void)writer.write(scene.simulation.world(), requests); });
   BenchResult& result = run.add_time(name, time, scene.vertices, 1e-9, "ns");
   const double vertex_s = result.value * 1e-9;
@@ -110,29 +103,26 @@ Result<void> time_writing(BenchRun& run, const std::string& name, const Scene& s
   result.of_bandwidth = bytes / vertex_s * 1e-9 / run.machine.bandwidth_gbps;
   result.bound = fmt::format("{:.0f} vertices of {} people, {} bytes apart, {:.0f} operations and {:.0f} bytes each",
                              scene.vertices, scene.people.size(), stride, flops, bytes);
-  return {};
 }
 
 // One frame's map of position and normal (18 + 15), the normal's length (8) and by that (3).
 constexpr double vertex_flops = 18 + 15 + 8 + 3;
 
-Result<void> time_skin(BenchRun& run, const std::string& name, std::size_t count, SkinDetail detail) {
+void time_skin(BenchRun& run, const std::string& name, std::size_t count, SkinDetail detail) {
   Simulation simulation;
   BodySkins skins;
-  const auto shape = skins.of({}, detail);
-  if (!shape) return tl::unexpected(shape.error());
-  const std::size_t vertices = shape->skin->rest.size(), stride = 24;
+  const auto shape = must(skins.of({}, detail));
+  const std::size_t vertices = shape.skin->rest.size(), stride = 24;
   std::vector<std::byte> buffer(count * vertices * stride);
   std::vector<SkinRequest> requests;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto entity = simulation.spawn({});
-    if (!entity) return tl::unexpected(entity.error());
+    const auto entity = must(simulation.spawn({}));
     const std::span own = std::span(buffer).subspan(i * vertices * stride, vertices * stride);
-    requests.push_back({*entity, *shape, {own, stride}, {own.subspan(12), stride}});
+    requests.push_back({entity, shape, {own, stride}, {own.subspan(12), stride}});
   }
   simulation.advance(0.2);
   SkinWriter writer;
-  if (auto done = writer.write(simulation.world(), requests); !done) return done;
+  must(writer.write(simulation.world(), requests));
   const Measured time = measure_short([&] { (void)writer.write(simulation.world(), requests); });
   const double all = static_cast<double>(count * vertices);
   BenchResult& result = run.add_time(name, time, all, 1e-9, "ns");
@@ -140,60 +130,52 @@ Result<void> time_skin(BenchRun& run, const std::string& name, std::size_t count
   result.bound =
       fmt::format("{} vertices of {} people, {} frames each; {:.0f} us a person", count * vertices, count,
                   skin_mesh(Sex::man, detail).frame.size(), result.value * 1e-3 * static_cast<double>(vertices));
-  return {};
 }
 
 /// One leg's cover from all that is drawn of its muscles.
-Result<void> time_cover(BenchRun& run) {
+void time_cover(BenchRun& run) {
   Simulation simulation;
-  const auto entity = simulation.spawn({});
-  if (!entity) return tl::unexpected(entity.error());
-  if (auto done = simulation.add_leg_muscles(*entity); !done) return done;
-  const Human human = *simulation.human(*entity);
-  const auto bound = bind_surfaces(human.body, {.bones = false, .sides = {true, false}});
-  if (!bound) return tl::unexpected(bound.error());
+  const auto entity = must(simulation.spawn({}));
+  must(simulation.add_leg_muscles(entity));
+  const Human human = *simulation.human(entity);
+  const auto bound = must(bind_surfaces(human.body, {.bones = false, .sides = {true, false}}));
   std::vector<SurfaceMuscle> muscles;
   for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
   simulation.advance(0.2);
-  std::vector<Vec3<float>> position(bound->vertices);
-  SurfaceRequest request{*entity, muscles, &*bound};
+  std::vector<Vec3<float>> position(bound.vertices);
+  SurfaceRequest request{entity, muscles, &bound};
   request.positions.bytes = std::as_writable_bytes(std::span(position));
   SurfaceWriter writer;
-  if (auto done = writer.write(simulation.world(), {&request, 1}); !done) return done;
+  must(writer.write(simulation.world(), {&request, 1}));
   BodySkins skins;
-  const auto shape = skins.of({}, SkinDetail::near);
-  if (!shape) return tl::unexpected(shape.error());
-  const Pose<float> pose = *simulation.get<Pose>(*entity);
+  const auto shape = must(skins.of({}, SkinDetail::near));
+  const Pose<float> pose = *simulation.get<Pose>(entity);
   SkinCover cover;
   const Measured time = measure_short(
-      [&] { cover_muscles(*shape->skin, pose, shape->lengths, Side::right, position, cover.lift_m[Side::right]); });
+      [&] { cover_muscles(*shape.skin, pose, shape.lengths, Side::right, position, cover.lift_m[Side::right]); });
   BenchResult& result = run.add_time("skin.cover.us_per_leg", time, 1, 1e-6, "us");
   result.bound = fmt::format("{} vertices of muscle", position.size());
-  return {};
 }
 
 /// One leg's cover where nobody simulates its muscles.
-Result<void> time_table(BenchRun& run) {
+void time_table(BenchRun& run) {
   SkinTables tables;
-  const auto table = tables.of({});
-  if (!table) return tl::unexpected(table.error());
+  const auto table = must(tables.of({}));
   Simulation simulation;
-  const auto entity = simulation.spawn({});
-  if (!entity) return tl::unexpected(entity.error());
+  const auto entity = must(simulation.spawn({}));
   simulation.advance(0.2);
-  const Pose<float> pose = *simulation.get<Pose>(*entity);
+  const Pose<float> pose = *simulation.get<Pose>(entity);
   SkinCover cover;
   const Measured time =
-      measure_short([&] { cover_by_table(**table, leg_angles_of(pose, Side::right), cover.lift_m[Side::right]); });
+      measure_short([&] { cover_by_table(*table, leg_angles_of(pose, Side::right), cover.lift_m[Side::right]); });
   BenchResult& result = run.add_time("skin.table.us_per_leg", time, 1, 1e-6, "us");
   result.of_peak = 2.0 * skin_modes * leg_grid_points * 1e-3 / result.value / run.machine.fma_peak_gflops;
   result.bound = fmt::format("{} modes of {} points", skin_modes, leg_grid_points);
-  return {};
 }
 
 }  // namespace
 
-Result<void> bench_skinning(BenchRun& run) {
+void bench_skinning(BenchRun& run) {
   const SurfaceChoice muscles{.bones = false}, bones{.simulated = {}}, textured{.bones = false, .textured = true};
   constexpr std::size_t many = 100;
   struct Way {
@@ -210,22 +192,21 @@ Result<void> bench_skinning(BenchRun& run) {
                          Way{"skinning.tangents.ns_per_vertex", 1, true, textured, 40, muscle_flops + tangent_flops},
                          Way{"skinning.bones.ns_per_vertex", 1, true, bones, 24, bone_flops}}) {
     Scene scene;
-    if (auto done = gather(scene, way.people, way.shared, way.choice); !done) return done;
-    if (auto done = time_writing(run, way.name, scene, way.stride, way.flops); !done) return done;
+    gather(scene, way.people, way.shared, way.choice);
+    time_writing(run, way.name, scene, way.stride, way.flops);
   }
-  return {};
 }
 
-Result<void> bench_skin(BenchRun& run) {
+void bench_skin(BenchRun& run) {
   for (const auto& [name, count, detail] :
        {std::tuple{"skin.hero.ns_per_vertex", std::size_t{1}, SkinDetail::hero},
         std::tuple{"skin.near.ns_per_vertex", std::size_t{1}, SkinDetail::near},
         std::tuple{"skin.hundred_far.ns_per_vertex", std::size_t{100}, SkinDetail::far},
         std::tuple{"skin.thousand_distant.ns_per_vertex", std::size_t{1000}, SkinDetail::distant}}) {
-    if (auto done = time_skin(run, name, count, detail); !done) return done;
+    time_skin(run, name, count, detail);
   }
-  if (auto done = time_cover(run); !done) return done;
-  return time_table(run);
+  time_cover(run);
+  time_table(run);
 }
 
 }  // namespace mobil

@@ -6,19 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <numeric>
-#include <string>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
-#include "demo/measure/measure.h"
 #include "demo/scene/crowd_people.h"
 
 namespace mobil {
@@ -33,32 +28,104 @@ struct BenchTick {
   double serial_share = 0, loops = 0;
 };
 
+constexpr int settling_ticks = 90;  // the second step shows that the third is like it
+
+/// Twelve vectors of the fine mesh, nobody looking.
+LegMuscles bench_reduced_muscles() {
+  LegMuscles choice;
+  choice.method = Method::reduced;
+  choice.reduced.control_points = false;
+  choice.reduced.reported = false;
+  return choice;
+}
+
 /// People with leg muscles, more and more of them in one world, ticked by any number of threads.
 class BenchScene {
  public:
   static constexpr std::uint64_t seed = 1;
 
-  explicit BenchScene(const LegMuscles& choice);
+  explicit BenchScene(const LegMuscles& choice) : choice_(choice), simulation_({.jobs = jobs()}) {}
   BenchScene(const BenchScene&) = delete;
   BenchScene& operator=(const BenchScene&) = delete;
 
   /// Until there are so many, the people of demo/scene/crowd_people.h, and until they walk steadily. Errors: what the
   /// simulation refuses.
-  Result<void> grow_to(std::size_t humans);
+  void grow_to(std::size_t humans) {
+    constexpr std::size_t at_once = 1000;
+    must(simulation_.prepare(choice_));
+    std::vector<SpawnRequest> requests;
+    std::vector<Entity> entities;
+    double spent_s = 0;
+    const std::size_t before = people_.size();
+    while (people_.size() < humans) {
+      requests.clear();
+      while (requests.size() < std::min(at_once, humans - people_.size())) {
+        std::uint8_t draw = 0;
+        const auto person = must(crowd_walker(seed, drawn_++, draw));
+        requests.push_back({.body = person.body, .gait = person.gait, .muscles = choice_});
+      }
+      entities.resize(requests.size());
+      const double start_s = process_cpu_now_s();
+      must(simulation_.spawn(requests, entities));
+      spent_s += process_cpu_now_s() - start_s;
+      people_.insert(people_.end(), entities.begin(), entities.end());
+    }
+    if (people_.size() > before) spawn_s_ = spent_s / static_cast<double>(people_.size() - before);
+    for (int i = 0; i < settling_ticks; ++i) simulation_.tick();
+  }
   /// Everybody becomes compact (Simulation::compact), and whole again.
-  Result<void> compact();
-  Result<void> expand();
+  void compact() {
+    if (must(simulation_.compact(people_)) < people_.size()) throw Stopped("somebody does not become compact");
+    simulation_.tick();
+  }
+  void expand() { must(simulation_.expand(people_)); }
 
   std::size_t size() const { return people_.size(); }
   /// Seconds of processor time that the last people took to spawn, each.
   double spawn_s() const { return spawn_s_; }
   /// Bytes of the tables' rows, each.
-  double bytes_per_human() const;
+  double bytes_per_human() const {
+    std::size_t bytes = 0;
+    for (const Table& table : simulation_.world().tables())
+      bytes += table.row_count() * (table.block_bytes() / lane_count);
+    return static_cast<double>(bytes) / static_cast<double>(size());
+  }
 
   /// By so many threads, at most as many as the machine has. Adds to what was measured before.
-  void measure(int threads, int ticks, BenchTick& best);
+  void measure(int threads, int ticks, BenchTick& best) {
+    Schedule& schedule = simulation_.schedule();
+    if (threads > 1) turn_.now = &pool(threads);
+    Series& series = series_[threads];
+    if (best.system_s.empty()) series = {};
+    best.system_s.resize(schedule.systems().size(), 1e9);
+    turn_.loops = 0;
+    for (int i = 0; i < ticks; ++i) {
+      turn_.handed_out_s = 0;
+      const double wall = wall_now_s(), cpu = process_cpu_now_s();
+      simulation_.tick();
+      series.cpu.push_back(process_cpu_now_s() - cpu);
+      series.wall.push_back(wall_now_s() - wall);
+      series.serial_share.push_back(1 - turn_.handed_out_s / series.wall.back());
+    }
+    best.loops = static_cast<double>(turn_.loops) / ticks;
+    // Reading a thread's clock after every block slows a small crowd's tick by a tenth or more. Systems are therefore
+    // timed in ticks of their own.
+    schedule.measure_with(&thread_cpu_now_s);
+    for (int i = 0; i < ticks; ++i) {
+      simulation_.tick();
+      for (std::size_t s = 0; s < best.system_s.size(); ++s)
+        best.system_s[s] = std::min(best.system_s[s], schedule.timings()[s].last_seconds);
+    }
+    schedule.measure_with(nullptr);
+    turn_.now = nullptr;
+    best.wall_s = std::ranges::min(series.wall);
+    best.wall_median_s = median(series.wall);
+    best.cpu_s = std::ranges::min(series.cpu);
+    best.cpu_median_s = median(series.cpu);
+    best.serial_share = median(series.serial_share);
+  }
   /// The pool that `measure` works with; of more threads than one.
-  const Threads& pool(int threads);
+  const Threads& pool(int threads) { return pools_.try_emplace(threads, threads).first->second; }
 
  private:
   /// Hands the work on to the pool whose turn it is, or does it where it is nobody's; and how long that takes.
@@ -67,7 +134,22 @@ class BenchScene {
     double handed_out_s = 0;
     std::size_t loops = 0;
   };
-  Jobs jobs();
+  Jobs jobs() {
+    return {&turn_,
+            [](void* user, std::size_t count, Jobs::Body body, void* context) {
+              Turn& turn = *static_cast<Turn*>(user);
+              const double start_s = wall_now_s();
+              if (turn.now == nullptr) {
+                body(context, 0, count);
+              } else {
+                const Jobs all = turn.now->jobs();
+                all.parallel_for(all.user, count, body, context);
+              }
+              turn.handed_out_s += wall_now_s() - start_s;
+              ++turn.loops;
+            },
+            static_cast<std::size_t>(Threads().count())};
+  }
 
   LegMuscles choice_;
   std::map<int, Threads> pools_;
@@ -81,118 +163,6 @@ class BenchScene {
   };
   std::map<int, Series> series_;
 };
-
-constexpr int settling_ticks = 90;  // the second step shows that the third is like it
-
-/// Twelve vectors of the fine mesh, nobody looking.
-LegMuscles bench_reduced_muscles() {
-  LegMuscles choice;
-  choice.method = Method::reduced;
-  choice.reduced.control_points = false;
-  choice.reduced.reported = false;
-  return choice;
-}
-
-Jobs BenchScene::jobs() {
-  return {&turn_,
-          [](void* user, std::size_t count, Jobs::Body body, void* context) {
-            Turn& turn = *static_cast<Turn*>(user);
-            const double start_s = wall_now_s();
-            if (turn.now == nullptr) {
-              body(context, 0, count);
-            } else {
-              const Jobs all = turn.now->jobs();
-              all.parallel_for(all.user, count, body, context);
-            }
-            turn.handed_out_s += wall_now_s() - start_s;
-            ++turn.loops;
-          },
-          static_cast<std::size_t>(Threads().count())};
-}
-
-const Threads& BenchScene::pool(int threads) {
-  return pools_.try_emplace(threads, threads).first->second;
-}
-
-BenchScene::BenchScene(const LegMuscles& choice) : choice_(choice), simulation_({.jobs = jobs()}) {}
-
-Result<void> BenchScene::grow_to(std::size_t humans) {
-  constexpr std::size_t at_once = 1000;
-  if (auto done = simulation_.prepare(choice_); !done) return done;
-  std::vector<SpawnRequest> requests;
-  std::vector<Entity> entities;
-  double spent_s = 0;
-  const std::size_t before = people_.size();
-  while (people_.size() < humans) {
-    requests.clear();
-    while (requests.size() < std::min(at_once, humans - people_.size())) {
-      std::uint8_t draw = 0;
-      const auto person = crowd_walker(seed, drawn_++, draw);
-      if (!person) return tl::unexpected(person.error());
-      requests.push_back({.body = person->body, .gait = person->gait, .muscles = choice_});
-    }
-    entities.resize(requests.size());
-    const double start_s = process_cpu_now_s();
-    if (auto done = simulation_.spawn(requests, entities); !done) return done;
-    spent_s += process_cpu_now_s() - start_s;
-    people_.insert(people_.end(), entities.begin(), entities.end());
-  }
-  if (people_.size() > before) spawn_s_ = spent_s / static_cast<double>(people_.size() - before);
-  for (int i = 0; i < settling_ticks; ++i) simulation_.tick();
-  return {};
-}
-
-Result<void> BenchScene::compact() {
-  const auto done = simulation_.compact(people_);
-  if (!done) return tl::unexpected(done.error());
-  if (*done < people_.size()) return fail("somebody does not become compact");
-  simulation_.tick();
-  return {};
-}
-
-Result<void> BenchScene::expand() {
-  return simulation_.expand(people_);
-}
-
-double BenchScene::bytes_per_human() const {
-  std::size_t bytes = 0;
-  for (const Table& table : simulation_.world().tables())
-    bytes += table.row_count() * (table.block_bytes() / lane_count);
-  return static_cast<double>(bytes) / static_cast<double>(size());
-}
-
-void BenchScene::measure(int threads, int ticks, BenchTick& best) {
-  Schedule& schedule = simulation_.schedule();
-  if (threads > 1) turn_.now = &pool(threads);
-  Series& series = series_[threads];
-  if (best.system_s.empty()) series = {};
-  best.system_s.resize(schedule.systems().size(), 1e9);
-  turn_.loops = 0;
-  for (int i = 0; i < ticks; ++i) {
-    turn_.handed_out_s = 0;
-    const double wall = wall_now_s(), cpu = process_cpu_now_s();
-    simulation_.tick();
-    series.cpu.push_back(process_cpu_now_s() - cpu);
-    series.wall.push_back(wall_now_s() - wall);
-    series.serial_share.push_back(1 - turn_.handed_out_s / series.wall.back());
-  }
-  best.loops = static_cast<double>(turn_.loops) / ticks;
-  // Reading a thread's clock after every block slows a small crowd's tick by a tenth or more. Systems are therefore
-  // timed in ticks of their own.
-  schedule.measure_with(&thread_cpu_now_s);
-  for (int i = 0; i < ticks; ++i) {
-    simulation_.tick();
-    for (std::size_t s = 0; s < best.system_s.size(); ++s)
-      best.system_s[s] = std::min(best.system_s[s], schedule.timings()[s].last_seconds);
-  }
-  schedule.measure_with(nullptr);
-  turn_.now = nullptr;
-  best.wall_s = std::ranges::min(series.wall);
-  best.wall_median_s = median(series.wall);
-  best.cpu_s = std::ranges::min(series.cpu);
-  best.cpu_median_s = median(series.cpu);
-  best.serial_share = median(series.serial_share);
-}
 
 /// T(n) = serial + parallel·cost(n)/n + loops·fork(n). `cost` is what a system takes of all threads' time over what it
 /// takes of one, `fork` what handing a loop out takes; both are measured up to the cores that there are. Beyond, cost
@@ -296,33 +266,31 @@ double measure_cost(BenchRun& run, BenchScene& scene, const std::string& ending)
 
 }  // namespace
 
-Result<void> bench_threads(BenchRun& run) {
+void bench_threads(BenchRun& run) {
   BenchScene scene(bench_reduced_muscles());
-  if (auto done = scene.grow_to(run.humans); !done) return done;
+  scene.grow_to(run.humans);
   measure_scene(run, scene, "unseen");
-  if (auto done = scene.compact(); !done) return done;
+  scene.compact();
   measure_scene(run, scene, "compact");
-  return {};
 }
 
-Result<void> bench_crowds(BenchRun& run) {
+void bench_crowds(BenchRun& run) {
   const std::array sizes = {std::max<std::size_t>(16, run.humans / 10), run.humans,
                             std::min<std::size_t>(10 * run.humans, 200'000)};
   std::array<double, 3> whole_us{}, compact_us{};
   BenchScene scene(bench_reduced_muscles());
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (auto done = scene.grow_to(sizes[i]); !done) return done;
+    scene.grow_to(sizes[i]);
     whole_us[i] = measure_cost(run, scene, "");
-    if (auto done = scene.compact(); !done) return done;
+    scene.compact();
     compact_us[i] = measure_cost(run, scene, ".compact");
-    if (auto done = scene.expand(); !done) return done;
+    scene.expand();
   }
   run.add_figure("crowd.us_per_spawn", scene.spawn_s() * 1e6, "us",
                  "with eight muscles, a thousand at a time; processor time, what they share made before");
   const std::string among = fmt::format("a human's cost among {} over that among {}", sizes[2], sizes[0]);
   run.add_figure("crowd.large_over_small", whole_us[2] / whole_us[0], "1", among);
   run.add_figure("crowd.compact.large_over_small", compact_us[2] / compact_us[0], "1", among + ", everybody compact");
-  return {};
 }
 
 }  // namespace mobil

@@ -6,19 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/files/output_file.h>
-#include "demo/lab/compare/compare_report.h"
 #include "demo/lab/compare/compare_verdicts.h"
 #include "demo/pictures/cycle_plot.h"
 #include "demo/pictures/svg_plot.h"
 #include "demo/program/commands.h"
+#include "demo/program/must.h"
 #include "demo/walk/walk_options.h"
 
 namespace mobil {
@@ -230,8 +226,8 @@ struct Walker {
   BodyRequest body;
   GaitStyle style;
 
-  Result<WalkedStride> at(float speed_m_s) const { return walk(body, speed_m_s); }
-  Result<WalkedStride> walk(const BodyRequest& who, float speed_m_s, std::optional<float> step_length_m = {}) const {
+  WalkedStride at(float speed_m_s) const { return walk(body, speed_m_s); }
+  WalkedStride walk(const BodyRequest& who, float speed_m_s, std::optional<float> step_length_m = {}) const {
     GaitRequest gait;
     gait.speed_m_s = speed_m_s;
     gait.step_length_m = step_length_m;
@@ -240,85 +236,61 @@ struct Walker {
   }
 };
 
-/// Adds a walk, or says which one failed.
-Result<void> add(std::vector<VariedWalk>& walks, double value, const Result<WalkedStride>& stride) {
-  if (!stride) return tl::unexpected(stride.error());
-  walks.push_back({value, *stride});
-  return {};
-}
-
-Result<void> walk_reference_speeds(const Walker& walker, Comparison& comparison) {
-  const auto body = make_body(walker.body);
-  if (!body) return tl::unexpected(body.error());
+void walk_reference_speeds(const Walker& walker, Comparison& comparison) {
+  const auto body = must(make_body(walker.body));
   for (std::size_t s = 0; s < comparison.reference.sets.size(); ++s) {
     for (std::size_t c = 0; c < speed_class_count; ++c) {
       if (!comparison.reference.sets[s].measured[c]) continue;
-      const double speed = comparison.reference.sets[s].speed_m_s(c, static_cast<double>(body->hip_height_m));
-      const auto stride = walker.at(static_cast<float>(speed));
-      if (!stride) return tl::unexpected(stride.error());
-      comparison.walks.push_back({s, c, speed, *stride});
+      const double speed = comparison.reference.sets[s].speed_m_s(c, static_cast<double>(body.hip_height_m));
+      comparison.walks.push_back({s, c, speed, walker.at(static_cast<float>(speed))});
     }
   }
-  return {};
 }
 
-Result<void> walk_variations(const Walker& walker, Comparison& comparison) {
+void walk_variations(const Walker& walker, Comparison& comparison) {
   for (int i = 0; i <= 6; ++i) {
     const float speed = slowest + (fastest - slowest) * static_cast<float>(i) / 6;
-    if (auto ok = add(comparison.by_speed, static_cast<double>(speed), walker.at(speed)); !ok) return ok;
+    comparison.by_speed.push_back({static_cast<double>(speed), walker.at(speed)});
   }
   for (int i = 0; i <= 4; ++i) {
     BodyRequest body = walker.body;
     body.height_m = shortest + (tallest - shortest) * static_cast<float>(i) / 4;
     const float ratio = body.height_m / walker.body.height_m;
     body.mass_kg = std::clamp(walker.body.mass_kg * ratio * ratio, 30.0F, 200.0F);  // the same body mass index
-    const auto stride = walker.walk(body, varied_height_speed);
-    if (auto ok = add(comparison.by_height, static_cast<double>(body.height_m), stride); !ok) return ok;
+    comparison.by_height.push_back({static_cast<double>(body.height_m), walker.walk(body, varied_height_speed)});
   }
   const auto natural = walker.at(varied_speed);
-  if (!natural) return tl::unexpected(natural.error());
   for (const float times : {0.9F, 1.0F, 1.1F}) {
-    const float length = times * static_cast<float>(natural->step_length_m);
-    const auto stride = walker.walk(walker.body, varied_speed, length);
-    if (auto ok = add(comparison.by_step_length, static_cast<double>(length), stride); !ok) return ok;
+    const float length = times * static_cast<float>(natural.step_length_m);
+    comparison.by_step_length.push_back({static_cast<double>(length), walker.walk(walker.body, varied_speed, length)});
   }
   for (const float mass : {65.0F, 80.0F, 120.0F}) {
     BodyRequest body = walker.body;
     body.mass_kg = mass;
-    const auto stride = walker.walk(body, varied_speed);
-    if (auto ok = add(comparison.by_mass, static_cast<double>(mass), stride); !ok) return ok;
+    comparison.by_mass.push_back({static_cast<double>(mass), walker.walk(body, varied_speed)});
   }
-  return {};
 }
 
-Result<void> write_all(const std::filesystem::path& out, const Comparison& comparison,
-                       const std::vector<Verdict>& verdicts) {
-  auto results = OutputFolder::make(out);
-  if (!results) return tl::unexpected(results.error());
-  const auto& inside = results->inside();
-  if (auto done = write_file(inside / "compare.json", comparison_json(comparison, verdicts)); !done) return done;
-  for (const auto& plot : comparison_plots(comparison)) {
-    if (auto done = write_file(inside / plot.file, plot.text); !done) return done;
-  }
-  return results->put();
+void write_all(const std::filesystem::path& out, const Comparison& comparison, const std::vector<Verdict>& verdicts) {
+  auto results = must(OutputFolder::make(out));
+  const auto& inside = results.inside();
+  must(write_file(inside / "compare.json", comparison_json(comparison, verdicts)));
+  for (const auto& plot : comparison_plots(comparison)) must(write_file(inside / plot.file, plot.text));
+  must(results.put());
 }
 
 /// True where every bound held.
-Result<bool> run_compare(const CompareText& text) {
-  const auto options = read_walk_options(text.walk);
-  if (!options) return tl::unexpected(options.error());
+bool run_compare(const CompareText& text) {
+  const auto options = must(read_walk_options(text.walk));
   const auto folder = text.reference.empty() ? std::nullopt : std::optional<std::filesystem::path>(text.reference);
-  auto reference = read_gait_reference(folder);
-  if (!reference) return tl::unexpected(reference.error());
-  Comparison comparison{options->body, std::move(*reference), {}, {}, {}, {}, {}, {}};
-  const Walker walker{options->body, options->gait.style};
-  if (auto done = walk_reference_speeds(walker, comparison); !done) return tl::unexpected(done.error());
-  if (auto done = walk_variations(walker, comparison); !done) return tl::unexpected(done.error());
-  auto balance = walk_balance_scenes(options->body, options->gait.style);
-  if (!balance) return tl::unexpected(balance.error());
-  comparison.balance = std::move(*balance);
+  auto reference = must(read_gait_reference(folder));
+  Comparison comparison{options.body, std::move(reference), {}, {}, {}, {}, {}, {}};
+  const Walker walker{options.body, options.gait.style};
+  walk_reference_speeds(walker, comparison);
+  walk_variations(walker, comparison);
+  comparison.balance = walk_balance_scenes(options.body, options.gait.style);
   const auto verdicts = judge(comparison);
-  if (auto done = write_all(text.out, comparison, verdicts); !done) return tl::unexpected(done.error());
+  write_all(text.out, comparison, verdicts);
   fmt::print("{}", comparison_text(comparison, verdicts));
   say_where(fmt::format(
       "look at {}: compare.json angles.svg ground_reaction.svg moments.svg steps.svg centre_of_mass.svg", text.out));
@@ -344,7 +316,7 @@ Subcommand compare_command() {
                {"--check", &text->check, "Exit status 1 where a bound does not hold or is not simulated"},
                {"--out", &text->out, "Folder for the results, made if missing"}});
   command.run = [text] {
-    const auto held = run_compare(*text);
+    const auto held = attempt([&] { return run_compare(*text); });
     if (!held) return complain("compare", held.error().message);
     return text->check && !*held ? 1 : 0;
   };

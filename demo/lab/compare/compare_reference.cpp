@@ -11,6 +11,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/assets/files/csv_table.h>
 #include "demo/lab/compare/reference_tables.h"
+#include "demo/program/must.h"
 
 namespace mobil {
 namespace {
@@ -76,13 +77,13 @@ class Tables {
     std::error_code ignored;
     return folder_ && fs::is_regular_file(*folder_ / name, ignored);
   }
-  Result<CsvTable> read(std::string_view name, std::span<const std::string_view> required) const {
-    if (in_folder(name)) return read_csv((*folder_ / name).string(), required);
+  CsvTable read(std::string_view name, std::span<const std::string_view> required) const {
+    if (in_folder(name)) return must(read_csv((*folder_ / name).string(), required));
     for (const auto& table : reference_tables()) {
-      if (table.name == name) return parse_csv(table.text, name, required);
+      if (table.name == name) return must(parse_csv(table.text, name, required));
     }
-    return fail(fmt::format("{} is missing in {}; put the table there, or leave --reference out", name,
-                            folder_ ? folder_->string() : "the program"));
+    throw Stopped(fmt::format("{} is missing in {}; put the table there, or leave --reference out", name,
+                              folder_ ? folder_->string() : "the program"));
   }
 
  private:
@@ -90,24 +91,21 @@ class Tables {
 };
 
 /// A cell that must be a number.
-Result<double> value(const CsvTable& table, std::size_t row, std::string_view name) {
+double value(const CsvTable& table, std::size_t row, std::string_view name) {
   if (const auto read = number(cell(table, row, name))) return *read;
-  return fail(fmt::format("{}:{}: {} '{}' is not a number", table.path, table.line[row], name, cell(table, row, name)));
+  throw Stopped(
+      fmt::format("{}:{}: {} '{}' is not a number", table.path, table.line[row], name, cell(table, row, name)));
 }
 
-Result<CycleCurve> read_curve(const CsvTable& table, std::span<const std::size_t> rows, std::string_view name) {
+CycleCurve read_curve(const CsvTable& table, std::span<const std::size_t> rows, std::string_view name) {
   CycleCurve curve{};
-  for (std::size_t i = 0; i < cycle_points; ++i) {
-    const auto read = value(table, rows[i], name);
-    if (!read) return tl::unexpected(read.error());
-    curve[i] = *read;
-  }
+  for (std::size_t i = 0; i < cycle_points; ++i) curve[i] = value(table, rows[i], name);
   return curve;
 }
 
 /// The rows of one class, one each 2 % of the cycle.
-Result<std::vector<std::size_t>> rows_of_class(const CsvTable& table, std::string_view column_name,
-                                               std::string_view class_name) {
+std::vector<std::size_t> rows_of_class(const CsvTable& table, std::string_view column_name,
+                                       std::string_view class_name) {
   std::vector<std::size_t> rows;
   for (std::size_t r = 0; r < table.row.size(); ++r) {
     if (cell(table, r, column_name) == class_name) rows.push_back(r);
@@ -116,11 +114,11 @@ Result<std::vector<std::size_t>> rows_of_class(const CsvTable& table, std::strin
     if (number(cell(table, rows[i], "percent_gait")) != 2.0 * static_cast<double>(i)) rows.clear();
   }
   if (rows.size() == cycle_points) return rows;
-  return fail(fmt::format("{}: {} {} needs the {} rows of percent_gait 0, 2, … 100 in order", table.path, column_name,
-                          class_name, cycle_points));
+  throw Stopped(fmt::format("{}: {} {} needs the {} rows of percent_gait 0, 2, … 100 in order", table.path, column_name,
+                            class_name, cycle_points));
 }
 
-Result<void> read_curves(const Tables& tables, const SetLayout& layout, MeasuredSet& set) {
+void read_curves(const Tables& tables, const SetLayout& layout, MeasuredSet& set) {
   for (std::size_t f = 0; f < layout.file.size(); ++f) {
     std::vector<std::string_view> required = {layout.class_column, "percent_gait"};
     for (const auto& column : layout.column) {
@@ -129,38 +127,26 @@ Result<void> read_curves(const Tables& tables, const SetLayout& layout, Measured
     for (std::size_t c = 0; c < speed_class_count; ++c) {
       if (layout.class_name[c].empty()) continue;
       const auto table = tables.read(table_name(layout.file[f], c), required);
-      if (!table) return tl::unexpected(table.error());
       set.measured[c] = true;
-      const auto rows = rows_of_class(*table, layout.class_column, layout.class_name[c]);
-      if (!rows) return tl::unexpected(rows.error());
+      const auto rows = rows_of_class(table, layout.class_column, layout.class_name[c]);
       for (std::size_t q = 0; q < gait_quantity_count; ++q) {
         if (layout.column[q].file != f) continue;
-        const auto mean = read_curve(*table, *rows, layout.column[q].mean);
-        if (!mean) return tl::unexpected(mean.error());
-        const auto sd = read_curve(*table, *rows, layout.column[q].sd);
-        if (!sd) return tl::unexpected(sd.error());
-        set.curve[c][q] = {*mean, *sd};
+        set.curve[c][q] = {read_curve(table, rows, layout.column[q].mean),
+                           read_curve(table, rows, layout.column[q].sd)};
       }
     }
   }
-  return {};
 }
 
-Result<void> read_schwartz_pelvis(const Tables& tables, MeasuredSet& set) {
+void read_schwartz_pelvis(const Tables& tables, MeasuredSet& set) {
   constexpr std::array<std::string_view, 3> names = {"pelvis_tilt_anterior_deg", "pelvis_rotation_forward_deg",
                                                      "pelvis_obliquity_up_deg"};
   const std::array<std::string_view, 5> required = {"speed_class", "percent_gait", names[0], names[1], names[2]};
   for (std::size_t c = 0; c < speed_class_count; ++c) {
     const auto table = tables.read(table_name(schwartz_layout.file[0], c), required);
-    if (!table) return tl::unexpected(table.error());
-    const auto rows = rows_of_class(*table, "speed_class", schwartz_layout.class_name[c]);
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = rows_of_class(table, "speed_class", schwartz_layout.class_name[c]);
     std::array<CycleCurve, 3> curve;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto read = read_curve(*table, *rows, names[i]);
-      if (!read) return tl::unexpected(read.error());
-      curve[i] = *read;
-    }
+    for (std::size_t i = 0; i < names.size(); ++i) curve[i] = read_curve(table, rows, names[i]);
     const auto half_range = [](const CycleCurve& of) {
       const auto [low, high] = std::ranges::minmax(of);
       return 0.5 * (high - low);
@@ -169,33 +155,27 @@ Result<void> read_schwartz_pelvis(const Tables& tables, MeasuredSet& set) {
     set.pelvis_rotation_deg[c] = half_range(curve[1]);
     set.pelvis_list_deg[c] = half_range(curve[2]);
   }
-  return {};
 }
 
 template <std::size_t N>
-Result<std::array<double, N>> row_values(const CsvTable& table, std::size_t row,
-                                         const std::array<std::string_view, N>& names) {
+std::array<double, N> row_values(const CsvTable& table, std::size_t row, const std::array<std::string_view, N>& names) {
   std::array<double, N> values{};
-  for (std::size_t i = 0; i < N; ++i) {
-    const auto read = value(table, row, names[i]);
-    if (!read) return tl::unexpected(read.error());
-    values[i] = *read;
-  }
+  for (std::size_t i = 0; i < N; ++i) values[i] = value(table, row, names[i]);
   return values;
 }
 
 /// The numbers of the row that has `key` in `key_column`.
 template <std::size_t N>
-Result<std::array<double, N>> row_values(const CsvTable& table, std::string_view key_column, std::string_view key,
-                                         const std::array<std::string_view, N>& names) {
+std::array<double, N> row_values(const CsvTable& table, std::string_view key_column, std::string_view key,
+                                 const std::array<std::string_view, N>& names) {
   for (std::size_t r = 0; r < table.row.size(); ++r) {
     if (cell(table, r, key_column) == key) return row_values(table, r, names);
   }
-  return fail(fmt::format("{}: a row with {} {} is missing", table.path, key_column, key));
+  throw Stopped(fmt::format("{}: a row with {} {} is missing", table.path, key_column, key));
 }
 
 /// Schwartz's speeds, and his steps as a band: from leg lengths to heights at the same leg as a generated body's.
-Result<void> read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBand& band) {
+void read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBand& band) {
   constexpr std::array<std::string_view, 6> names = {"speed_dimless",   "step_length_per_leg", "step_length_sd",
                                                      "cadence_dimless", "cadence_sd",          "opposite_foot_off_pct"};
   const std::array<std::string_view, 7> required = {"speed_class", names[0], names[1], names[2],
@@ -204,79 +184,69 @@ Result<void> read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBan
   const double root = std::sqrt(leg);
   for (std::size_t c = 0; c < speed_class_count; ++c) {
     const auto table = tables.read(table_name(schwartz_steps, c), required);
-    if (!table) return tl::unexpected(table.error());
-    const auto v = row_values(*table, "speed_class", schwartz_layout.class_name[c], names);
-    if (!v) return tl::unexpected(v.error());
-    set.speed[c] = (*v)[0];
-    set.step_length[c] = (*v)[1];
-    set.double_support[c] = 0.01 * (*v)[5];
-    band.norm.push_back({(*v)[0] * root, (*v)[1] * leg, (*v)[2] * leg, (*v)[3] / root, (*v)[4] / root});
+    const auto v = row_values(table, "speed_class", schwartz_layout.class_name[c], names);
+    set.speed[c] = v[0];
+    set.step_length[c] = v[1];
+    set.double_support[c] = 0.01 * v[5];
+    band.norm.push_back({v[0] * root, v[1] * leg, v[2] * leg, v[3] / root, v[4] / root});
   }
-  return {};
 }
 
-Result<void> read_lencioni_steps(const Tables& tables, std::vector<StepBand>& bands) {
+void read_lencioni_steps(const Tables& tables, std::vector<StepBand>& bands) {
   constexpr std::array<std::string_view, 5> names = {"speed_dimless", "step_length_per_height", "step_length_sd",
                                                      "cadence_dimless", "cadence_sd"};
   constexpr std::array<std::string_view, 6> required = {"group", names[0], names[1], names[2], names[3], names[4]};
   const auto table = tables.read("lencioni2019_steps.csv", required);
-  if (!table) return tl::unexpected(table.error());
   for (const std::string_view group : {"adults", "children"}) {
     StepBand band{fmt::format("Lencioni 2019, {}", group), {}};
-    for (std::size_t r = 0; r < table->row.size(); ++r) {
-      if (cell(*table, r, "group") != group) continue;
-      const auto v = row_values(*table, r, names);
-      if (!v) return tl::unexpected(v.error());
-      band.norm.push_back({(*v)[0], (*v)[1], (*v)[2], (*v)[3], (*v)[4]});
+    for (std::size_t r = 0; r < table.row.size(); ++r) {
+      if (cell(table, r, "group") != group) continue;
+      const auto v = row_values(table, r, names);
+      band.norm.push_back({v[0], v[1], v[2], v[3], v[4]});
     }
     std::ranges::sort(band.norm, {}, &StepNorm::speed);
     bands.push_back(std::move(band));
   }
-  return {};
 }
 
-Result<std::vector<ExcursionNorm>> read_excursion(const Tables& tables) {
+std::vector<ExcursionNorm> read_excursion(const Tables& tables) {
   constexpr std::array<std::string_view, 3> names = {"speed_m_s", "vertical_excursion_m", "vertical_excursion_sd"};
   const auto table = tables.read("centre_of_mass_excursion.csv", names);
-  if (!table) return tl::unexpected(table.error());
   std::vector<ExcursionNorm> norms;
-  for (std::size_t r = 0; r < table->row.size(); ++r) {
-    const auto v = row_values(*table, r, names);
-    if (!v) return tl::unexpected(v.error());
-    norms.push_back({(*v)[0], (*v)[1], (*v)[2]});
+  for (std::size_t r = 0; r < table.row.size(); ++r) {
+    const auto v = row_values(table, r, names);
+    norms.push_back({v[0], v[1], v[2]});
   }
   std::ranges::sort(norms, {}, &ExcursionNorm::speed_m_s);
   return norms;
 }
 
-Result<MeasuredSet> read_winter(const Tables& tables) {
+MeasuredSet read_winter(const Tables& tables) {
   MeasuredSet set{"Winter 1991", true, adults_leg_m};
   constexpr std::array<std::string_view, 1> speed = {"speed_m_s"};
   const std::array<std::string_view, 2> required = {"source", "speed_m_s"};
   const auto table = tables.read(winter_speeds, required);
-  if (!table) return tl::unexpected(table.error());
   for (std::size_t c = 0; c < speed_class_count; ++c) {
     if (winter_layout.class_name[c].empty()) continue;
-    const auto v = row_values(*table, "source", fmt::format("winter_{}", winter_layout.class_name[c]), speed);
-    if (!v) return tl::unexpected(v.error());
-    set.speed[c] = (*v)[0] / std::sqrt(gravity_m_s2 * set.leg_m);
+    const auto v = row_values(table, "source", fmt::format("winter_{}", winter_layout.class_name[c]), speed);
+    set.speed[c] = v[0] / std::sqrt(gravity_m_s2 * set.leg_m);
   }
-  if (auto done = read_curves(tables, winter_layout, set); !done) return tl::unexpected(done.error());
+  read_curves(tables, winter_layout, set);
   return set;
 }
 
 /// A folder that holds none of the tables is a mistake.
-Result<void> check_folder(const Tables& tables, const fs::path& folder) {
+void check_folder(const Tables& tables, const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
-    return fail(
+    throw Stopped(
         fmt::format("--reference {}: no such folder; name one with tables of measured walking", folder.string()));
   }
   std::vector<std::string> names;
   for (const auto& file : winter_layout.file) names.push_back(table_name(file, compared_class::slow));
   for (const auto& table : reference_tables()) names.emplace_back(table.name);
-  if (std::ranges::any_of(names, [&](std::string_view name) { return tables.in_folder(name); })) return {};
-  return fail(
+  if (std::ranges::any_of(names, [&](std::string_view name) { return tables.in_folder(name); })) return;
+  throw Stopped(
       fmt::format("--reference {}: holds none of the tables, such as {}; leave the option out for those that "
                   "the program carries",
                   folder.string(), names[0]));
@@ -309,33 +279,28 @@ std::optional<StepNorm> StepBand::at(double speed) const {
 }
 
 Result<GaitReference> read_gait_reference(const std::optional<fs::path>& folder) {
-  const Tables tables(folder);
-  if (folder) {
-    if (auto ok = check_folder(tables, *folder); !ok) return tl::unexpected(ok.error());
-  }
-  GaitReference reference;
-  MeasuredSet set{"Schwartz 2008", false, children_leg_m};
-  StepBand band{"Schwartz 2008, children", {}};
-  if (auto done = read_schwartz_steps(tables, set, band); !done) return tl::unexpected(done.error());
-  if (auto done = read_curves(tables, schwartz_layout, set); !done) return tl::unexpected(done.error());
-  if (auto done = read_schwartz_pelvis(tables, set); !done) return tl::unexpected(done.error());
-  reference.sets.push_back(std::move(set));
-  if (auto done = read_lencioni_steps(tables, reference.steps); !done) return tl::unexpected(done.error());
-  reference.steps.push_back(std::move(band));
-  auto excursion = read_excursion(tables);
-  if (!excursion) return tl::unexpected(excursion.error());
-  reference.excursion = std::move(*excursion);
-
-  if (tables.in_folder(table_name(winter_layout.file[0], compared_class::slow))) {
-    auto second = read_winter(tables);
-    if (!second) return tl::unexpected(second.error());
-    reference.sets.push_back(std::move(*second));
-  } else {
-    reference.note =
-        "Winter's tables are not here (they may not be redistributed; --reference DIR reads them): the band is "
-        "Schwartz's alone";
-  }
-  return reference;
+  return attempt([&] {
+    const Tables tables(folder);
+    if (folder) check_folder(tables, *folder);
+    GaitReference reference;
+    MeasuredSet set{"Schwartz 2008", false, children_leg_m};
+    StepBand band{"Schwartz 2008, children", {}};
+    read_schwartz_steps(tables, set, band);
+    read_curves(tables, schwartz_layout, set);
+    read_schwartz_pelvis(tables, set);
+    reference.sets.push_back(std::move(set));
+    read_lencioni_steps(tables, reference.steps);
+    reference.steps.push_back(std::move(band));
+    reference.excursion = read_excursion(tables);
+    if (tables.in_folder(table_name(winter_layout.file[0], compared_class::slow))) {
+      reference.sets.push_back(read_winter(tables));
+    } else {
+      reference.note =
+          "Winter's tables are not here (they may not be redistributed; --reference DIR reads them): the band is "
+          "Schwartz's alone";
+    }
+    return reference;
+  });
 }
 
 }  // namespace mobil

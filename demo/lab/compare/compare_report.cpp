@@ -1,4 +1,4 @@
-#include "demo/lab/compare/compare_report.h"
+#include "demo/lab/compare/compare_verdicts.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,14 +1,9 @@
 #pragma once
 // Findings of a comparison (one walk, one quantity, every measured set), the bounds that a walk is held to, and
-// whether it keeps them.
+// whether it keeps them; both in words and as JSON.
 
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/compare/compare_walk.h"
 
 namespace mobil {
@@ -97,5 +92,11 @@ StepNorm step_of(const WalkedStride& stride);
 /// By how many deviations the step length (or cadence) lies outside the nearest of the bands, each ± one deviation; 0
 /// inside one; nothing where no band reaches that speed.
 std::optional<double> outside_step_bands(const GaitReference& reference, const StepNorm& step, bool cadence);
+
+/// A line a walk and quantity, then the bounds that did not hold.
+std::string comparison_text(const Comparison& comparison, const std::vector<Verdict>& verdicts);
+
+/// The whole of compare.json: body, walks with every finding and curve, variations, verdicts.
+std::string comparison_json(const Comparison& comparison, const std::vector<Verdict>& verdicts);
 
 }  // namespace mobil

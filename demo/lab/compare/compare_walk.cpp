@@ -8,6 +8,7 @@
 
 #include <mobil/engine/geometry.h>
 #include "assets/body/segment_inertia.h"
+#include "demo/program/must.h"
 
 namespace mobil {
 namespace {
@@ -47,7 +48,7 @@ struct Scene {
   float step_asymmetry = 0, time_asymmetry = 0;
 };
 
-Result<UnbalancedMoment> walk_scene(const BodyRequest& body, GaitStyle style, const Scene& scene) {
+UnbalancedMoment walk_scene(const BodyRequest& body, GaitStyle style, const Scene& scene) {
   style.step_asymmetry += scene.step_asymmetry;
   style.time_asymmetry += scene.time_asymmetry;
   SimulationOptions options;
@@ -59,25 +60,21 @@ Result<UnbalancedMoment> walk_scene(const BodyRequest& body, GaitStyle style, co
     gait.style = style;
     return gait;
   };
-  const auto person = simulation.spawn(body, asked(scene.requests.front()));
-  if (!person) return tl::unexpected(person.error());
-  simulation.add_forces(*person);
-  BalanceMeter meter(simulation.human(*person)->body);
+  const auto person = must(simulation.spawn(body, asked(scene.requests.front())));
+  simulation.add_forces(person);
+  BalanceMeter meter(simulation.human(person)->body);
   std::size_t next = 1;
   while (simulation.time_s() < scene.seconds) {
     if (next < scene.requests.size() && simulation.time_s() >= scene.requests[next].after_s) {
       const Request& request = scene.requests[next++];
-      if (auto done = simulation.set_gait(*person, asked(request)); !done) return tl::unexpected(done.error());
+      must(simulation.set_gait(person, asked(request)));
       const double heading = request.heading_deg * std::numbers::pi / 180;
-      if (auto done = simulation.turn_to(*person, static_cast<float>(heading)); !done)
-        return tl::unexpected(done.error());
+      must(simulation.turn_to(person, static_cast<float>(heading)));
       const auto left_m = static_cast<float>(request.left_m), ahead_m = static_cast<float>(request.ahead_m);
-      if (left_m != 0 || ahead_m != 0) {
-        if (auto done = simulation.step_aside(*person, left_m, ahead_m); !done) return tl::unexpected(done.error());
-      }
+      if (left_m != 0 || ahead_m != 0) must(simulation.step_aside(person, left_m, ahead_m));
     }
     simulation.tick();
-    meter.add(*simulation.get<Pose>(*person), *simulation.get<GroundReaction>(*person), scene_tick_s);
+    meter.add(*simulation.get<Pose>(person), *simulation.get<GroundReaction>(person), scene_tick_s);
   }
   return meter.result();
 }
@@ -227,7 +224,7 @@ UnbalancedMoment BalanceMeter::result() const {
   return {std::sqrt(pitch_squares_ / n), pitch_peak_, std::sqrt(roll_squares_ / n), roll_peak_};
 }
 
-Result<std::vector<BalancedScene>> walk_balance_scenes(const BodyRequest& body, const GaitStyle& style) {
+std::vector<BalancedScene> walk_balance_scenes(const BodyRequest& body, const GaitStyle& style) {
   const Scene scenes[] = {{"straight", {{0, 1.3}}, 5},
                           {"faster and slower", {{0, 0.9}, {2, 1.7}, {6, 0.8}}, 10},
                           {"turning", {{0, 1.3}, {1, 1.3, 90}, {4, 1.3, -30}}, 8},
@@ -238,13 +235,12 @@ Result<std::vector<BalancedScene>> walk_balance_scenes(const BodyRequest& body, 
   std::vector<BalancedScene> walked;
   for (const Scene& scene : scenes) {
     const auto moment = walk_scene(body, style, scene);
-    if (!moment) return tl::unexpected(moment.error());
-    walked.push_back({scene.name, *moment});
+    walked.push_back({scene.name, moment});
   }
   return walked;
 }
 
-Result<void> over_steady_cycle(Simulation& simulation, Entity human, const std::function<void(double)>& row) {
+void over_steady_cycle(Simulation& simulation, Entity human, const std::function<void(double)>& row) {
   int cycles = -settling_cycles;
   double last = 0;
   while (simulation.time_s() < longest_s) {
@@ -255,9 +251,9 @@ Result<void> over_steady_cycle(Simulation& simulation, Entity human, const std::
     const double total = cycles + phase;
     if (total < -margin_cycles) continue;
     row(total);
-    if (total > 1 + margin_cycles) return {};
+    if (total > 1 + margin_cycles) return;
   }
-  return fail("the walk takes too long to get through five strides; ask for a quicker one");
+  throw Stopped("the walk takes too long to get through five strides; ask for a quicker one");
 }
 
 const CycleCurve* WalkedStride::curve(GaitQuantity quantity, bool from_vertical) const {
@@ -298,23 +294,21 @@ CycleCurve sample_cycle(const std::vector<double>& phase, const std::vector<doub
   return curve;
 }
 
-Result<WalkedStride> walk_stride(const BodyRequest& body, const GaitRequest& gait) {
+WalkedStride walk_stride(const BodyRequest& body, const GaitRequest& gait) {
   SimulationOptions options;
   options.tick_s = tick_s;
   Simulation simulation(options);
-  const auto entity = simulation.spawn(body, gait);
-  if (!entity) return tl::unexpected(entity.error());
-  simulation.add_forces(*entity);
+  const auto entity = must(simulation.spawn(body, gait));
+  simulation.add_forces(entity);
 
   TickRows rows;
   bool with_forces = true;
-  const auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {
+  over_steady_cycle(simulation, entity, [&](double phase) {
     rows.phase.push_back(phase);
-    with_forces = with_forces && add_forces(simulation, *entity, static_cast<double>(body.mass_kg), rows);
-    add_motion(simulation, *entity, rows);
+    with_forces = with_forces && add_forces(simulation, entity, static_cast<double>(body.mass_kg), rows);
+    add_motion(simulation, entity, rows);
   });
-  if (!walked) return tl::unexpected(walked.error());
-  return sample_stride(*simulation.human(*entity), rows, with_forces);
+  return sample_stride(*simulation.human(entity), rows, with_forces);
 }
 
 }  // namespace mobil

@@ -2,21 +2,15 @@
 // One steady stride of a simulated walk, sampled as measured ones are published; and whether the ground's forces on it
 // could make its motion.
 
-#include <array>
 #include <functional>
-#include <optional>
-#include <string_view>
-#include <vector>
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/gait_style.h>
 #include <mobil/components/pose.h>
 #include <mobil/components/segments.h>
-#include <mobil/engine/error.h>
 #include <mobil/forces.h>
 #include <mobil/simulation.h>
-#include "demo/lab/compare/compare_judge.h"
 #include "demo/lab/compare/compare_reference.h"
 
 namespace mobil {
@@ -59,12 +53,12 @@ struct BalancedScene {
 };
 
 /// Straight on, faster and slower, turning, starting and stopping, limping. Errors: a body or style out of range.
-Result<std::vector<BalancedScene>> walk_balance_scenes(const BodyRequest& body, const GaitStyle& style);
+std::vector<BalancedScene> walk_balance_scenes(const BodyRequest& body, const GaitStyle& style);
 
 /// Walks until steady, then through one more cycle of the right leg. After each tick of it `row` is told where in the
 /// cycle that leg is, in cycles from heel strike at 0 to the next at 1; from somewhat before to the first tick beyond
 /// 1.1. Error: a walk too slow to get there.
-Result<void> over_steady_cycle(Simulation& simulation, Entity human, const std::function<void(double)>& row);
+void over_steady_cycle(Simulation& simulation, Entity human, const std::function<void(double)>& row);
 
 /// Ground reaction of the right foot in body weights, moments of the right leg in N m/kg, over the right leg's cycle.
 struct StrideForces {
@@ -88,7 +82,7 @@ struct WalkedStride {
 };
 
 /// Walks until steady and then one stride more, in ticks of 1/240 s. Errors: a body or gait out of range.
-Result<WalkedStride> walk_stride(const BodyRequest& body, const GaitRequest& gait);
+WalkedStride walk_stride(const BodyRequest& body, const GaitRequest& gait);
 
 /// Values at rows of rising cycle phase (in cycles, from at most 0 to at least 1), at every 2 % between.
 CycleCurve sample_cycle(const std::vector<double>& phase, const std::vector<double>& value);

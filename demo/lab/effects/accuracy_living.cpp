@@ -12,9 +12,9 @@
 #include <mobil/muscle_table.h>
 #include <mobil/relevance.h>
 #include "assets/finite/control_points.h"
-#include "assets/finite/finite_motion.h"
 #include "assets/finite/shape_tables.h"
 #include "demo/program/commands.h"
+#include "demo/program/must.h"
 #include "demo/program/progress.h"
 #include "systems/deformation/reduced.h"
 #include "systems/muscles/belly_library.h"
@@ -25,12 +25,6 @@ namespace {
 constexpr Cells solved_cells = {4, 4, 16}, point_cells = {2, 2, 8};
 constexpr int steps_a_tick = 4, solved_every = 6, led_in_ticks = 45;
 using Points = std::vector<double>;  // three displacements a control point, m
-
-/// What a belly goes through up to a tick's end.
-struct WalkLoad {
-  double shortening = 0, activation = 0;
-  FinitePush push;
-};
 
 /// A muscle over the ticks of a walk; of those that are compared what each rung shows.
 struct MuscleTrack {
@@ -57,8 +51,7 @@ Points points_of(const NodalView& nodes, std::size_t width) {
   return points;
 }
 
-Result<std::vector<MuscleTrack>> walk_with_rungs(const AccuracyPlan& plan, std::size_t body, std::size_t speed,
-                                                 bool inertia) {
+std::vector<MuscleTrack> walk_with_rungs(const AccuracyPlan& plan, std::size_t body, std::size_t speed, bool inertia) {
   Simulation simulation;
   LegMuscles choice;
   choice.inertia = inertia;
@@ -67,8 +60,7 @@ Result<std::vector<MuscleTrack>> walk_with_rungs(const AccuracyPlan& plan, std::
   for (const Muscle muscle : plan.muscles) choice.muscles.set(static_cast<std::size_t>(muscle));
   const float speed_m_s = speed_class_m_s[speed] * std::sqrt(plan.bodies[body].height_m / accuracy_height_m);
   const auto copies = spawn_copies(simulation, plan.bodies[body], speed_m_s, choice, true);
-  if (!copies) return tl::unexpected(copies.error());
-  const Human human = *simulation.human(copies->front());
+  const Human human = *simulation.human(copies.front());
   std::vector<MuscleTrack> tracks;
   for (const Muscle muscle : plan.muscles) {
     const auto own = std::ranges::find(human.muscles, muscle, [](const HumanMuscle& one) { return one.plan.muscle; });
@@ -81,18 +73,18 @@ Result<std::vector<MuscleTrack>> walk_with_rungs(const AccuracyPlan& plan, std::
     if (t < settling - led_in_ticks) continue;
     for (MuscleTrack& track : tracks) {
       const Muscle muscle = track.plan.muscle;
-      const Entity first = simulation.muscle(copies->front(), muscle, Side::right);
+      const Entity first = simulation.muscle(copies.front(), muscle, Side::right);
       WalkLoad load;
       load.shortening = double{-simulation.get<EndDrive>(first)->to} / track.plan.belly_length_m;
       load.activation = double{simulation.get<Activation>(first)->activation};
       // Who is not simulated feels nothing of the frame.
-      const Entity moving = simulation.muscle(copies->back(), muscle, Side::right);
+      const Entity moving = simulation.muscle(copies.back(), muscle, Side::right);
       if (const auto frame = simulation.get<FrameLoad>(moving)) load.push = push_of(*frame);
       track.load.push_back(load);
       if (t < settling) continue;
       auto& shown = track.shown.emplace_back();
       for (std::size_t r = 0; r < rung_count; ++r) {
-        const Entity one = simulation.muscle((*copies)[r], muscle, Side::right);
+        const Entity one = simulation.muscle(copies[r], muscle, Side::right);
         shown[r] = points_of(simulation.nodal_displacement(one), 3 * node_count(point_cells));
       }
     }
@@ -105,10 +97,10 @@ HexahedralMesh solved_mesh(const MusclePlan& plan) {
   return scaled(finite_mesh(plan.muscle, solved_cells), scale);
 }
 
-/// Steps of a tick, or of a part of it, halved where they fail.
+/// A part of a tick, in steps that are halved where they fail.
 Result<void> follow(const FiniteBelly& belly, double tick_s, double foundation_hz, const WalkLoad& from,
                     const WalkLoad& to, double begin, double part, FiniteScratch& scratch, FiniteMotion& motion) {
-  constexpr double least_part = 1.0 / (steps_a_tick * 64);
+  constexpr double least_part = 1.0 / 256;
   const auto at_end = [&](double a, double b) { return a + (begin + part) * (b - a); };
   FiniteStep step{part * tick_s, tuned_damping_per_s(to.activation),
                   foundation_hz, at_end(from.shortening, to.shortening),
@@ -118,47 +110,38 @@ Result<void> follow(const FiniteBelly& belly, double tick_s, double foundation_h
     for (std::size_t c = 0; c < 3; ++c)
       step.push.gradient_s2[d][c] = at_end(from.push.gradient_s2[d][c], to.push.gradient_s2[d][c]);
   }
-  auto done = advance(belly, scratch, step, motion);
+  const auto done = advance(belly, scratch, step, motion);
   if (done || part < 1.5 * least_part) return done;
-  for (const double start : {begin, begin + part / 2}) {
-    done = follow(belly, tick_s, foundation_hz, from, to, start, part / 2, scratch, motion);
-    if (!done) return done;
-  }
-  return {};
+  return follow(belly, tick_s, foundation_hz, from, to, begin, part / 2, scratch, motion).and_then([&] {
+    return follow(belly, tick_s, foundation_hz, from, to, begin + part / 2, part / 2, scratch, motion);
+  });
 }
 
 /// Control points of 4×4×16 elements at rest at each tick's load, without what pushes, held sideways as what moves is
 /// held.
-Result<std::vector<Points>> resting_points(const MuscleTrack& track) {
-  const auto belly = make_finite_belly(solved_mesh(track.plan), {}, track.foundation_hz);
-  if (!belly) return tl::unexpected(belly.error());
-  FiniteScratch scratch = make_scratch(*belly);
-  FiniteState state = state_at_rest(*belly);
+std::vector<Points> resting_points(const MuscleTrack& track) {
+  const auto belly = must(make_finite_belly(solved_mesh(track.plan), {}, track.foundation_hz));
+  FiniteScratch scratch = make_scratch(belly);
+  FiniteState state = state_at_rest(belly);
   std::vector<Points> points;
   for (const WalkLoad& load : track.load) {
-    if (auto done = settle(*belly, scratch, state, load.shortening, load.activation); !done)
-      return tl::unexpected(done.error());
+    must(settle(belly, scratch, state, load.shortening, load.activation));
     points.push_back(sampled_points(solved_cells, point_cells, state.displacement_m));
   }
   return points;
 }
 
 /// As they move, led in from rest.
-Result<std::vector<Points>> moving_points(const MuscleTrack& track, double tick_s) {
-  const auto belly = make_finite_belly(solved_mesh(track.plan), {}, 0);
-  if (!belly) return tl::unexpected(belly.error());
-  FiniteScratch scratch = make_scratch(*belly);
-  FiniteMotion motion = motion_at_rest(*belly);
+std::vector<Points> moving_points(const MuscleTrack& track, double tick_s) {
+  const auto belly = must(make_finite_belly(solved_mesh(track.plan), {}, 0));
+  FiniteScratch scratch = make_scratch(belly);
+  FiniteMotion motion = motion_at_rest(belly);
   std::vector<Points> points;
   WalkLoad from;
   for (std::size_t t = 0; t < track.load.size(); ++t) {
     WalkLoad to = track.load[t];
     to.shortening *= std::min(1.0, static_cast<double>(t + 1) / (led_in_ticks / 3.0));
-    for (int s = 0; s < steps_a_tick; ++s) {
-      constexpr double part = 1.0 / steps_a_tick;
-      auto done = follow(*belly, tick_s, track.foundation_hz, from, to, s * part, part, scratch, motion);
-      if (!done) return tl::unexpected(done.error());
-    }
+    follow_tick(belly, tick_s, track.foundation_hz, from, to, steps_a_tick, scratch, motion);
     points.push_back(sampled_points(solved_cells, point_cells, motion.displacement_m));
     from = to;
   }
@@ -166,7 +149,7 @@ Result<std::vector<Points>> moving_points(const MuscleTrack& track, double tick_
 }
 
 /// Static shapes of the ticks that are compared: the table's, and what solutions of every few ticks put it right by.
-Result<std::vector<Points>> static_points(const MuscleTrack& track) {
+std::vector<Points> static_points(const MuscleTrack& track) {
   const Muscle muscle = track.plan.muscle;
   const double across = double{track.plan.scale.across}, along = double{track.plan.scale.along};
   const ShapeTable table = shape_table(muscle);
@@ -180,27 +163,22 @@ Result<std::vector<Points>> static_points(const MuscleTrack& track) {
   Points before, after;
   std::vector<Points> corrected = points;
   for (std::size_t begin = 0; begin < points.size(); begin += solved_every) {
-    const auto correction = [&](std::size_t at) -> Result<Points> {
+    const auto correction = [&](std::size_t at) {
       at = std::min(at, points.size() - 1);
       const WalkLoad& load = track.load[first + at];
-      auto solved = shape_samples(belly, across / along, std::array{load.shortening}, std::array{load.activation});
-      if (!solved) return tl::unexpected(solved.error());
-      Points off = std::move(solved->front().displacement_m);
+      auto solved =
+          must(shape_samples(belly, across / along, std::array{load.shortening}, std::array{load.activation}));
+      Points off = std::move(solved.front().displacement_m);
       for (std::size_t i = 0; i < off.size(); ++i) off[i] -= points[at][i];
       return off;
     };
     auto next = correction(begin + solved_every);
-    if (!next) return tl::unexpected(next.error());
-    if (before.empty()) {
-      auto now = correction(begin);
-      if (!now) return tl::unexpected(now.error());
-      before = std::move(*now);
-    }
+    if (before.empty()) before = correction(begin);
     for (std::size_t t = begin; t < std::min(begin + solved_every, points.size()); ++t) {
       const double part = static_cast<double>(t - begin) / solved_every;
-      for (std::size_t i = 0; i < before.size(); ++i) corrected[t][i] += (1 - part) * before[i] + part * (*next)[i];
+      for (std::size_t i = 0; i < before.size(); ++i) corrected[t][i] += (1 - part) * before[i] + part * next[i];
     }
-    before = std::move(*next);
+    before = std::move(next);
   }
   for (Points& one : corrected) {
     for (std::size_t i = 0; i < one.size(); ++i) one[i] *= i % 3 < 2 ? across : along;
@@ -226,24 +204,21 @@ struct TrackErrors {
 };
 
 /// Of a muscle in both walks of a body at a speed.
-Result<std::array<TrackErrors, 2>> compare(const std::array<const MuscleTrack*, 2>& track, double tick_s) {
+std::array<TrackErrors, 2> compare(const std::array<const MuscleTrack*, 2>& track, double tick_s) {
   const auto shape = static_points(*track[0]);
-  if (!shape) return tl::unexpected(shape.error());
   const auto still = resting_points(*track[0]);
-  if (!still) return tl::unexpected(still.error());
   std::array<TrackErrors, 2> errors;
   for (std::size_t inertia = 0; inertia < 2; ++inertia) {
     const MuscleTrack& of = *track[inertia];
     const auto moved = moving_points(of, tick_s);
-    if (!moved) return tl::unexpected(moved.error());
     const BellyScale<double> scale{double{of.plan.scale.across}, double{of.plan.scale.along}};
     const HexahedralMesh mesh = scaled(finite_mesh(of.plan.muscle, point_cells), scale);
     const std::size_t first = of.load.size() - of.shown.size();
     for (std::size_t r = 0; r < rung_count; ++r) {
       std::vector<float> off_m, volume_off;
       for (std::size_t t = 0; t < of.shown.size(); ++t) {
-        Points real = (*shape)[t];
-        for (std::size_t i = 0; i < real.size(); ++i) real[i] += (*moved)[first + t][i] - (*still)[first + t][i];
+        Points real = shape[t];
+        for (std::size_t i = 0; i < real.size(); ++i) real[i] += moved[first + t][i] - still[first + t][i];
         off_m.push_back(static_cast<float>(largest_distance_m(of.shown[t][r], real)));
         volume_off.push_back(static_cast<float>(std::abs(enclosed_volume(mesh, of.shown[t][r]) - 1)));
       }
@@ -255,35 +230,37 @@ Result<std::array<TrackErrors, 2>> compare(const std::array<const MuscleTrack*, 
 }
 
 /// The rows of systems/relevance/accuracy_table.cpp, and its costs.
-Result<void> print_accuracy() {
+void print_accuracy() {
   std::string rows, costs;
   for (const bool inertia : {false, true}) {
     AccuracyPlan plan = accuracy_plan();
     plan.progress = [&](double part) { show_part(inertia ? "errors with inertia" : "errors without inertia", part); };
     const auto errors = measure_errors(plan, inertia);
-    if (!errors) return tl::unexpected(errors.error());
-    rows += accuracy_source(*errors);
+    rows += accuracy_source(errors);
   }
   for (AccuracyPlan plan : living_plans()) {
     plan.progress = [](double part) { show_part("errors of muscles that pull", part); };
     const auto errors = measure_living_errors(plan);
-    if (!errors) return tl::unexpected(errors.error());
-    rows += accuracy_source(*errors);
+    rows += accuracy_source(errors);
   }
   for (const bool living : {false, true}) {
     for (const bool inertia : {false, true}) {
       show("costs");
       const auto cost = measure_costs(1024, inertia, living);
-      if (!cost) return tl::unexpected(cost.error());
-      costs += cost_source(*cost);
+      costs += cost_source(cost);
     }
   }
   show("");
   fmt::print("{}\n{}", rows, costs);
-  return {};
 }
 
 }  // namespace
+
+void follow_tick(const FiniteBelly& belly, double tick_s, double foundation_hz, const WalkLoad& from,
+                 const WalkLoad& to, int steps, FiniteScratch& scratch, FiniteMotion& motion) {
+  for (int s = 0; s < steps; ++s)
+    must(follow(belly, tick_s, foundation_hz, from, to, 1.0 / steps * s, 1.0 / steps, scratch, motion));
+}
 
 std::array<AccuracyPlan, 2> living_plans() {
   AccuracyPlan groups = accuracy_plan(), members = groups;
@@ -296,21 +273,14 @@ std::array<AccuracyPlan, 2> living_plans() {
   return {groups, members};
 }
 
-Result<std::vector<AccuracyRow>> measure_living_errors(const AccuracyPlan& plan) {
-  const auto tell = [&](double part) {
-    if (plan.progress) plan.progress(part);
-  };
+std::vector<AccuracyRow> measure_living_errors(const AccuracyPlan& plan) {
   constexpr std::size_t classes = speed_class_m_s.size();
   std::vector<BothWalks> walks;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     for (std::size_t c = 0; c < classes; ++c) {
       BothWalks& both = walks.emplace_back(BothWalks{b, c, {}});
-      for (const bool inertia : {false, true}) {
-        auto tracks = walk_with_rungs(plan, b, c, inertia);
-        if (!tracks) return tl::unexpected(tracks.error());
-        both.track[inertia] = std::move(*tracks);
-      }
-      tell(0.1 * static_cast<double>(walks.size()) / static_cast<double>(plan.bodies.size() * classes));
+      for (const bool inertia : {false, true}) both.track[inertia] = walk_with_rungs(plan, b, c, inertia);
+      plan.progress(0.1 * static_cast<double>(walks.size()) / static_cast<double>(plan.bodies.size() * classes));
     }
   }
   const std::size_t muscles = plan.muscles.size(), count = walks.size() * muscles;
@@ -320,8 +290,10 @@ Result<std::vector<AccuracyRow>> measure_living_errors(const AccuracyPlan& plan)
   in_parallel(threads.jobs(), count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const BothWalks& both = walks[i / muscles];
-      found[i] = compare({&both.track[0][i % muscles], &both.track[1][i % muscles]}, Simulation{}.tick_s());
-      tell(0.1 + 0.9 * static_cast<double>(++done) / static_cast<double>(count));
+      found[i] = attempt([&] {
+        return compare({&both.track[0][i % muscles], &both.track[1][i % muscles]}, Simulation{}.tick_s());
+      });
+      plan.progress(0.1 + 0.9 * static_cast<double>(++done) / static_cast<double>(count));
     }
   });
   std::vector<AccuracyRow> rows;
@@ -331,7 +303,7 @@ Result<std::vector<AccuracyRow>> measure_living_errors(const AccuracyPlan& plan)
         AccuracyRow row{plan.muscles[m], static_cast<SpeedClass>(c), inertia, {}, true, {}};
         for (std::size_t w = 0; w < walks.size(); ++w) {
           const auto& of = found[w * muscles + m];
-          if (!of) return tl::unexpected(of.error());
+          if (!of) throw Stopped(of.error().message);
           if (walks[w].speed != c) continue;
           const float size = plan.bodies[walks[w].body].height_m / accuracy_height_m;
           for (std::size_t r = 0; r < rung_count; ++r) {
@@ -353,7 +325,7 @@ Subcommand fit_accuracy_command() {
       "For those who change the library: prints rows and costs as systems/relevance/accuracy_table.cpp has them. "
       "Minutes.\n"
       "Example: mobil fit-accuracy > accuracy.txt";
-  command.run = [] { return exit_status_of("fit-accuracy", print_accuracy()); };
+  command.run = [] { return exit_status_of("fit-accuracy", attempt(print_accuracy)); };
   return command;
 }
 

@@ -10,6 +10,7 @@
 #include <mobil/rows.h>
 #include <mobil/schedule.h>
 #include "assets/surfaces/muscle_cage.h"
+#include "demo/program/must.h"
 #include "systems/deformation/reduced.h"
 #include "systems/muscles/belly_library.h"
 
@@ -27,13 +28,11 @@ struct Walk {
   std::vector<std::array<std::vector<float>, rung_count>> error_m;  // by muscle
 };
 
-Result<void> follow(const Simulation& simulation, const AccuracyPlan& plan, Walk& walk, bool counted) {
+void follow(const Simulation& simulation, const AccuracyPlan& plan, Walk& walk, bool counted) {
   for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
     for (const Side side : {Side::right, Side::left}) {
       ReferenceMuscle& reference = walk.reference[m][side];
-      if (auto done = reference.follow(simulation, simulation.muscle(walk.human[driving_rung], plan.muscles[m], side));
-          !done)
-        return done;
+      reference.follow(simulation, simulation.muscle(walk.human[driving_rung], plan.muscles[m], side));
       if (!counted) continue;
       for (std::size_t r = 0; r < rung_count; ++r) {
         const Entity muscle = simulation.muscle(walk.human[r], plan.muscles[m], side);
@@ -41,7 +40,6 @@ Result<void> follow(const Simulation& simulation, const AccuracyPlan& plan, Walk
       }
     }
   }
-  return {};
 }
 
 std::string number_list(const std::array<float, rung_count>& values) {
@@ -57,10 +55,9 @@ std::string number_list(const std::array<float, rung_count>& values) {
 
 }  // namespace
 
-Result<std::shared_ptr<const ReducedBasis>> reference_basis(const MusclePlan& plan, const LegMuscles& choice,
-                                                            const Cells& cells, std::uint32_t vectors) {
-  const auto mesh = bend_block(cells, muscle_cage(plan.muscle), reference_belly_m(plan.muscle), belly_grading);
-  if (!mesh) return tl::unexpected(mesh.error());
+std::shared_ptr<const ReducedBasis> reference_basis(const MusclePlan& plan, const LegMuscles& choice,
+                                                    const Cells& cells, std::uint32_t vectors) {
+  const auto mesh = must(bend_block(cells, muscle_cage(plan.muscle), reference_belly_m(plan.muscle), belly_grading));
   const auto across = static_cast<double>(plan.scale.across), along = static_cast<double>(plan.scale.along);
   ReducedOptions options;
   options.vectors = vectors;
@@ -70,17 +67,15 @@ Result<std::shared_ptr<const ReducedBasis>> reference_basis(const MusclePlan& pl
   options.middle_ratio = across / along;
   options.ratio_width = 1;
   options.middle_product = across * along;
-  auto basis = make_reduced_basis(*mesh, choice.material, choice.element, options);
-  if (!basis) return tl::unexpected(basis.error());
-  return std::make_shared<const ReducedBasis>(std::move(*basis));
+  auto basis = must(make_reduced_basis(mesh, choice.material, choice.element, options));
+  return std::make_shared<const ReducedBasis>(std::move(basis));
 }
 
-Result<ReferenceMuscle> ReferenceMuscle::make(std::shared_ptr<const ReducedBasis> basis, const HumanMuscle& muscle,
-                                              const LegMuscles& choice, double tick_s) {
+ReferenceMuscle::ReferenceMuscle(std::shared_ptr<const ReducedBasis> basis, const HumanMuscle& muscle,
+                                 const LegMuscles& choice, double tick_s) {
   const BellyScale<float>& scale = muscle.plan.scale;
-  const auto belly = make_reduced_belly(*basis, static_cast<double>(scale.across), static_cast<double>(scale.along));
-  if (!belly) return tl::unexpected(belly.error());
-  ReferenceMuscle made;
+  const auto belly =
+      must(make_reduced_belly(*basis, static_cast<double>(scale.across), static_cast<double>(scale.along)));
   const auto spread = [](const std::vector<float>& row) {
     std::vector<Line> lines(row.size());
     for (std::size_t i = 0; i < row.size(); ++i) std::fill_n(lines[i].lane, lane_count, row[i]);
@@ -88,32 +83,30 @@ Result<ReferenceMuscle> ReferenceMuscle::make(std::shared_ptr<const ReducedBasis
   };
   std::vector<float> motion(reduced_motion_width(basis->vectors, basis->inputs));
   std::vector<float> shape(reduced_shape_width(basis->vectors, basis->inputs));
-  write_motion(*belly, choice.damping_per_s, tick_s, motion);
-  write_shape(*belly, choice.damping_per_s, shape);
-  made.motion_ = spread(motion);
-  made.shape_ = spread(shape);
-  made.state_ = spread(std::vector<float>(reduced_state_width(basis->vectors)));
-  made.displacement_ = spread(std::vector<float>(3 * std::size_t{node_count(basis->options.control_cells)}));
-  made.scale_ = broadcast(scale);
-  made.tick_s_ = static_cast<float>(tick_s);
-  made.basis_ = std::move(basis);
-  return made;
+  write_motion(belly, choice.damping_per_s, tick_s, motion);
+  write_shape(belly, choice.damping_per_s, shape);
+  motion_ = spread(motion);
+  shape_ = spread(shape);
+  state_ = spread(std::vector<float>(reduced_state_width(basis->vectors)));
+  displacement_ = spread(std::vector<float>(3 * std::size_t{node_count(basis->options.control_cells)}));
+  scale_ = broadcast(scale);
+  tick_s_ = static_cast<float>(tick_s);
+  basis_ = std::move(basis);
 }
 
-Result<void> ReferenceMuscle::follow(const Simulation& simulation, Entity muscle) {
+void ReferenceMuscle::follow(const Simulation& simulation, Entity muscle) {
   const auto end = simulation.get<EndDrive>(muscle);
   if (!end || simulation.world().get<FarEnd>(muscle) != static_cast<std::uint64_t>(FarEnd::held))
-    return fail("a muscle is gone, or not driven by displacement");
+    throw Stopped("a muscle is gone, or not driven by displacement");
   const auto drive = broadcast(*end);
   const FarFaceDrive ends(FarEnd::held, drive);
   const auto load = simulation.get<FrameLoad>(muscle);
-  if (!load && basis_->options.frame_loads) return fail("a muscle lost its inertia");
+  if (!load && basis_->options.frame_loads) throw Stopped("a muscle lost its inertia");
   const auto loads = load ? broadcast(*load) : FrameLoad<Lanes<float>>{};
   const ReducedBlock block{*basis_, scale_, state_.data()->lane, motion_.data()->lane,
                            basis_->options.frame_loads ? &loads : nullptr};
   deform_reduced(block, ends, tick_s_);
   place_control_points(block, {shape_.data()->lane, displacement_.data()->lane}, ends);
-  return {};
 }
 
 float ReferenceMuscle::largest_error_m(const NodalView& nodes) const {
@@ -131,18 +124,15 @@ float ReferenceMuscle::largest_error_m(const NodalView& nodes) const {
   return largest;
 }
 
-Result<std::array<Entity, rung_count>> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
-                                                    const LegMuscles& choice, bool living) {
+std::array<Entity, rung_count> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
+                                            const LegMuscles& choice, bool living) {
   std::array<Entity, rung_count> all{};
   for (std::size_t r = 0; r < rung_count; ++r) {
-    const auto human = simulation.spawn(body, {.speed_m_s = speed_m_s});
-    if (!human) return tl::unexpected(human.error());
-    all[r] = *human;
-    if (auto done = simulation.add_leg_muscles(*human, choice); !done) return tl::unexpected(done.error());
+    const Entity human = all[r] = must(simulation.spawn(body, {.speed_m_s = speed_m_s}));
+    must(simulation.add_leg_muscles(human, choice));
     for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
       if (!choice.muscles[m]) continue;
-      if (auto done = simulation.set_method(*human, static_cast<Muscle>(m), rung_method(r, true, living)); !done)
-        return tl::unexpected(done.error());
+      must(simulation.set_method(human, static_cast<Muscle>(m), rung_method(r, true, living)));
     }
   }
   return all;
@@ -173,37 +163,29 @@ AccuracyPlan accuracy_plan() {
   return plan;
 }
 
-Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool inertia) {
+std::vector<AccuracyRow> measure_errors(const AccuracyPlan& plan, bool inertia) {
   Simulation simulation;
   LegMuscles choice;
   choice.inertia = inertia;
   choice.muscles.reset();
   for (const Muscle muscle : plan.muscles) choice.muscles.set(static_cast<std::size_t>(muscle));
-  const auto tell = [&](double part) {
-    if (plan.progress) plan.progress(part);
-  };
   std::vector<Walk> walks;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     std::vector<std::shared_ptr<const ReducedBasis>> basis;
     for (std::size_t c = 0; c < classes; ++c) {
       Walk walk{b, c, {}, {}, {}};
       const float speed = speed_class_m_s[c] * std::sqrt(plan.bodies[b].height_m / accuracy_height_m);
-      const auto copies = spawn_copies(simulation, plan.bodies[b], speed, choice, false);
-      if (!copies) return tl::unexpected(copies.error());
-      walk.human = *copies;
+      walk.human = spawn_copies(simulation, plan.bodies[b], speed, choice, false);
       const Human human = *simulation.human(walk.human[driving_rung]);
       for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
         const auto own = std::ranges::find(human.muscles, plan.muscles[m], [](const auto& h) { return h.plan.muscle; });
         if (basis.size() <= m) {
-          auto made = reference_basis(own->plan, choice);
-          if (!made) return tl::unexpected(made.error());
-          basis.push_back(std::move(*made));
-          tell(0.8 * static_cast<double>(b * plan.muscles.size() + m) /
-               static_cast<double>(plan.bodies.size() * plan.muscles.size()));
+          basis.push_back(reference_basis(own->plan, choice));
+          plan.progress(0.8 * static_cast<double>(b * plan.muscles.size() + m) /
+                        static_cast<double>(plan.bodies.size() * plan.muscles.size()));
         }
-        auto reference = ReferenceMuscle::make(basis[m], *own, choice, simulation.tick_s());
-        if (!reference) return tl::unexpected(reference.error());
-        walk.reference.push_back({*reference, *reference});
+        const ReferenceMuscle reference(basis[m], *own, choice, simulation.tick_s());
+        walk.reference.push_back({reference, reference});
       }
       walk.error_m.resize(plan.muscles.size());
       walks.push_back(std::move(walk));
@@ -213,10 +195,8 @@ Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool i
   const int settling = ticks_of(plan.settle_s), ticks = settling + ticks_of(plan.seconds);
   for (int t = 0; t < ticks; ++t) {
     simulation.tick();
-    for (Walk& walk : walks) {
-      if (auto done = follow(simulation, plan, walk, t >= settling); !done) return tl::unexpected(done.error());
-    }
-    tell(0.8 + 0.2 * t / ticks);
+    for (Walk& walk : walks) follow(simulation, plan, walk, t >= settling);
+    plan.progress(0.8 + 0.2 * t / ticks);
   }
   std::vector<AccuracyRow> rows;
   for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
@@ -235,28 +215,23 @@ Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool i
   return rows;
 }
 
-Result<RungCost> measure_costs(std::size_t humans, bool inertia, bool living) {
-  const auto crowd = BenchCrowd::make(humans);
-  if (!crowd) return tl::unexpected(crowd.error());
-  Simulation& simulation = (*crowd)->simulation();
+RungCost measure_costs(std::size_t humans, bool inertia, bool living) {
+  BenchCrowd crowd(humans);
+  Simulation& simulation = crowd.simulation();
   LegMuscles choice;
   choice.inertia = inertia;
   if (living) choice.activation = ExcitationSource::phase;
-  for (const Entity human : (*crowd)->people()) {
-    if (auto done = simulation.add_leg_muscles(human, choice); !done) return tl::unexpected(done.error());
-  }
-  const auto measure = [&](std::size_t rung, bool points) -> Result<double> {
-    for (const Entity human : (*crowd)->people()) {
-      for (std::size_t g = 0; g < muscle_group_count; ++g) {
-        if (auto done = simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points, living)); !done)
-          return tl::unexpected(done.error());
-      }
+  for (const Entity human : crowd.people()) must(simulation.add_leg_muscles(human, choice));
+  const auto measure = [&](std::size_t rung, bool points) {
+    for (const Entity human : crowd.people()) {
+      for (std::size_t g = 0; g < muscle_group_count; ++g)
+        must(simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points, living)));
     }
     for (int i = 0; i < 60; ++i) simulation.tick();  // until nothing fades any more
     constexpr int repeats = 12, ticks = 10;
     double least = INFINITY;
     for (int i = 0; i < repeats; ++i) {
-      const auto cpu_s = (*crowd)->cpu_of([&] {
+      const auto cpu_s = crowd.cpu_of([&] {
         for (int t = 0; t < ticks; ++t) simulation.tick();
       });
       double sum = 0;
@@ -265,11 +240,10 @@ Result<RungCost> measure_costs(std::size_t humans, bool inertia, bool living) {
       }
       least = std::min(least, sum);
     }
-    return 1e6 * least / (ticks * 2.0 * muscle_group_count * static_cast<double>((*crowd)->size()));
+    return 1e6 * least / (ticks * 2.0 * muscle_group_count * static_cast<double>(crowd.size()));
   };
   RungCost cost;
-  const auto nothing = measure(0, false);  // what asking for the time takes
-  if (!nothing) return tl::unexpected(nothing.error());
+  const double nothing = measure(0, false);  // what asking for the time takes
   for (std::size_t r = 1; r < rung_count; ++r) {
     const Rung& rung = rungs_of(living)[r];
     if (rung.cells == reference_cells) {  // in a tick a finer mesh's vectors are vectors like others
@@ -277,13 +251,11 @@ Result<RungCost> measure_costs(std::size_t humans, bool inertia, bool living) {
       cost.points_us[r] = cost.points_us[r - 1];
       continue;
     }
-    const auto bare = measure(r, false);
-    if (!bare) return tl::unexpected(bare.error());
-    const auto with = rung.method == Method::reduced ? measure(r, true) : bare;
-    if (!with) return tl::unexpected(with.error());
-    const double state_us = std::max(0.0, *bare - *nothing);
+    const double bare = measure(r, false);
+    const double with = rung.method == Method::reduced ? measure(r, true) : bare;
+    const double state_us = std::max(0.0, bare - nothing);
     cost.state_us[r] = static_cast<float>(state_us);
-    cost.points_us[r] = static_cast<float>(std::max(0.0, *with - *bare));
+    cost.points_us[r] = static_cast<float>(std::max(0.0, with - bare));
   }
   return cost;
 }

@@ -23,21 +23,22 @@ namespace mobil {
 /// What references are made of: 32 vectors of this mesh, extrapolated.
 inline constexpr Cells reference_cells = {8, 8, 32};
 
-/// The basis for a muscle of one person's size, of `choice` with its inertia and damping. Errors: those of
-/// make_reduced_basis.
-Result<std::shared_ptr<const ReducedBasis>> reference_basis(const MusclePlan& plan, const LegMuscles& choice,
-                                                            const Cells& cells = reference_cells,
-                                                            std::uint32_t vectors = most_vectors);
+/// The basis for a muscle of one person's size, of `choice` with its inertia and damping. Throws Stopped as
+/// make_reduced_basis fails.
+std::shared_ptr<const ReducedBasis> reference_basis(const MusclePlan& plan, const LegMuscles& choice,
+                                                    const Cells& cells = reference_cells,
+                                                    std::uint32_t vectors = most_vectors);
 
 /// Belly that others are held against, driven by the very line and frame of a simulation's muscle: one muscle of one
 /// leg, at rest at first.
 class ReferenceMuscle {
  public:
-  static Result<ReferenceMuscle> make(std::shared_ptr<const ReducedBasis> basis, const HumanMuscle& muscle,
-                                      const LegMuscles& choice, double tick_s);
+  ReferenceMuscle(std::shared_ptr<const ReducedBasis> basis, const HumanMuscle& muscle, const LegMuscles& choice,
+                  double tick_s);
 
-  /// One tick, as that muscle of the simulation was just driven; fails where it is gone or not driven by displacement.
-  Result<void> follow(const Simulation& simulation, Entity muscle);
+  /// One tick, as that muscle of the simulation was just driven; throws Stopped where it is gone or not driven by
+  /// displacement.
+  void follow(const Simulation& simulation, Entity muscle);
   /// The largest distance of a control point from where `nodes` has it, m; of no nodes its own displacement.
   float largest_error_m(const NodalView& nodes) const;
 
@@ -59,24 +60,24 @@ struct AccuracyPlan {
   std::vector<Muscle> muscles;
   std::vector<BodyRequest> bodies;  // each walks at every class' speed, in proportion to the root of height
   double settle_s = 3, seconds = 6;
-  std::function<void(double)> progress{};  // parts done
+  std::function<void(double)> progress = [](double) {};  // parts done
 };
 /// Four groups; light, middling and heavy bodies, small and tall.
 AccuracyPlan accuracy_plan();
 
 /// Rows of `inertia` or without: the worst body's 99.9th percentile, in parts of its height over the reference body's.
-Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool inertia);
+std::vector<AccuracyRow> measure_errors(const AccuracyPlan& plan, bool inertia);
 
 /// What rungs cost in a crowd, processor time.
-Result<RungCost> measure_costs(std::size_t humans, bool inertia, bool living);
+RungCost measure_costs(std::size_t humans, bool inertia, bool living);
 
 /// Rows and costs as systems/relevance/accuracy_table.cpp has them.
 std::string accuracy_source(const std::vector<AccuracyRow>& rows);
 std::string cost_source(const RungCost& cost);
 
 /// Copies of one walker with muscles of the choice, one for each rung of a ladder. Fails as Simulation does.
-Result<std::array<Entity, rung_count>> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
-                                                    const LegMuscles& choice, bool living);
+std::array<Entity, rung_count> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
+                                            const LegMuscles& choice, bool living);
 
 /// Takes the value below which `part` of them lie; reorders. 0 of none.
 float percentile(std::vector<float>& values, double part);

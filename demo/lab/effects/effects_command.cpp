@@ -3,21 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
-#include <memory>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <mobil/assets/export/walk_recording.h>
-#include <mobil/engine/error.h>
 #include <mobil/relevance.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/relevance/accuracy_table.h>
 #include "demo/lab/effects/accuracy_measure.h"
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
 #include "demo/program/json.h"
+#include "demo/program/must.h"
 #include "demo/program/progress.h"
 #include "demo/walk/figure.h"
 
@@ -90,26 +85,19 @@ std::string_view rung_adds(const Rung& rung) {
 
 /// Measures by switching each effect on in a crowd of that many and reading Simulation::report(). `progress` is told
 /// what is measured. Errors: what the simulation refuses.
-Result<EffectAccount> measure_effects(std::size_t humans, const std::function<void(const std::string&)>& progress) {
+EffectAccount measure_effects(std::size_t humans, const std::function<void(const std::string&)>& progress) {
   Simulation simulation;
   EffectAccount account{humans, 2 * muscle_group_count, simulation.tick_s(), {}, {}};
   std::vector<Entity> people;
   progress("spawning");
   for (std::size_t i = 0; i < humans; ++i) {
     const auto human =
-        simulation.spawn({}, {.speed_m_s = 0.9F + 0.8F * static_cast<float>(i) / static_cast<float>(humans)});
-    if (!human) return tl::unexpected(human.error());
-    people.push_back(*human);
+        must(simulation.spawn({}, {.speed_m_s = 0.9F + 0.8F * static_cast<float>(i) / static_cast<float>(humans)}));
+    people.push_back(human);
   }
   Meter meter(simulation, humans);
   const auto add = [&](std::string name, std::string adds, std::string needs, double us, std::string systems) {
     account.effects.push_back({std::move(name), std::move(adds), std::move(needs), us, std::move(systems)});
-  };
-  const auto everybody = [&](const auto& ask) -> Result<void> {
-    for (const Entity human : people) {
-      if (Result<void> done = ask(human); !done) return done;
-    }
-    return {};
   };
   std::string systems;
 
@@ -128,42 +116,39 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   progress("muscles");
   LegMuscles choice;
   choice.method = Method::none;
-  auto done = everybody([&](Entity human) { return simulation.add_leg_muscles(human, choice); });
-  if (!done) return tl::unexpected(done.error());
+  for (const Entity human : people) must(simulation.add_leg_muscles(human, choice));
   const auto change_all = [&] {
-    return everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
+    for (const Entity human : people) must(simulation.change_leg_muscles(human, choice));
   };
   us = meter(named({"leg frames", "lines of action"}), &systems);
   add("lines of action", "where muscles run, how long they are", "kinematics; add_leg_muscles()", us, systems);
 
   choice.line_motion = true;
-  if (done = change_all(); !done) return tl::unexpected(done.error());
+  change_all();
   us = meter(named({"line motion"}), &systems);
   add("line motion", "lengthening speed and moment arms (nothing to see)", "lines; LegMuscles::line_motion", us,
       systems);
   choice.line_motion = false;
   choice.activation = ExcitationSource::phase;
-  if (done = change_all(); !done) return tl::unexpected(done.error());
+  change_all();
   us = meter(named({"activation"}), &systems);
   add("activation", "muscles pull as the walk asks, tendons stretch", "lines; LegMuscles::activation", us, systems);
   for (const Entity human : people) simulation.add_forces(human);
   choice.activation = ExcitationSource::moments;
-  if (done = change_all(); !done) return tl::unexpected(done.error());
+  change_all();
   us = meter(named({"leg moments"}), &systems);
   add("moments", "muscles share the walk's own moments as costs them least", "activation; forces", us, systems);
   choice.activation = ExcitationSource::none;
-  if (done = change_all(); !done) return tl::unexpected(done.error());
+  change_all();
   for (const Entity human : people) simulation.remove_forces(human);
 
   const auto set_all = [&](std::size_t rung, bool points, bool tuned = false) {
     MuscleMethod method = rung_method(rung, points);
     method.reduced.tuned = tuned;
-    return everybody([&](Entity human) -> Result<void> {
-      for (std::size_t g = 0; g < muscle_group_count; ++g) {
-        if (auto set = simulation.set_method(human, static_cast<Muscle>(g), method); !set) return set;
-      }
-      return {};
-    });
+    for (const Entity human : people) {
+      for (std::size_t g = 0; g < muscle_group_count; ++g)
+        must(simulation.set_method(human, static_cast<Muscle>(g), method));
+    }
   };
   constexpr std::size_t shown_rung = 5;  // whose control points and inertia are reported
   constexpr int fading_ticks = 30;
@@ -174,14 +159,14 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   for (std::size_t r = 1; r < rung_count; ++r) {
     if (rungs[r].cells == Cells{8, 8, 32}) continue;  // costs in a tick what the coarser one does, and long to make
     progress(fmt::format("muscles, {}", rungs[r].name));
-    if (done = set_all(r, !rungs[r].moving); !done) return tl::unexpected(done.error());
+    set_all(r, !rungs[r].moving);
     settle();
     us = meter(deforms, &systems);
     if (r == shown_rung) moving_us = us;
     const std::string needs = rungs[r].moving ? "lines; set_method()" : "lines; set_method(); with control points";
     add(fmt::format("muscles, {}", rungs[r].name), std::string(rung_adds(rungs[r])), needs, us, systems);
   }
-  if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
+  set_all(shown_rung, true);
   settle();
   us = meter(deforms, &systems) - moving_us;
   add("control points", fmt::format("81 points a muscle to draw from (of {})", rungs[shown_rung].name),
@@ -191,8 +176,8 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   const double points_us = us;
   choice.method = Method::none;
   choice.finite_shape = true;
-  if (done = change_all(); !done) return tl::unexpected(done.error());
-  if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
+  change_all();
+  set_all(shown_rung, true);
   settle();
   us = meter(named({"finite shape, reduced"}), &systems) - points_us;  // it places them too
   add("finite shape", "bellies keep their volume, and are thick where they pull",
@@ -200,8 +185,8 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   choice.finite_shape = false;
   choice.activation = ExcitationSource::phase;
   choice.method = Method::none;
-  if (done = change_all(); !done) return tl::unexpected(done.error());
-  if (done = set_all(shown_rung, false, true); !done) return tl::unexpected(done.error());
+  change_all();
+  set_all(shown_rung, false, true);
   settle();
   us = meter(deforms, &systems) - moving_us;
   add("tuned", fmt::format("who pulls is shaken less, and for a shorter time (of {})", rungs[shown_rung].name),
@@ -210,19 +195,18 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   choice.finite_shape.reset();
   choice.activation = ExcitationSource::none;
   choice.method = Method::none;
-  if (done = change_all(); !done) return tl::unexpected(done.error());
-  if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
+  change_all();
+  set_all(shown_rung, true);
   settle();
 
   progress("surfaces");
   const Human human = *simulation.human(people.front());
-  const auto figure = make_figure(human);
-  if (!figure) return tl::unexpected(figure.error());
-  WalkRecording recording = begin_recording(*figure, static_cast<float>(simulation.tick_s()));
+  const auto figure = must(make_figure(human));
+  WalkRecording recording = begin_recording(figure, static_cast<float>(simulation.tick_s()));
   const Measured skinned = measure(5, [&] {
     recording.frames.clear();
     for (auto& muscle : recording.muscles) muscle.position_m.clear();
-    record_frame(*figure, simulation, human, recording);
+    record_frame(figure, simulation, human, recording);
   });
   std::size_t vertices = 0;
   for (const auto& muscle : recording.muscles) vertices += muscle.position_m.front().size();
@@ -230,11 +214,11 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
       1e6 * skinned.best_s, "skinning");
 
   progress("inertia");
-  if (done = set_all(shown_rung, false); !done) return tl::unexpected(done.error());
+  set_all(shown_rung, false);
   choice.inertia = true;
   choice.method = Method::none;
-  if (done = change_all(); !done) return tl::unexpected(done.error());
-  if (done = set_all(shown_rung, false); !done) return tl::unexpected(done.error());
+  change_all();
+  set_all(shown_rung, false);
   settle();
   us = meter(named({"frame motion"}), &systems) + meter(deforms) - moving_us;
   add("inertia", fmt::format("gravity and every jolt shake bellies (of {})", rungs[shown_rung].name),
@@ -286,22 +270,14 @@ struct EffectsCommand {
   std::string json;
 };
 
-Result<void> list_effects(const EffectsCommand& text) {
+void run_effects(const EffectsCommand& text) {
+  if (text.humans < 1 || text.humans > most_humans)
+    throw Stopped(fmt::format("--humans {}: give 1 to {}", text.humans, most_humans));
+  if (!text.json.empty()) must(check_result_place("--json", text.json));
   const auto account = measure_effects(text.humans, show);
   show("");
-  if (!account) return tl::unexpected(account.error());
-  fmt::print("{}", effects_table(*account));
-  if (text.json.empty()) return {};
-  return write_result("--json", text.json, effects_json(*account));
-}
-
-Result<void> run_effects(const EffectsCommand& text) {
-  if (text.humans < 1 || text.humans > most_humans)
-    return fail(fmt::format("--humans {}: give 1 to {}", text.humans, most_humans));
-  if (!text.json.empty()) {
-    if (auto ok = check_result_place("--json", text.json); !ok) return ok;
-  }
-  return list_effects(text);
+  fmt::print("{}", effects_table(account));
+  if (!text.json.empty()) must(write_result("--json", text.json, effects_json(account)));
 }
 
 }  // namespace
@@ -322,7 +298,7 @@ Subcommand effects_command() {
       "          mobil effects --json effects.json";
   command.options = {{"--humans", &text->humans, "How many walk while effects are measured"},
                      {"--json", &text->json, "File for the figures"}};
-  command.run = [text] { return exit_status_of("effects", run_effects(*text)); };
+  command.run = [text] { return exit_status_of("effects", attempt([&] { run_effects(*text); })); };
   return command;
 }
 

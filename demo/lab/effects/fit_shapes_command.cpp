@@ -12,6 +12,7 @@
 #include "assets/finite/packed_shapes.h"
 #include "assets/finite/shape_tables.h"
 #include "demo/program/commands.h"
+#include "demo/program/must.h"
 #include "demo/program/progress.h"
 
 namespace mobil {
@@ -22,34 +23,30 @@ constexpr std::array held_shortenings = {-0.175, -0.075, 0.025, 0.075, 0.125, 0.
 constexpr std::array held_activations = {0.02, 0.1, 0.25, 0.7};
 constexpr std::array held_ratios = {0.9, 1.0, 1.1};
 
-Result<void> write_table(Muscle muscle, const std::string& folder) {
-  const auto made = make_shape_table(muscle);
-  if (!made) return tl::unexpected(made.error());
-  const auto packed = pack_shapes(*made);
-  if (!packed) return tl::unexpected(packed.error());
+void write_table(Muscle muscle, const std::string& folder) {
+  const auto made = must(make_shape_table(muscle));
+  const auto packed = must(pack_shapes(made));
   const std::string path = fmt::format("{}/{}.inl", folder, muscle_name(muscle));
-  if (auto done = write_file(path, initialiser(*packed)); !done) return done;
-  const ShapeTable kept = unpack_shapes(*packed);
+  must(write_file(path, initialiser(packed)));
+  const ShapeTable kept = unpack_shapes(packed);
   const SampledBelly belly = sampled_belly(muscle);
   const HexahedralMesh control = finite_mesh(muscle, kept.control);
   std::string line = fmt::format("{:<27}", muscle_name(muscle));
   for (const double ratio : held_ratios) {
-    const auto samples = shape_samples(belly, ratio, held_shortenings, held_activations);
-    if (!samples) return tl::unexpected(samples.error());
-    const ShapeErrors errors = shape_errors(kept, control, *samples);
+    const auto samples = must(shape_samples(belly, ratio, held_shortenings, held_activations));
+    const ShapeErrors errors = shape_errors(kept, control, samples);
     line += fmt::format("{:>8.1f} {:>5.1f} {:>5.2f} {:>5.2f}", 100 * errors.rms, 100 * errors.worst,
                         1e3 * errors.farthest_m, 100 * errors.volume);
   }
   show("");
   fmt::print("{}\n", line);
-  return {};
 }
 
 /// Also prints how near each is to shapes that it was not made from.
-Result<void> write_finite_tables(const std::string& folder) {
+void write_finite_tables(const std::string& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) return fail(fmt::format("--out {}: {}; give a folder that can be made", folder, failed.message()));
+  if (failed) throw Stopped(fmt::format("--out {}: {}; give a folder that can be made", folder, failed.message()));
   fmt::print(
       "shapes that tables were not made from: displacement across off, rms and worst, %; farthest point off, mm; "
       "volume "
@@ -57,10 +54,9 @@ Result<void> write_finite_tables(const std::string& folder) {
       "", "slenderness 0.9", "1", "1.1");
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     show_part(std::string(muscles()[m].name), static_cast<double>(m) / static_cast<double>(muscles().size()));
-    if (auto done = write_table(static_cast<Muscle>(m), folder); !done) return done;
+    write_table(static_cast<Muscle>(m), folder);
   }
   say_where(fmt::format("look at {}", folder));
-  return {};
 }
 
 }  // namespace
@@ -73,7 +69,7 @@ Subcommand fit_shapes_command() {
       "Example: mobil fit-shapes --out assets/finite/tables";
   command.options = {{"--out", out.get(), "Folder for the tables, made if missing"}};
   command.empty_refused = true;
-  command.run = [out] { return exit_status_of("fit-shapes", write_finite_tables(*out)); };
+  command.run = [out] { return exit_status_of("fit-shapes", attempt([&] { write_finite_tables(*out); })); };
   return command;
 }
 

@@ -8,6 +8,7 @@
 
 #include <mobil/engine/jobs.h>
 #include <mobil/muscle_table.h>
+#include "demo/program/must.h"
 #include "systems/muscles/belly_library.h"
 
 namespace mobil {
@@ -58,41 +59,29 @@ std::vector<FrontierRung> short_rungs() {
   return all;
 }
 
-/// One muscle under one scene's loads.
-struct Work {
-  std::size_t scene, muscle;
-};
-
 struct Answers {
   std::vector<FrontierError> error;                          // of each rung
   std::vector<std::vector<FrontierIndividual>> individuals;  // empty where it could not be stepped
   FrontierReference reference;
 };
 
-Result<Answers> answers_of(const FrontierRequest& request, const FrontierDrive& drive, bool loads,
-                           std::vector<std::string>& why, const std::function<void()>& step) {
-  auto reference = make_reference(drive, request.reference, request.checks, loads);
+Answers answers_of(const FrontierRequest& request, const FrontierDrive& drive, bool loads,
+                   std::vector<std::string>& why, const std::function<void()>& step) {
+  auto reference = attempt([&] { return make_reference(drive, request.reference, loads); });
   if (!reference)
-    return fail(fmt::format("the reference of {}: {}", muscle_name(drive.muscle), reference.error().message));
+    throw Stopped(fmt::format("the reference of {}: {}", muscle_name(drive.muscle), reference.error().message));
   Answers all{{}, {}, std::move(*reference)};
   BellyLibrary library;
   for (const FrontierRung& rung : request.rungs) {
     step();
     all.error.emplace_back();
     all.individuals.emplace_back();
-    auto individuals = frontier_individuals(drive, rung.method, loads, library);
-    if (!individuals) {
-      why.push_back(individuals.error().message);
-      continue;
-    }
-    const auto answer = answer_of(drive, rung.method, *individuals, loads);
-    if (!answer) {
-      why.push_back(answer.error().message);
-      continue;
-    }
-    all.error.back().add(*answer, all.reference.truth, drive.walks);
-    all.individuals.back() = std::move(*individuals);
-    why.emplace_back();
+    const auto done = attempt([&] {
+      auto individuals = frontier_individuals(drive, rung.method, loads, library);
+      all.error.back().add(answer_of(drive, rung.method, individuals, loads), all.reference.truth, drive.walks);
+      all.individuals.back() = std::move(individuals);
+    });
+    why.push_back(done ? "" : done.error().message);
   }
   all.reference.truth = {};
   return all;
@@ -127,11 +116,13 @@ struct AnswerTable {
 
   void make(std::size_t at) {
     const std::size_t muscles = drives.size();
-    answers[at] = answers_of(request, drives[at % muscles], request.scenes[at / muscles], why[at], [this] {
+    const auto step = [this] {
       const std::scoped_lock lock(telling);
       request.progress("answers",
                        static_cast<double>(++done) / static_cast<double>(answers.size() * request.rungs.size()));
-    });
+    };
+    answers[at] =
+        attempt([&] { return answers_of(request, drives[at % muscles], request.scenes[at / muscles], why[at], step); });
   }
 };
 
@@ -178,22 +169,17 @@ FrontierRequest long_frontier() {
   return request;
 }
 
-Result<Frontier> measure_frontier(const FrontierRequest& request) {
+Frontier measure_frontier(const FrontierRequest& request) {
   request.progress("walks", 0);
   const auto drives = record_walks(request.muscles, request.walks, request.seconds);
-  if (!drives) return tl::unexpected(drives.error());
-  const std::size_t muscles = drives->size(), count = request.scenes.size() * muscles;
-  AnswerTable table(request, *drives, count);
+  const std::size_t muscles = drives.size(), count = request.scenes.size() * muscles;
+  AnswerTable table(request, drives, count);
   const Threads threads(request.threads);
-  const Jobs jobs = threads.jobs();
-  jobs.parallel_for(
-      jobs.user, count,
-      [](void* context, std::size_t begin, std::size_t end) {
-        for (std::size_t at = begin; at < end; ++at) static_cast<AnswerTable*>(context)->make(at);
-      },
-      &table);
+  in_parallel(threads.jobs(), count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at) table.make(at);
+  });
   for (const auto& answers : table.answers) {
-    if (!*answers) return tl::unexpected(answers->error());
+    if (!*answers) throw Stopped(answers->error().message);
   }
 
   Frontier frontier;
@@ -204,16 +190,14 @@ Result<Frontier> measure_frontier(const FrontierRequest& request) {
     const auto answers = [&](std::size_t m) -> Answers& { return **table.answers[scene * muscles + m]; };
     FrontierChange change;
     change.loads = loads;
-    FrontierError mesh, fewer, plain;
+    FrontierError mesh, fewer;
     for (std::size_t m = 0; m < muscles; ++m) {
       const FrontierReference& own = answers(m).reference;
       mesh.add(own.mesh);
       fewer.add(own.vectors);
-      if (own.elements) plain.add(*own.elements);
     }
     change.mesh = mesh.relative();
     change.vectors = fewer.relative();
-    if (plain.reference_square > 0) change.elements = plain.relative();
     frontier.change.push_back(change);
 
     std::vector<FrontierRow> rows(request.rungs.size());
@@ -240,7 +224,7 @@ Result<Frontier> measure_frontier(const FrontierRequest& request) {
       rows[r].uncertain = rows[r].error < 10 * change.own();
       priced.push_back({&request.rungs[r], individuals[r], &rows[r]});
     }
-    if (auto done = price(priced, *drives, loads, frontier); !done) return tl::unexpected(done.error());
+    price(priced, drives, loads, frontier);
     for (const FrontierPriced& p : priced) frontier.rows.push_back(std::move(*p.row));
   }
   mark_frontier(frontier.rows);

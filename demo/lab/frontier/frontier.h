@@ -2,19 +2,11 @@
 // What accuracy costs: every way to deform a muscle over the same walks, how far it is from a converged reference and
 // what a tick of it takes. The parts of `mobil frontier`.
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include "demo/lab/frontier/frontier_answers.h"
-#include "demo/lab/frontier/frontier_method.h"
-#include "demo/lab/frontier/frontier_walks.h"
 #include "demo/measure/machine.h"
 #include "demo/pictures/svg_plot.h"
 
@@ -27,8 +19,7 @@ struct FrontierRung {
   std::string mark{};
 };
 
-/// What is measured. `reference`: cells of the mesh that the reference is made on. `checks`: cells of plain explicit
-/// meshes, one with half the other's cells, whose extrapolated answer the reference is held against; empty for none.
+/// What is measured. `reference`: cells of the mesh that the reference is made on.
 /// `bytes`: of a method's crowd, so that caches do not flatter, unless a tick of it then took longer than `call_s`.
 struct FrontierRequest {
   std::vector<Muscle> muscles = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
@@ -38,7 +29,6 @@ struct FrontierRequest {
   std::vector<bool> scenes = {false, true};  // with the frame's loads
   std::vector<FrontierRung> rungs;           // the first is what ratios are to
   Cells reference = {8, 8, 32};
-  std::vector<Cells> checks{};
   std::size_t bytes = std::size_t{48} << 20;
   double call_s = 0.02;
   int rounds = 5;
@@ -67,11 +57,10 @@ struct FrontierRow {
 };
 
 /// How far the reference moves, relative as errors are: against the same on half its cells; with 24 vectors instead of
-/// 32; and against plain explicit meshes extrapolated, where asked for.
+/// 32.
 struct FrontierChange {
   bool loads = false;
   double mesh = 0, vectors = 0;
-  std::optional<double> elements{};
 
   double own() const { return mesh > vectors ? mesh : vectors; }
 };
@@ -88,7 +77,7 @@ struct Frontier {
 
 /// Fails on walks or bodies out of range or a reference that cannot be made. A rung that somebody cannot be stepped by
 /// is left out with a note.
-Result<Frontier> measure_frontier(const FrontierRequest& request);
+Frontier measure_frontier(const FrontierRequest& request);
 
 /// Marks the rows of each scene that no other is both nearer and cheaper than (at least as near and as cheap, and one
 /// of them more), by cost_us and by points_us.
@@ -106,10 +95,8 @@ std::string frontier_text(const Frontier& frontier);
 struct FrontierReference {
   FrontierAnswer truth;
   FrontierError mesh, vectors;
-  std::optional<FrontierError> elements{};
 };
-Result<FrontierReference> make_reference(const FrontierDrive& drive, const Cells& cells, std::span<const Cells> checks,
-                                         bool loads);
+FrontierReference make_reference(const FrontierDrive& drive, const Cells& cells, bool loads);
 
 /// Fills in cost_us, points_us, memory_bytes, dt_s and the ratios of the rows of one scene. `individuals`: of each
 /// row's rung, of each drive, its sixteen.
@@ -118,7 +105,6 @@ struct FrontierPriced {
   std::span<const std::vector<FrontierIndividual>> individuals;
   FrontierRow* row;
 };
-Result<void> price(std::span<const FrontierPriced> all, std::span<const FrontierDrive> drives, bool loads,
-                   Frontier& frontier);
+void price(std::span<const FrontierPriced> all, std::span<const FrontierDrive> drives, bool loads, Frontier& frontier);
 
 }  // namespace mobil

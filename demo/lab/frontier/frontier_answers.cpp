@@ -1,15 +1,21 @@
-#include "demo/lab/frontier/frontier_answers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
+#include <utility>
 
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
+#include "demo/lab/effects/accuracy_measure.h"
+#include "demo/lab/frontier/frontier.h"
+#include "demo/program/must.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"
+#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {
@@ -32,12 +38,12 @@ std::vector<Group> groups_of(const std::vector<FrontierIndividual>& individuals)
 }
 
 /// The least number of ticks that is a whole number of steps.
-Result<std::size_t> meeting(double dt_s) {
+std::size_t meeting(double dt_s) {
   for (std::size_t ticks = 1; ticks <= 60; ++ticks) {
     const double steps = static_cast<double>(ticks) * frontier_tick_s / dt_s;
     if (std::abs(steps - std::round(steps)) < 1e-6) return ticks;
   }
-  return fail(
+  throw Stopped(
       fmt::format("frontier: steps of {} s never meet ticks of {:.6g} s; give another step", dt_s, frontier_tick_s));
 }
 
@@ -62,13 +68,11 @@ struct Calendar {
   }
 };
 
-Result<void> answer_by_elements(const FrontierDrive& drive, const FrontierMethod& method, const Group& group,
-                                bool loads, const Calendar& calendar) {
+void answer_by_elements(const FrontierDrive& drive, const FrontierMethod& method, const Group& group, bool loads,
+                        const Calendar& calendar) {
   const MuscleTemplate& shape = *group.individual->shape;
   const auto points = frontier_mesh(drive.muscle, frontier_points);
-  if (!points) return tl::unexpected(points.error());
-  const auto sampler = FrontierSampler::make(shape.mesh, *points);
-  if (!sampler) return tl::unexpected(sampler.error());
+  const FrontierSampler sampler(shape.mesh, points);
   std::vector<Lanes<float>> displacement(nodal_width(shape.mesh.cells)), velocity(displacement.size());
   std::vector<Lanes<float>> scratch(scratch_floats(shape, method.choice.method) / lane_count + 1);
   const std::uint32_t steps = method.fixed_step ? 1 : group.individual->steps;
@@ -86,8 +90,7 @@ Result<void> answer_by_elements(const FrontierDrive& drive, const FrontierMethod
           deform_implicit(block, *group.individual->solver, {FarEnd::held, end}, steps, call_s, scratch.data()->lane);
         }
       },
-      [&](Lanes<float>* to) { sampler->sample(displacement.data()->lane, group.lanes, to); });
-  return {};
+      [&](Lanes<float>* to) { sampler.sample(displacement.data()->lane, group.lanes, to); });
 }
 
 /// Sixteen individuals' numbers, sixteen lanes at each.
@@ -133,21 +136,60 @@ void answer_by_vectors(const FrontierDrive& drive, const FrontierMethod& method,
       });
 }
 
+constexpr std::uint32_t fewer_vectors = 24, vectors_of_a_coarse_mesh = 16;
+
+Cells half(const Cells& cells) {
+  return {cells[0] / 2, cells[1] / 2, cells[2] / 2};
+}
+
+/// Sixteen individuals, each with vectors of its own size alone, of a mesh and one of half its cells extrapolated.
+std::vector<FrontierIndividual> own_vectors(const FrontierDrive& drive, const Cells& cells, std::uint32_t vectors,
+                                            bool loads) {
+  LegMuscles choice;
+  choice.inertia = loads;
+  std::vector<FrontierIndividual> all(lane_count);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    for (std::size_t before = 0; before < lane && all[lane].basis == nullptr; ++before) {
+      const bool same = drive.scale.across[before] == drive.scale.across[lane] &&
+                        drive.scale.along[before] == drive.scale.along[lane];
+      if (same) all[lane] = all[before];
+    }
+    if (all[lane].basis != nullptr) continue;
+    all[lane].basis = reference_basis(drive.plan[lane], choice, cells, vectors);
+  }
+  return all;
+}
+
+FrontierAnswer answer_with(const FrontierDrive& drive, std::vector<FrontierIndividual> individuals,
+                           std::uint32_t vectors, bool loads) {
+  FrontierMethod method;
+  method.choice.method = Method::reduced;
+  std::map<const ReducedBasis*, std::shared_ptr<const ReducedBasis>> cut;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    FrontierIndividual& own = individuals[lane];
+    auto& basis = cut[own.basis.get()];
+    if (basis == nullptr) basis = std::make_shared<const ReducedBasis>(truncated(*own.basis, vectors));
+    const auto belly = must(make_reduced_belly(*basis, static_cast<double>(drive.scale.across[lane]),
+                                               static_cast<double>(drive.scale.along[lane])));
+    set_vectors(own, basis, belly, method.choice.damping_per_s);
+  }
+  return answer_of(drive, method, individuals, loads);
+}
+
 }  // namespace
 
 std::size_t FrontierAnswer::samples() const {
   return displacement_m.size() / point_width;
 }
 
-Result<FrontierSampler> FrontierSampler::make(const HexahedralMesh& mesh, const HexahedralMesh& points) {
+FrontierSampler::FrontierSampler(const HexahedralMesh& mesh, const HexahedralMesh& points) {
   const Cells &fine = mesh.cells, &coarse = points.cells;
   if (fine[0] % coarse[0] != 0 || fine[1] % coarse[1] != 0) {
-    return fail(
+    throw Stopped(
         fmt::format("frontier: a mesh of {}x{}x{} cells has not the control points of {}x{}x{} across; take"
                     " multiples",
                     fine[0], fine[1], fine[2], coarse[0], coarse[1], coarse[2]));
   }
-  FrontierSampler sampler;
   for_each_node(coarse, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const double z = points.node[node_index(coarse, i, j, k)].z;
     const auto node = [&](std::uint32_t at) {
@@ -158,9 +200,8 @@ Result<FrontierSampler> FrontierSampler::make(const HexahedralMesh& mesh, const 
     const double low = mesh.node[node(at)].z, high = mesh.node[node(at + 1)].z;
     double part = std::clamp((z - low) / (high - low), 0.0, 1.0);
     if (std::min(part, 1 - part) < 1e-4) part = std::round(part);
-    sampler.place_.push_back({node(at), node(at + 1), static_cast<float>(part)});
+    place_.push_back({node(at), node(at + 1), static_cast<float>(part)});
   });
-  return sampler;
 }
 
 void FrontierSampler::sample(const float* displacement, std::uint32_t lanes, Lanes<float>* to) const {
@@ -175,15 +216,13 @@ void FrontierSampler::sample(const float* displacement, std::uint32_t lanes, Lan
   }
 }
 
-Result<FrontierAnswer> answer_of(const FrontierDrive& drive, const FrontierMethod& method,
-                                 const std::vector<FrontierIndividual>& individuals, bool loads) {
+FrontierAnswer answer_of(const FrontierDrive& drive, const FrontierMethod& method,
+                         const std::vector<FrontierIndividual>& individuals, bool loads) {
   FrontierAnswer answer;
   Calendar calendar{.answer = &answer};
   if (method.fixed_step) {
     calendar.call_s = *method.choice.dt_s;
-    const auto ticks = meeting(calendar.call_s);
-    if (!ticks) return tl::unexpected(ticks.error());
-    answer.stride = *ticks;
+    answer.stride = meeting(calendar.call_s);
     calendar.calls =
         static_cast<std::size_t>(std::lround(static_cast<double>(answer.stride) * frontier_tick_s / calendar.call_s));
   }
@@ -192,21 +231,11 @@ Result<FrontierAnswer> answer_of(const FrontierDrive& drive, const FrontierMetho
   for (const Group& group : groups_of(individuals)) {
     if (method.reduced()) {
       answer_by_vectors(drive, method, individuals, group, loads, calendar);
-    } else if (auto done = answer_by_elements(drive, method, group, loads, calendar); !done) {
-      return tl::unexpected(done.error());
+    } else {
+      answer_by_elements(drive, method, group, loads, calendar);
     }
   }
   return answer;
-}
-
-FrontierAnswer extrapolated(const FrontierAnswer& fine, const FrontierAnswer& coarse) {
-  FrontierAnswer both = fine;
-  for (std::size_t i = 0; i < both.displacement_m.size(); ++i) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      both.displacement_m[i][l] += (fine.displacement_m[i][l] - coarse.displacement_m[i][l]) / 3;
-    }
-  }
-  return both;
 }
 
 void FrontierError::add(const FrontierAnswer& answer, const FrontierAnswer& truth, std::size_t walks) {
@@ -237,6 +266,19 @@ void FrontierError::add(const FrontierError& other) {
 double FrontierError::relative() const {
   if (reference_square == 0) return std::numeric_limits<double>::quiet_NaN();
   return std::sqrt(square / reference_square);
+}
+
+FrontierReference make_reference(const FrontierDrive& drive, const Cells& cells, bool loads) {
+  const std::uint32_t coarse_vectors = cells[0] < 8 ? vectors_of_a_coarse_mesh : most_vectors;
+  const auto fine = own_vectors(drive, cells, most_vectors, loads);
+  const auto coarse = own_vectors(drive, half(cells), coarse_vectors, loads);
+  auto truth = answer_with(drive, fine, most_vectors, loads);
+  const auto fewer = answer_with(drive, fine, fewer_vectors, loads);
+  const auto coarser = answer_with(drive, coarse, coarse_vectors, loads);
+  FrontierReference reference{std::move(truth), {}, {}};
+  reference.mesh.add(coarser, reference.truth, drive.walks);
+  reference.vectors.add(fewer, reference.truth, drive.walks);
+  return reference;
 }
 
 }  // namespace mobil

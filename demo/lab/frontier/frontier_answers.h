@@ -1,14 +1,7 @@
 #pragma once
 // What a method makes of a muscle's walks, for `mobil frontier`: where the control points are, tick by tick.
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
-#include <mobil/components/lanes.h>
-#include <mobil/engine/error.h>
 #include "demo/lab/frontier/frontier_method.h"
-#include "demo/lab/frontier/frontier_walks.h"
 
 namespace mobil {
 
@@ -22,10 +15,10 @@ struct FrontierAnswer {
 };
 
 /// The control points' displacements of a mesh of any cells: that of its own field where a control point lies within
-/// an element. Fails on cells that are no multiple of the control points' across.
+/// an element. Throws Stopped on cells that are no multiple of the control points' across.
 class FrontierSampler {
  public:
-  static Result<FrontierSampler> make(const HexahedralMesh& mesh, const HexahedralMesh& points);
+  FrontierSampler(const HexahedralMesh& mesh, const HexahedralMesh& points);
   /// `displacement`: a block's nodes; of `to` the lanes named by the bits of `lanes` are written.
   void sample(const float* displacement, std::uint32_t lanes, Lanes<float>* to) const;
 
@@ -39,12 +32,8 @@ class FrontierSampler {
 
 /// Sixteen individuals (frontier_individuals) over their walks. `loads`: with the frame's. Fails where steps
 /// never meet ticks.
-Result<FrontierAnswer> answer_of(const FrontierDrive& drive, const FrontierMethod& method,
-                                 const std::vector<FrontierIndividual>& individuals, bool loads);
-
-/// (4·fine − coarse) / 3: what answers of meshes, one with half the other's cells, tend to where their errors fall with
-/// the square of the cells' size (Richardson).
-FrontierAnswer extrapolated(const FrontierAnswer& fine, const FrontierAnswer& coarse);
+FrontierAnswer answer_of(const FrontierDrive& drive, const FrontierMethod& method,
+                         const std::vector<FrontierIndividual>& individuals, bool loads);
 
 /// Root mean square and largest differences, gathered over muscles.
 struct FrontierError {

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/muscle_table.h>
 #include "demo/lab/frontier/frontier.h"
 #include "demo/lab/frontier/frontier_living.h"
 #include "demo/program/commands.h"
+#include "demo/program/must.h"
 #include "demo/program/progress.h"
 
 namespace mobil {
@@ -18,45 +17,38 @@ namespace {
 
 struct FrontierText {
   std::string out = "out", loads = "both";
-  bool short_form = false, long_form = false, check = false, finite = false;
+  bool short_form = false, long_form = false, finite = false;
 };
 
-Result<void> run_finite(const std::string& out) {
-  auto results = OutputFolder::make(out);
-  if (!results) return tl::unexpected(results.error());
+void run_finite(const std::string& out) {
+  auto results = must(OutputFolder::make(out));
   std::vector<Muscle> all;
   for (std::size_t m = 0; m < muscles().size(); ++m) all.push_back(static_cast<Muscle>(m));
   const auto living = measure_living(all, &show_part);
   show("");
-  if (!living) return tl::unexpected(living.error());
-  const auto& folder = results->inside();
-  if (auto done = write_file(folder / "living.csv", living_csv(*living)); !done) return done;
-  if (auto done = write_file(folder / "living.svg", svg(living_figure(*living))); !done) return done;
-  if (auto done = results->put(); !done) return done;
-  fmt::print("{}", living_text(*living));
+  const auto& folder = results.inside();
+  must(write_file(folder / "living.csv", living_csv(living)));
+  must(write_file(folder / "living.svg", svg(living_figure(living))));
+  must(results.put());
+  fmt::print("{}", living_text(living));
   say_where(fmt::format("\nwritten {}: living.csv living.svg", out));
-  return {};
 }
 
-Result<void> run_frontier(const FrontierText& text) {
+void run_frontier(const FrontierText& text) {
   if (text.finite) return run_finite(text.out);
-  if (text.short_form && text.long_form) return fail("--short and --long are both asked for; give one of them");
-  auto results = OutputFolder::make(text.out);
-  if (!results) return tl::unexpected(results.error());
+  if (text.short_form && text.long_form) throw Stopped("--short and --long are both asked for; give one of them");
+  auto results = must(OutputFolder::make(text.out));
   FrontierRequest request = text.long_form ? long_frontier() : short_frontier();
   if (text.loads != "both") request.scenes = {text.loads == "frame"};
-  if (text.check) request.checks = {{8, 8, 32}, {16, 16, 64}};
   request.progress = &show_part;
   const auto frontier = measure_frontier(request);
   show("");
-  if (!frontier) return tl::unexpected(frontier.error());
-  const auto& out = results->inside();
-  if (auto done = write_file(out / "frontier.csv", frontier_csv(*frontier)); !done) return done;
-  if (auto done = write_file(out / "frontier.svg", svg(frontier_figure(*frontier))); !done) return done;
-  if (auto done = results->put(); !done) return done;
-  fmt::print("{}", frontier_text(*frontier));
+  const auto& out = results.inside();
+  must(write_file(out / "frontier.csv", frontier_csv(frontier)));
+  must(write_file(out / "frontier.svg", svg(frontier_figure(frontier))));
+  must(results.put());
+  fmt::print("{}", frontier_text(frontier));
   say_where(fmt::format("\nwritten {}: frontier.csv frontier.svg", text.out));
-  return {};
 }
 
 }  // namespace
@@ -83,15 +75,12 @@ Subcommand frontier_command() {
        .target = &text->loads,
        .help = "line: of the line of action alone; frame: with the frame's too; or both",
        .choices = {"line", "frame", "both"}},
-      {"--check", &text->check,
-       "Hold the reference against plain explicit meshes too, up to 18785 nodes: four minutes more for each muscle and "
-       "kind of load"},
       {"--finite", &text->finite,
        "Instead: what accuracy costs where muscles pull and are shaken, against tissue that keeps its volume "
        "(living.csv, living.svg): three minutes"},
       {"--out", &text->out, "Folder for frontier.csv and .svg, made if missing"}};
   command.empty_refused = true;
-  command.run = [text] { return exit_status_of("frontier", run_frontier(*text)); };
+  command.run = [text] { return exit_status_of("frontier", attempt([&] { run_frontier(*text); })); };
   return command;
 }
 

@@ -9,71 +9,230 @@
 #include <numbers>
 #include <utility>
 
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/leg_muscles.h>
 #include <mobil/muscle_table.h>
 #include "assets/finite/control_points.h"
-#include "assets/finite/finite_motion.h"
 #include "assets/finite/shape_tables.h"
-#include "demo/lab/frontier/frontier_ways.h"
+#include "demo/lab/effects/accuracy_living.h"
+#include "demo/measure/measure.h"
+#include "demo/program/must.h"
+#include "systems/deformation/deformation.h"
+#include "systems/deformation/finite.h"
+#include "systems/deformation/finite_shape.h"
 #include "systems/deformation/reduced.h"
+#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {
+
+inline constexpr double living_tick_s = 1.0 / 60;
+
+inline constexpr Cells living_points = {2, 2, 8};
+
+struct LivingWay {
+  std::string name;
+  LegMuscles choice;
+};
+
+/// Where the control points are at the end of each tick: three displacements a point, m.
+using LivingPoints = std::vector<std::vector<double>>;
+
+using Words = std::vector<Lanes<float>>;
+
+Words alike_words(const std::vector<float>& row) {
+  Words words(row.size());
+  for (std::size_t w = 0; w < row.size(); ++w) std::ranges::fill(words[w].lane, row[w]);
+  return words;
+}
+
+void set_lanes(Lanes<float>& lanes, double x) {
+  std::ranges::fill(lanes.lane, static_cast<float>(x));
+}
+
+Belly living_belly(Muscle muscle, const LivingWay& way, BellyLibrary& library) {
+  auto plan = must(make_muscle_plan(*make_body({}), muscle));
+  plan.scale = {1, 1};
+  return must(library.belly(plan, way.choice, living_tick_s));
+}
+
+/// Sixteen alike.
+class LivingBellies {
+ public:
+  LivingBellies(const Belly& belly, const LegMuscles& choice)
+      : belly_(belly),
+        choice_(choice),
+        length_m_(belly.shape->shape->mesh.node.back().z - belly.shape->shape->mesh.node.front().z),
+        points_(nodal_width(choice.cells)),
+        shown_(points_.size()) {
+    set_lanes(scale_.across, 1), set_lanes(scale_.along, 1);
+    if (choice.method == Method::reduced) {
+      motion_ = alike_words(belly.motion);
+      shape_ = alike_words(belly.rest_shape);
+      state_.resize(reduced_state_width(belly.basis->vectors));
+    } else {
+      velocity_.resize(points_.size());
+      scratch_.resize(scratch_floats(*belly.shape->shape, choice.method) / lane_count + 1);
+    }
+  }
+
+  void tick(const WalkLoad& to) {
+    constexpr auto tick_s = static_cast<float>(living_tick_s);
+    end_.from = end_.to;
+    set_lanes(end_.to, -to.shortening * length_m_);
+    frame_.constant_from = frame_.constant_to;
+    set_lanes(frame_.constant_to.x, to.push.constant_m_s2[0]);
+    set_lanes(frame_.constant_to.y, to.push.constant_m_s2[1]);
+    set_lanes(frame_.constant_to.z, to.push.constant_m_s2[2]);
+    set_lanes(activation_, to.activation);
+    const FarFaceDrive drive(FarEnd::held, end_);
+    if (choice_.method == Method::reduced) {
+      const ReducedBlock block{*belly_.basis, scale_, state_[0].lane, motion_[0].lane, &frame_};
+      const ControlPoints points{shape_[0].lane, points_[0].lane};
+      if (!choice_.reduced.moving) {
+        place_static(block, points, drive);
+      } else {
+        if (choice_.reduced.tuned) {
+          deform_tuned(block, drive, activation_, tick_s);
+        } else {
+          deform_reduced(block, drive, tick_s);
+        }
+        place_control_points(block, points, drive);
+      }
+    } else {
+      BellyReport<Lanes<float>> unused;
+      const BellyBlock block{*belly_.shape->shape,
+                             scale_,
+                             points_[0].lane,
+                             velocity_[0].lane,
+                             unused,
+                             Stiffness::individual,
+                             &frame_,
+                             false};
+      if (choice_.method == Method::finite) {
+        deform_finite(block, drive, &activation_, belly_.steps, tick_s, scratch_[0].lane);
+      } else {
+        deform_explicit(block, drive, belly_.steps, tick_s, scratch_[0].lane);
+      }
+    }
+    if (!has_finite_shape(choice_)) return;
+    const ShapeBlock block{*belly_.finite, scale_, end_.to, &activation_};
+    add_shape(block, blend_of(block), true, points_[0].lane, shown_[0].lane);
+  }
+
+  std::vector<double> shown() const {
+    std::vector<double> points;
+    for (const auto& u : has_finite_shape(choice_) ? shown_ : points_) points.push_back(double{u[0]});
+    return choice_.cells == living_points ? points : sampled_points(choice_.cells, living_points, points);
+  }
+
+ private:
+  const Belly& belly_;
+  const LegMuscles& choice_;
+  double length_m_;
+  BellyScale<Lanes<float>> scale_{};
+  EndDrive<Lanes<float>> end_{};
+  FrameLoad<Lanes<float>> frame_{};
+  Lanes<float> activation_{};
+  Words points_, shown_, velocity_, scratch_, state_, motion_, shape_;
+};
+
+/// Statics, the paper's explicit mesh and reduced bellies; with and without finite shape and tension.
+std::vector<LivingWay> living_ways() {
+  LegMuscles choice;
+  choice.inertia = true;
+  choice.activation = ExcitationSource::host;
+  choice.finite_shape = false;
+  choice.method = Method::reduced;
+  choice.reduced.moving = false;
+  std::vector<LivingWay> ways = {{"static", choice}};
+  const auto shaped = [&] {
+    ways.push_back(ways.back());
+    ways.back().name += ", finite shape";
+    ways.back().choice.finite_shape = true;
+  };
+  shaped();
+  choice.method = Method::ecd;
+  ways.push_back({"ecd, 81 nodes", choice});
+  shaped();
+  choice.method = Method::reduced;
+  choice.reduced.moving = true;
+  ways.push_back({"reduced-12", choice});
+  shaped();
+  for (const std::uint32_t vectors : {4U, 12U, 32U}) {
+    choice.reduced.vectors = vectors;
+    choice.reduced.tuned = true;
+    ways.push_back({"reduced-" + std::to_string(vectors) + ", tuned", choice});
+    ways.back().choice.finite_shape = true;
+    ways.back().name += ", finite shape";
+  }
+  choice.method = Method::finite;
+  ways.push_back({"finite, 81 nodes", choice});
+  choice.cells = close_up_cells;
+  ways.push_back({"finite, 425 nodes", choice});
+  return ways;
+}
+
+/// A belly of the muscle's template size over `loads`, that of the first tick's end first; it begins at rest, unloaded.
+/// Fails as the library does.
+LivingPoints living_points_of(Muscle muscle, const LivingWay& way, std::span<const WalkLoad> loads,
+                              BellyLibrary& library) {
+  const auto belly = living_belly(muscle, way, library);
+  LivingBellies bellies(belly, way.choice);
+  LivingPoints points;
+  for (const WalkLoad& load : loads) {
+    bellies.tick(load);
+    points.push_back(bellies.shown());
+  }
+  return points;
+}
+
+/// A muscle's tick with its control points, µs, among a thousand alike.
+double living_cost_us(Muscle muscle, const LivingWay& way, BellyLibrary& library) {
+  constexpr std::size_t blocks = 64;
+  const auto belly = living_belly(muscle, way, library);
+  std::vector<LivingBellies> all(blocks, LivingBellies(belly, way.choice));
+  double sway = 0.02;
+  const Measured ticking = measure_short([&] {
+    sway = -sway;
+    for (LivingBellies& one : all) one.tick({sway, 0.3, {{0, 9.8 * sway, 0}, {}}});
+  });
+  return 1e6 * ticking.best_s / (blocks * lane_count);
+}
 
 constexpr int living_ticks = 84, compared_every = 6, steps_a_tick = 8, first_jolt = 33, jolt_apart = 30;
 constexpr Cells solved_cells = {4, 4, 16};
 
 /// Shortened by up to 11 % and stretched by 5 while fibres pull for half of the time; and, where it is shaken, twice
 /// 34 m/s² for a twentieth of a second: in full pull and relaxed.
-LivingLoad load_at(int tick, bool shaken) {
+WalkLoad load_at(int tick, bool shaken) {
   const double time_s = tick * living_tick_s, turn = 2 * std::numbers::pi * 0.9 * time_s;
-  LivingLoad load;
+  WalkLoad load;
   const double sway = 0.1 * std::sin(turn) + 0.03 * (std::sin(2 * turn + 1) - std::sin(1.0));
   load.shortening = -0.7 * std::min(1.0, time_s / 0.3) * sway;
   const double wave = std::sin(turn - 0.5);
   load.activation = 0.02 + (wave > 0 ? 0.6 * wave * wave : 0);
   const int since = tick - first_jolt;
   if (shaken && since >= 0 && (since % jolt_apart == 1 || since % jolt_apart == 2))
-    load.acceleration_m_s2 = {25, 10, 20};
+    load.push.constant_m_s2 = {25, 10, 20};
   return load;
 }
 
-std::vector<LivingLoad> loads_of(bool shaken) {
-  std::vector<LivingLoad> loads;
+std::vector<WalkLoad> loads_of(bool shaken) {
+  std::vector<WalkLoad> loads;
   for (int tick = 1; tick <= living_ticks; ++tick) loads.push_back(load_at(tick, shaken));
   return loads;
 }
 
-/// A tick, or a part of it, in steps that are halved where they fail.
-Result<void> follow(const FiniteBelly& belly, double foundation_hz, const LivingLoad& from, const LivingLoad& to,
-                    double begin, double part, FiniteScratch& scratch, FiniteMotion& motion) {
-  constexpr double least_part = 1.0 / (steps_a_tick * 32);
-  const auto at_end = [&](double a, double b) { return a + (begin + part) * (b - a); };
-  FiniteStep step{part * living_tick_s, tuned_damping_per_s(to.activation),
-                  foundation_hz,        at_end(from.shortening, to.shortening),
-                  to.activation,        {}};
-  for (std::size_t d = 0; d < 3; ++d)
-    step.push.constant_m_s2[d] = at_end(from.acceleration_m_s2[d], to.acceleration_m_s2[d]);
-  auto done = advance(belly, scratch, step, motion);
-  if (done || part < 1.5 * least_part) return done;
-  for (const double start : {begin, begin + part / 2}) {
-    if (done = follow(belly, foundation_hz, from, to, start, part / 2, scratch, motion); !done) return done;
-  }
-  return {};
-}
-
-Result<LivingPoints> nonlinear_motion(Muscle muscle, double foundation_hz, bool shaken) {
-  const auto belly = make_finite_belly(finite_mesh(muscle, solved_cells), {}, 0);
-  if (!belly) return tl::unexpected(belly.error());
-  FiniteScratch scratch = make_scratch(*belly);
-  FiniteMotion motion = motion_at_rest(*belly);
+LivingPoints nonlinear_motion(Muscle muscle, double foundation_hz, bool shaken) {
+  const auto belly = must(make_finite_belly(finite_mesh(muscle, solved_cells), {}, 0));
+  FiniteScratch scratch = make_scratch(belly);
+  FiniteMotion motion = motion_at_rest(belly);
   LivingPoints moved;
   for (int tick = 1; tick <= living_ticks; ++tick) {
-    const LivingLoad from = load_at(tick - 1, shaken), to = load_at(tick, shaken);
-    for (int s = 0; s < steps_a_tick; ++s) {
-      constexpr double part = 1.0 / steps_a_tick;
-      if (auto done = follow(*belly, foundation_hz, from, to, s * part, part, scratch, motion); !done)
-        return tl::unexpected(done.error());
-    }
+    const WalkLoad from = load_at(tick - 1, shaken), to = load_at(tick, shaken);
+    follow_tick(belly, living_tick_s, foundation_hz, from, to, steps_a_tick, scratch, motion);
     moved.push_back(sampled_points(solved_cells, living_points, motion.displacement_m));
   }
   return moved;
@@ -84,20 +243,17 @@ struct Truth {
   LivingPoints jolts, whole;  // of ticks not compared empty
 };
 
-Result<Truth> truth_of(Muscle muscle, double foundation_hz) {
+Truth truth_of(Muscle muscle, double foundation_hz) {
   const auto still = nonlinear_motion(muscle, foundation_hz, false);
-  if (!still) return tl::unexpected(still.error());
   auto shaken = nonlinear_motion(muscle, foundation_hz, true);
-  if (!shaken) return tl::unexpected(shaken.error());
-  Truth truth{std::move(*shaken), LivingPoints(living_ticks)};
+  Truth truth{std::move(shaken), LivingPoints(living_ticks)};
   const SampledBelly belly = sampled_belly(muscle);
   for (std::size_t t = 0; t < truth.jolts.size(); ++t) {
-    for (std::size_t i = 0; i < truth.jolts[t].size(); ++i) truth.jolts[t][i] -= (*still)[t][i];
+    for (std::size_t i = 0; i < truth.jolts[t].size(); ++i) truth.jolts[t][i] -= still[t][i];
     if ((t + 1) % compared_every != 0) continue;
-    const LivingLoad load = load_at(static_cast<int>(t) + 1, true);
-    const auto shape = shape_samples(belly, 1, std::array{load.shortening}, std::array{load.activation});
-    if (!shape) return tl::unexpected(shape.error());
-    truth.whole[t] = shape->front().displacement_m;
+    const WalkLoad load = load_at(static_cast<int>(t) + 1, true);
+    const auto shape = must(shape_samples(belly, 1, std::array{load.shortening}, std::array{load.activation}));
+    truth.whole[t] = shape.front().displacement_m;
     for (std::size_t i = 0; i < truth.whole[t].size(); ++i) truth.whole[t][i] += truth.jolts[t][i];
   }
   return truth;
@@ -114,25 +270,22 @@ struct Squares {
   }
 };
 
-Result<LivingFrontier> measure_one(Muscle muscle, const std::vector<LivingWay>& ways) {
+LivingFrontier measure_one(Muscle muscle, const std::vector<LivingWay>& ways) {
   BellyLibrary library;
   const auto truth = truth_of(muscle, foundation_of(ways.front().choice, muscle));
-  if (!truth) return tl::unexpected(truth.error());
   const HexahedralMesh mesh = finite_mesh(muscle, living_points);
   LivingFrontier found{std::string(muscle_name(muscle)), 0, 0, {}};
   for (const LivingWay& way : ways) {
     const auto still = living_points_of(muscle, way, loads_of(false), library);
-    if (!still) return tl::unexpected(still.error());
     const auto shaken = living_points_of(muscle, way, loads_of(true), library);
-    if (!shaken) return tl::unexpected(shaken.error());
     LivingError error{way.name};
     Squares of, off, jolts, jolts_off;
     std::size_t compared = 0;
-    for (std::size_t t = 0; t < shaken->size(); ++t) {
-      const auto &now = (*shaken)[t], &real = truth->whole[t];
+    for (std::size_t t = 0; t < shaken.size(); ++t) {
+      const auto &now = shaken[t], &real = truth.whole[t];
       for (std::size_t i = 0; i < now.size(); ++i) {
-        jolts.add(i, truth->jolts[t][i]);
-        jolts_off.add(i, now[i] - (*still)[t][i] - truth->jolts[t][i]);
+        jolts.add(i, truth.jolts[t][i]);
+        jolts_off.add(i, now[i] - still[t][i] - truth.jolts[t][i]);
         if (real.empty()) continue;
         of.add(i, real[i]);
         off.add(i, now[i] - real[i]);
@@ -182,23 +335,19 @@ LivingFrontier together(const std::vector<LivingFrontier>& muscles) {
 
 }  // namespace
 
-Result<std::vector<LivingFrontier>> measure_living(std::span<const Muscle> rows,
-                                                   void (*progress)(std::string_view what, double part)) {
+std::vector<LivingFrontier> measure_living(std::span<const Muscle> rows,
+                                           void (*progress)(std::string_view what, double part)) {
   const std::vector<LivingWay> ways = living_ways();
   std::vector<LivingFrontier> all;
   for (const Muscle muscle : rows) {
     const std::string name(muscle_name(muscle));
     progress("shaken " + name, static_cast<double>(all.size()) / static_cast<double>(rows.size()));
-    auto one = measure_one(muscle, ways);
-    if (!one) return tl::unexpected(Error{fmt::format("{}: {}", name, one.error().message)});
-    all.push_back(std::move(*one));
+    all.push_back(measure_one(muscle, ways));
   }
   all.push_back(together(all));
   BellyLibrary library;
   for (std::size_t w = 0; w < ways.size(); ++w) {
-    const auto cost_us = living_cost_us(rows.front(), ways[w], library);
-    if (!cost_us) return tl::unexpected(cost_us.error());
-    all.back().ways[w].cost_us = *cost_us;
+    all.back().ways[w].cost_us = living_cost_us(rows.front(), ways[w], library);
   }
   return all;
 }
@@ -244,7 +393,7 @@ PlotFigure living_figure(const std::vector<LivingFrontier>& muscles) {
   PlotPanel panel;
   panel.title = "displacement across, all muscles";
   double least = 1e9, most = 0;
-  PlotPoints linear{{}, {}, {}, {}, "#1f77b4", "linear"}, shaped{{}, {}, {}, {}, "#2ca02c", "finite strain"};
+  PlotPoints linear{{}, {}, {}, "#1f77b4", "linear"}, shaped{{}, {}, {}, "#2ca02c", "finite strain"};
   for (const LivingError& way : muscles.back().ways) {
     const bool finite = way.way.find("finite") != std::string::npos;  // shape or method
     PlotPoints& points = finite ? shaped : linear;

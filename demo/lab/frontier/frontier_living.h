@@ -31,8 +31,8 @@ struct LivingFrontier {
 /// These rows of the muscle table; some ten seconds each. `progress`: 0 to 1. The reference is nonlinear statics as the
 /// tables are made from, and what two jolts add to nonlinear dynamics on 4x4x16 elements, held sideways and damped as
 /// tuned bellies are.
-Result<std::vector<LivingFrontier>> measure_living(std::span<const Muscle> rows,
-                                                   void (*progress)(std::string_view what, double part));
+std::vector<LivingFrontier> measure_living(std::span<const Muscle> rows,
+                                           void (*progress)(std::string_view what, double part));
 
 std::string living_text(const std::vector<LivingFrontier>& muscles);
 std::string living_csv(const std::vector<LivingFrontier>& muscles);

@@ -5,72 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
 
-#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
-#include "assets/reduction/reduced_basis.h"
 #include "demo/lab/bench/bench_fem_bellies.h"
 #include "demo/lab/frontier/frontier.h"
-#include "demo/lab/frontier/frontier_method.h"
-#include "demo/lab/frontier/frontier_walks.h"
+#include "demo/program/must.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"
 
 namespace mobil {
 namespace {
-
-/// Blocks of sixteen alike, as a crowd's tables have them, of every muscle and individual as many as `bytes` ask for;
-/// at most `most_blocks`, and at least one of each muscle.
-class FrontierCrowd {
- public:
-  /// `individuals`: of each drive its sixteen, or none; of one at least. They and `drives` must outlive the crowd.
-  FrontierCrowd(const FrontierMethod& method, std::span<const FrontierDrive> drives,
-                std::span<const std::vector<FrontierIndividual>> individuals, bool loads, Stiffness stiffness,
-                std::size_t bytes, std::size_t most_blocks);
-
-  /// Everybody by a tick, or with a fixed step by the whole number of steps that is nearest to one. With
-  /// `control_points` those of a reduced method are placed too.
-  void tick(bool control_points);
-
-  std::size_t muscles() const { return blocks_.size() * lane_count; }
-  /// How much of a tick one call of tick() is.
-  double ticks_a_call() const { return ticks_a_call_; }
-  /// Of one individual's own numbers that a tick reads or writes, with what the control points take.
-  std::size_t bytes_each() const { return bytes_each_; }
-  /// Steps in a tick, the mean of all.
-  double steps_a_tick() const;
-  bool finite() const;
-
- private:
-  /// Its columns stand in a row, as in a world's table.
-  struct Block {
-    const FrontierIndividual* individual;
-    BellyScale<Lanes<float>> scale;
-    EndDrive<Lanes<float>> end[2];  // to and fro
-    FrameLoad<Lanes<float>> load[2];
-    std::size_t first;  // of numbers_
-  };
-
-  float* column(const Block& block, std::size_t after) { return numbers_[block.first + after].lane; }
-  void tick_elements(Block& block);
-  void tick_vectors(std::size_t b, bool control_points);
-
-  const FrontierMethod method_;
-  const bool loads_;
-  const Stiffness stiffness_;
-  std::size_t bytes_each_ = 0, turn_ = 0;
-  double ticks_a_call_ = 1;
-  std::uint32_t fixed_steps_ = 0;
-  std::size_t state_ = 0, motion_ = 0, points_ = 0, displacement_ = 0, velocity_ = 0;  // widths
-  std::vector<Block> blocks_;
-  std::vector<Lanes<float>> numbers_;
-  std::vector<Lanes<float>> scratch_;
-};
 
 void fill(const std::vector<float>& of, Lanes<float>* to) {
   for (std::size_t i = 0; i < of.size(); ++i) std::ranges::fill(to[i].lane, of[i]);
@@ -88,132 +32,167 @@ C<Lanes<float>> alike(const C<Lanes<float>>& of, std::size_t lane) {
   return all;
 }
 
-FrontierCrowd::FrontierCrowd(const FrontierMethod& method, std::span<const FrontierDrive> drives,
-                             std::span<const std::vector<FrontierIndividual>> individuals, bool loads,
-                             Stiffness stiffness, std::size_t bytes, std::size_t most_blocks)
-    : method_(method), loads_(loads), stiffness_(stiffness) {
-  const std::size_t input =
-      sizeof(EndDrive<float>) + sizeof(BellyScale<float>) + (loads ? sizeof(FrameLoad<float>) : 0);
-  const auto there = [](const std::vector<FrontierIndividual>& sixteen) { return !sixteen.empty(); };
-  const FrontierIndividual& first = std::ranges::find_if(individuals, there)->front();
-  const auto muscles = static_cast<std::size_t>(std::ranges::count_if(individuals, there));
-  if (method.reduced()) {
-    const ReducedBasis& basis = *first.basis;
-    points_ = reduced_shape_width(basis.vectors, basis.inputs);
-    displacement_ = point_width;
-    if (method.moving()) {
-      state_ = reduced_state_width(basis.vectors);
-      motion_ = reduced_motion_width(basis.vectors, basis.inputs);
-    }
-  } else {
-    displacement_ = nodal_width(method.choice.cells);
-    velocity_ = method.choice.method == Method::statics ? 0 : displacement_;
-    scratch_.resize(scratch_floats(*first.shape, method.choice.method) / lane_count + 1);
-  }
-  const std::size_t numbers = state_ + motion_ + points_ + displacement_ + velocity_;
-  bytes_each_ = input + numbers * sizeof(float);
-  if (method.fixed_step) {
-    fixed_steps_ = static_cast<std::uint32_t>(std::lround(frontier_tick_s / *method.choice.dt_s));
-    ticks_a_call_ = fixed_steps_ * *method.choice.dt_s / frontier_tick_s;
-  }
-  const std::size_t wanted = bytes / (bytes_each_ * lane_count);
-  const std::size_t each = std::max<std::size_t>(std::min(wanted, most_blocks) / muscles, 1);
-  for (std::size_t m = 0; m < drives.size(); ++m) {
-    if (individuals[m].empty()) continue;
-    const FrontierDrive& drive = drives[m];
-    for (std::size_t b = 0; b < each; ++b) {
-      // The first walks are everybody's once; of few blocks those in the middle.
-      const std::size_t lane = each < lane_count ? (2 * b + 1) * lane_count / (2 * each) : b * lane_count / each;
-      Block& block = blocks_.emplace_back();
-      block.individual = &individuals[m][lane];
-      block.scale = alike<BellyScale>(drive.scale, lane);
-      if (stiffness == Stiffness::shared) fill({1, 1}, &block.scale.across);
-      const double time_s = static_cast<double>(drive.first + 7 * b % (drive.ticks() - drive.first)) * frontier_tick_s;
-      for (std::size_t way = 0; way < 2; ++way) {
-        const double from_s = way == 0 ? time_s : time_s + frontier_tick_s,
-                     to_s = 2 * time_s + frontier_tick_s - from_s;
-        block.end[way] = alike<EndDrive>(drive.end(from_s, to_s), lane);
-        if (loads) block.load[way] = alike<FrameLoad>(drive.load(from_s, to_s), lane);
+/// Blocks of sixteen alike, as a crowd's tables have them, of every muscle and individual as many as `bytes` ask for;
+/// at most `most_blocks`, and at least one of each muscle.
+class FrontierCrowd {
+ public:
+  /// `individuals`: of each drive its sixteen, or none; of one at least. They and `drives` must outlive the crowd.
+  FrontierCrowd(const FrontierMethod& method, std::span<const FrontierDrive> drives,
+                std::span<const std::vector<FrontierIndividual>> individuals, bool loads, Stiffness stiffness,
+                std::size_t bytes, std::size_t most_blocks)
+      : method_(method), loads_(loads), stiffness_(stiffness) {
+    const std::size_t input =
+        sizeof(EndDrive<float>) + sizeof(BellyScale<float>) + (loads ? sizeof(FrameLoad<float>) : 0);
+    const auto there = [](const std::vector<FrontierIndividual>& sixteen) { return !sixteen.empty(); };
+    const FrontierIndividual& first = std::ranges::find_if(individuals, there)->front();
+    const auto muscles = static_cast<std::size_t>(std::ranges::count_if(individuals, there));
+    if (method.reduced()) {
+      const ReducedBasis& basis = *first.basis;
+      points_ = reduced_shape_width(basis.vectors, basis.inputs);
+      displacement_ = point_width;
+      if (method.moving()) {
+        state_ = reduced_state_width(basis.vectors);
+        motion_ = reduced_motion_width(basis.vectors, basis.inputs);
       }
-      block.first = numbers * (blocks_.size() - 1);
-    }
-  }
-  numbers_.resize(numbers * blocks_.size());
-  if (!method.reduced()) return;
-  for (const Block& block : blocks_) {
-    if (method.moving()) fill(block.individual->motion, &numbers_[block.first + state_]);
-    fill(block.individual->points, &numbers_[block.first + state_ + motion_]);
-  }
-}
-
-void FrontierCrowd::tick(bool control_points) {
-  const FlushDenormals flush;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    if (method_.reduced()) {
-      tick_vectors(b, control_points);
     } else {
-      tick_elements(blocks_[b]);
+      displacement_ = nodal_width(method.choice.cells);
+      velocity_ = method.choice.method == Method::statics ? 0 : displacement_;
+      scratch_.resize(scratch_floats(*first.shape, method.choice.method) / lane_count + 1);
+    }
+    const std::size_t numbers = state_ + motion_ + points_ + displacement_ + velocity_;
+    bytes_each_ = input + numbers * sizeof(float);
+    if (method.fixed_step) {
+      fixed_steps_ = static_cast<std::uint32_t>(std::lround(frontier_tick_s / *method.choice.dt_s));
+      ticks_a_call_ = fixed_steps_ * *method.choice.dt_s / frontier_tick_s;
+    }
+    const std::size_t wanted = bytes / (bytes_each_ * lane_count);
+    const std::size_t each = std::max<std::size_t>(std::min(wanted, most_blocks) / muscles, 1);
+    for (std::size_t m = 0; m < drives.size(); ++m) {
+      if (individuals[m].empty()) continue;
+      const FrontierDrive& drive = drives[m];
+      for (std::size_t b = 0; b < each; ++b) {
+        // The first walks are everybody's once; of few blocks those in the middle.
+        const std::size_t lane = each < lane_count ? (2 * b + 1) * lane_count / (2 * each) : b * lane_count / each;
+        Block& block = blocks_.emplace_back();
+        block.individual = &individuals[m][lane];
+        block.scale = alike<BellyScale>(drive.scale, lane);
+        if (stiffness == Stiffness::shared) fill({1, 1}, &block.scale.across);
+        const double time_s =
+            static_cast<double>(drive.first + 7 * b % (drive.ticks() - drive.first)) * frontier_tick_s;
+        for (std::size_t way = 0; way < 2; ++way) {
+          const double from_s = way == 0 ? time_s : time_s + frontier_tick_s,
+                       to_s = 2 * time_s + frontier_tick_s - from_s;
+          block.end[way] = alike<EndDrive>(drive.end(from_s, to_s), lane);
+          if (loads) block.load[way] = alike<FrameLoad>(drive.load(from_s, to_s), lane);
+        }
+        block.first = numbers * (blocks_.size() - 1);
+      }
+    }
+    numbers_.resize(numbers * blocks_.size());
+    if (!method.reduced()) return;
+    for (const Block& block : blocks_) {
+      if (method.moving()) fill(block.individual->motion, &numbers_[block.first + state_]);
+      fill(block.individual->points, &numbers_[block.first + state_ + motion_]);
     }
   }
-  turn_ = 1 - turn_;
-}
 
-void FrontierCrowd::tick_elements(Block& block) {
-  const FrontierIndividual& own = *block.individual;
-  BellyReport<Lanes<float>> unused;
-  const BellyBlock bellies{*own.shape,
-                           block.scale,
-                           column(block, 0),
-                           velocity_ == 0 ? nullptr : column(block, displacement_),
-                           unused,
-                           stiffness_,
-                           loads_ ? &block.load[turn_] : nullptr,
-                           false};
-  const auto tick_s = static_cast<float>(ticks_a_call_ * frontier_tick_s);
-  const std::uint32_t steps = method_.fixed_step ? fixed_steps_ : own.steps;
-  if (own.solver == nullptr) {
-    deform_explicit(bellies, {FarEnd::held, block.end[turn_]}, steps, tick_s, scratch_.data()->lane);
-  } else {
-    deform_implicit(bellies, *own.solver, {FarEnd::held, block.end[turn_]}, steps, tick_s, scratch_.data()->lane);
+  /// Everybody by a tick, or with a fixed step by the whole number of steps that is nearest to one. With
+  /// `control_points` those of a reduced method are placed too.
+  void tick(bool control_points) {
+    const FlushDenormals flush;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      if (method_.reduced()) {
+        tick_vectors(b, control_points);
+      } else {
+        tick_elements(blocks_[b]);
+      }
+    }
+    turn_ = 1 - turn_;
   }
-}
 
-void FrontierCrowd::tick_vectors(std::size_t b, bool control_points) {
-  const Block& block = blocks_[b];
-  const Block& next = blocks_[std::min(b + 1, blocks_.size() - 1)];
-  const ReducedBlock bellies{*block.individual->basis,
+  std::size_t muscles() const { return blocks_.size() * lane_count; }
+  /// How much of a tick one call of tick() is.
+  double ticks_a_call() const { return ticks_a_call_; }
+  /// Of one individual's own numbers that a tick reads or writes, with what the control points take.
+  std::size_t bytes_each() const { return bytes_each_; }
+  /// Steps in a tick, the mean of all.
+  double steps_a_tick() const {
+    if (method_.fixed_step) return frontier_tick_s / *method_.choice.dt_s;
+    double sum = 0;
+    for (const Block& block : blocks_) sum += block.individual->steps;
+    return sum / static_cast<double>(blocks_.size());
+  }
+  bool finite() const {
+    const std::size_t before = method_.reduced() ? state_ + motion_ + points_ : 0;
+    return std::ranges::all_of(blocks_, [&](const Block& block) {
+      const auto shown = std::span(numbers_).subspan(block.first + before, displacement_);
+      return std::ranges::all_of(shown, [](const Lanes<float>& numbers) {
+        return std::ranges::all_of(numbers.lane, [](float x) { return std::isfinite(x); });
+      });
+    });
+  }
+
+ private:
+  /// Its columns stand in a row, as in a world's table.
+  struct Block {
+    const FrontierIndividual* individual;
+    BellyScale<Lanes<float>> scale;
+    EndDrive<Lanes<float>> end[2];  // to and fro
+    FrameLoad<Lanes<float>> load[2];
+    std::size_t first;  // of numbers_
+  };
+
+  float* column(const Block& block, std::size_t after) { return numbers_[block.first + after].lane; }
+  void tick_elements(Block& block) {
+    const FrontierIndividual& own = *block.individual;
+    BellyReport<Lanes<float>> unused;
+    const BellyBlock bellies{*own.shape,
                              block.scale,
                              column(block, 0),
-                             column(block, state_),
+                             velocity_ == 0 ? nullptr : column(block, displacement_),
+                             unused,
+                             stiffness_,
                              loads_ ? &block.load[turn_] : nullptr,
-                             column(next, 0),
-                             column(next, state_)};
-  const ControlPoints points{column(block, state_ + motion_), column(block, state_ + motion_ + points_), true,
-                             column(next, state_ + motion_)};
-  if (!method_.moving()) {
-    place_static(bellies, points, {FarEnd::held, block.end[turn_]});
-    return;
+                             false};
+    const auto tick_s = static_cast<float>(ticks_a_call_ * frontier_tick_s);
+    const std::uint32_t steps = method_.fixed_step ? fixed_steps_ : own.steps;
+    if (own.solver == nullptr) {
+      deform_explicit(bellies, {FarEnd::held, block.end[turn_]}, steps, tick_s, scratch_.data()->lane);
+    } else {
+      deform_implicit(bellies, *own.solver, {FarEnd::held, block.end[turn_]}, steps, tick_s, scratch_.data()->lane);
+    }
   }
-  deform_reduced(bellies, {FarEnd::held, block.end[turn_]}, static_cast<float>(frontier_tick_s));
-  if (control_points) place_control_points(bellies, points, {FarEnd::held, block.end[turn_]});
-}
+  void tick_vectors(std::size_t b, bool control_points) {
+    const Block& block = blocks_[b];
+    const Block& next = blocks_[std::min(b + 1, blocks_.size() - 1)];
+    const ReducedBlock bellies{*block.individual->basis,
+                               block.scale,
+                               column(block, 0),
+                               column(block, state_),
+                               loads_ ? &block.load[turn_] : nullptr,
+                               column(next, 0),
+                               column(next, state_)};
+    const ControlPoints points{column(block, state_ + motion_), column(block, state_ + motion_ + points_), true,
+                               column(next, state_ + motion_)};
+    if (!method_.moving()) {
+      place_static(bellies, points, {FarEnd::held, block.end[turn_]});
+      return;
+    }
+    deform_reduced(bellies, {FarEnd::held, block.end[turn_]}, static_cast<float>(frontier_tick_s));
+    if (control_points) place_control_points(bellies, points, {FarEnd::held, block.end[turn_]});
+  }
 
-double FrontierCrowd::steps_a_tick() const {
-  if (method_.fixed_step) return frontier_tick_s / *method_.choice.dt_s;
-  double sum = 0;
-  for (const Block& block : blocks_) sum += block.individual->steps;
-  return sum / static_cast<double>(blocks_.size());
-}
-
-bool FrontierCrowd::finite() const {
-  const std::size_t before = method_.reduced() ? state_ + motion_ + points_ : 0;
-  return std::ranges::all_of(blocks_, [&](const Block& block) {
-    const auto shown = std::span(numbers_).subspan(block.first + before, displacement_);
-    return std::ranges::all_of(shown, [](const Lanes<float>& numbers) {
-      return std::ranges::all_of(numbers.lane, [](float x) { return std::isfinite(x); });
-    });
-  });
-}
+  const FrontierMethod method_;
+  const bool loads_;
+  const Stiffness stiffness_;
+  std::size_t bytes_each_ = 0, turn_ = 0;
+  double ticks_a_call_ = 1;
+  std::uint32_t fixed_steps_ = 0;
+  std::size_t state_ = 0, motion_ = 0, points_ = 0, displacement_ = 0, velocity_ = 0;  // widths
+  std::vector<Block> blocks_;
+  std::vector<Lanes<float>> numbers_;
+  std::vector<Lanes<float>> scratch_;
+};
 
 constexpr int repeats = 3;
 
@@ -243,9 +222,8 @@ std::unique_ptr<FrontierCrowd> crowd_of(const FrontierPriced& priced, std::span<
 
 }  // namespace
 
-Result<void> price(std::span<const FrontierPriced> all, std::span<const FrontierDrive> drives, bool loads,
-                   Frontier& frontier) {
-  if (all.empty()) return fail("frontier: no method is left to be measured; choose others");
+void price(std::span<const FrontierPriced> all, std::span<const FrontierDrive> drives, bool loads, Frontier& frontier) {
+  if (all.empty()) throw Stopped("frontier: no method is left to be measured; choose others");
   const FrontierRequest& request = frontier.request;
   std::vector<Meter> meters(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -261,7 +239,7 @@ Result<void> price(std::span<const FrontierPriced> all, std::span<const Frontier
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Meter& meter = meters[i];
     if (!meter.crowd->finite()) {
-      return fail(
+      throw Stopped(
           fmt::format("frontier: {} of {}: a displacement is not a number", all[i].row->method, all[i].row->cells));
     }
     FrontierRow& row = *all[i].row;
@@ -275,7 +253,6 @@ Result<void> price(std::span<const FrontierPriced> all, std::span<const Frontier
     if (least) frontier.least_muscles = meter.crowd->muscles();
   }
   if (!loads) frontier.shared_us = shared.us(shared.ticks);
-  return {};
 }
 
 }  // namespace mobil

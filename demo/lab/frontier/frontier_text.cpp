@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include <mobil/muscle_table.h>
 #include "demo/lab/frontier/frontier.h"
@@ -61,10 +60,8 @@ void add_scene(const Frontier& frontier, const FrontierChange& change, std::stri
                         fmt::format("{:.4g}", row->cost_us), fmt::format("{:.3g}", row->ratio),
                         fmt::format("{:.4g}", row->points_us), fmt::format("{:.3g}", row->points_ratio), also);
   }
-  text += fmt::format(
-      "  the reference's own change: {} from half the cells, {} from 24 vectors{}\n", percent(change.mesh),
-      percent(change.vectors),
-      change.elements ? fmt::format("; {} from plain explicit meshes extrapolated", percent(*change.elements)) : "");
+  text += fmt::format("  the reference's own change: {} from half the cells, {} from 24 vectors\n",
+                      percent(change.mesh), percent(change.vectors));
   add_shown(frontier, change.loads, false, text);
   add_shown(frontier, change.loads, true, text);
   const auto far =
@@ -133,7 +130,7 @@ std::string number_beside(const Frontier& frontier, const FrontierRow& row) {
 void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
   const auto add = [&](std::string_view method, std::string_view label, std::string_view colour,
                        double FrontierRow::*cost, bool numbered) {
-    PlotPoints points{{}, {}, {}, {}, std::string(colour), std::string(label)};
+    PlotPoints points{{}, {}, {}, std::string(colour), std::string(label)};
     for (const FrontierRow& row : frontier.rows) {
       if (row.loads != loads || row.method != method) continue;
       points.x.push_back(row.*cost);
@@ -146,7 +143,7 @@ void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
     add(one.method, one.label, one.colour, &FrontierRow::cost_us, one.method == "reduced");
   }
   add("reduced", placed_label, placed_colour, &FrontierRow::points_us, false);
-  PlotPoints paper{{}, {}, {}, {}, std::string(paper_colour), std::string(paper_label)};
+  PlotPoints paper{{}, {}, {}, std::string(paper_colour), std::string(paper_label)};
   for (const FrontierRow& row : frontier.rows) {
     if (row.loads != loads || row.mark.empty()) continue;
     paper.x.push_back(row.cost_us);

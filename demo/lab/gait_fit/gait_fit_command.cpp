@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -17,8 +16,8 @@
 #include "assets/muscles/excitation_curves.h"
 #include "demo/lab/compare/reference_tables.h"
 #include "demo/lab/gait_fit/step_grid.h"
-#include "demo/lab/gait_fit/step_styles.h"
 #include "demo/program/commands.h"
+#include "demo/program/must.h"
 #include "demo/program/progress.h"
 #include "engine/eigen.h"
 
@@ -70,19 +69,18 @@ double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return x.dot(y) / (x.norm() * y.norm());
 }
 
-Result<ExcitationFit> fit_excitation() {
+ExcitationFit fit_excitation() {
   const auto tables = reference_tables();
   const auto found = std::ranges::find(tables, table_name, &ReferenceTable::name);
-  if (found == tables.end()) return fail(fmt::format("{} is not among the program's tables", table_name));
+  if (found == tables.end()) throw Stopped(fmt::format("{} is not among the program's tables", table_name));
   constexpr std::array<std::string_view, 2> required = {"task", "percent_gait"};
-  const auto table = parse_csv(found->text, table_name, required);
-  if (!table) return tl::unexpected(table.error());
+  const auto table = must(parse_csv(found->text, table_name, required));
 
   std::vector<Point> points;
-  for (std::size_t r = 0; r < table->row.size(); ++r) {
-    const auto named = std::ranges::find(speed_classes, cell(*table, r, "task"), &SpeedClass::name);
-    const auto percent = number(cell(*table, r, "percent_gait"));
-    if (named == speed_classes.end() || !percent) return fail(fmt::format("{}: line {}", table_name, table->line[r]));
+  for (std::size_t r = 0; r < table.row.size(); ++r) {
+    const auto named = std::ranges::find(speed_classes, cell(table, r, "task"), &SpeedClass::name);
+    const auto percent = number(cell(table, r, "percent_gait"));
+    if (named == speed_classes.end() || !percent) throw Stopped(fmt::format("{}: line {}", table_name, table.line[r]));
     if (*percent >= 100) continue;  // 0 again
     points.push_back(
         {*percent / 100, over_leg(named->heights_per_s), r, static_cast<std::size_t>(named - speed_classes.begin())});
@@ -95,19 +93,19 @@ Result<ExcitationFit> fit_excitation() {
   ExcitationFit fit;
   auto to = std::back_inserter(fit.source);
   fmt::format_to(to, "// Written by `mobil fit-gait --excitation --out assets/muscles/excitation_curves.inl`.\n");
-  for (std::size_t column = required.size(); column < table->header.size(); ++column) {
+  for (std::size_t column = required.size(); column < table.header.size(); ++column) {
     Eigen::VectorXd measured(count);
     for (Eigen::Index p = 0; p < count; ++p) {
-      const auto value = number(table->row[points[static_cast<std::size_t>(p)].row][column]);
-      if (!value) return fail(fmt::format("{}: a number is missing in {}", table_name, table->header[column]));
+      const auto value = number(table.row[points[static_cast<std::size_t>(p)].row][column]);
+      if (!value) throw Stopped(fmt::format("{}: a number is missing in {}", table_name, table.header[column]));
       measured[p] = *value;
     }
     const Eigen::VectorXd terms = solver.solve(measured), fitted = design * terms;
-    fmt::format_to(to, "{{\"{}\", {{{{\n", table->header[column]);
+    fmt::format_to(to, "{{\"{}\", {{{{\n", table.header[column]);
     for (Eigen::Index i = 0; i < terms.size(); i += 3)
       fmt::format_to(to, "    {{{:.4f}F, {:.4f}F, {:.4f}F}},\n", terms[i], terms[i + 1], terms[i + 2]);
     fmt::format_to(to, "}}}}}},\n");
-    fmt::format_to(std::back_inserter(fit.quality), "{:<22}", table->header[column]);
+    fmt::format_to(std::back_inserter(fit.quality), "{:<22}", table.header[column]);
     for (std::size_t c = 0; c < speed_classes.size(); ++c) {
       std::vector<Eigen::Index> of;
       for (Eigen::Index p = 0; p < count; ++p)
@@ -211,45 +209,42 @@ void print(const std::vector<StepNode>& nodes) {
   fmt::print("CoP: most that the centre of pressure is moved for exact balance, and the like, mm\n");
 }
 
-Result<void> run_fit(const FitText& text) {
+void run_fit(const FitText& text) {
   if (text.excitation && (text.styles || !text.without.empty()))
-    return fail("--excitation is a table of its own; give it without --styles and --without");
+    throw Stopped("--excitation is a table of its own; give it without --styles and --without");
   if (text.styles && !text.without.empty())
-    return fail("--styles and --without: styles change the table that this program has; give one of the two");
+    throw Stopped("--styles and --without: styles change the table that this program has; give one of the two");
   if (text.excitation) {
     const auto fit = fit_excitation();
-    if (!fit) return tl::unexpected(fit.error());
-    if (auto done = write_file(text.out, fit->source); !done) return done;
-    fmt::print("correlation with what was measured\n{}", fit->quality);
+    must(write_file(text.out, fit.source));
+    fmt::print("correlation with what was measured\n{}", fit.quality);
     say_where(fmt::format("look at {}", text.out));
-    return {};
+    return;
   }
-  const auto reference = read_gait_reference({});
-  if (!reference) return tl::unexpected(reference.error());
-  FitData data{&*reference};
+  const auto reference = must(read_gait_reference({}));
+  FitData data{&reference};
   if (!text.without.empty()) {
     const auto named = std::ranges::find(compared_class_name, text.without);
     if (named == compared_class_name.end() || named == compared_class_name.begin() ||
         named + 1 == compared_class_name.end())
-      return fail(fmt::format("--without {}: name a speed between others: slow, free or fast", text.without));
+      throw Stopped(fmt::format("--without {}: name a speed between others: slow, free or fast", text.without));
     data.without = static_cast<std::size_t>(named - compared_class_name.begin());
   }
   const Threads threads(static_cast<int>(text.threads));
   if (text.styles) {
-    const std::string styles = styles_source(*reference, threads.jobs());
+    const std::string styles = styles_source(reference, threads.jobs());
     show("");
-    return write_file(text.out, styles);
+    return must(write_file(text.out, styles));
   }
   auto nodes = fit_grid(data, threads.jobs(), [](const char* stage, double cost) {
     show(fmt::format("{}: sum of squares {:.2f}", stage, cost));
   });
   show("");
-  if (auto done = write_file(text.out, source(nodes)); !done) return done;
+  must(write_file(text.out, source(nodes)));
   for (StepNode& node : nodes)  // judged by all speeds
-    node.targets = step_targets(*reference, data.set, node.targets.speed, node.task.body.leg);
+    node.targets = step_targets(reference, data.set, node.targets.speed, node.task.body.leg);
   print(nodes);
   say_where(fmt::format("look at {}", text.out));
-  return {};
 }
 
 }  // namespace
@@ -267,10 +262,7 @@ Subcommand gait_fit_command() {
                {"--without", &text->without,
                 "slow, free or fast: leave this measured speed out and be judged by it all the same"},
                {"--threads", &text->threads, "0: as many as the machine has"}});
-  command.run = [text] {
-    const auto done = run_fit(*text);
-    return done ? 0 : complain("fit-gait", done.error().message);
-  };
+  command.run = [text] { return exit_status_of("fit-gait", attempt([&] { run_fit(*text); })); };
   return command;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include <mobil/components/gait.h>
 #include "demo/lab/gait_fit/step_model.h"

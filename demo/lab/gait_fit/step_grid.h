@@ -1,14 +1,14 @@
 #pragma once
-// A table of steps over speed and step length, fitted node by node.
+// A table of steps over speed and step length, fitted node by node; and how a step changes with the manner of a
+// walk, and stays in balance.
 
-#include <array>
 #include <functional>
 #include <vector>
 
 #include <mobil/engine/jobs.h>
+#include "assets/gait/step_styles.h"
 #include "assets/gait/step_table.h"
 #include "demo/lab/compare/compare_reference.h"
-#include "demo/lab/gait_fit/step_model.h"
 #include "demo/lab/gait_fit/step_objective.h"
 
 namespace mobil {
@@ -57,5 +57,16 @@ std::vector<StepNode> fit_grid(const FitData& data, const Jobs& jobs,
 /// Between metres of fitted_height_m and a body of height 1.
 TabledShape tabled(const StepShape& shape);
 StepShape fitted(const TabledShape& shape);
+
+/// By style_effects: the change of the node's shape (m, rad) for one unit of each.
+using StyleChanges = std::array<StepShape, style_effects.size()>;
+
+/// The changes that disturb the fitted step least: a step near the node's that balances as well, clears the ground and
+/// is as smooth, and of which a parameter is different by a given amount; the difference, for one unit.
+StyleChanges style_changes(const StepNode& node);
+
+/// What style_effects' parameters are of, in their units, at a step. `usual` is the step that they are counted from.
+std::array<double, style_effects.size()> style_values(const StepTask& task, const StepShape& usual,
+                                                      const StepShape& shape);
 
 }  // namespace mobil

@@ -1,12 +1,6 @@
-#include "demo/lab/gait_fit/step_model.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include <mobil/anthropometry.h>
-#include <mobil/components/gait.h>
-#include "assets/body/segment_inertia.h"
 #include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/gait_fit/step_curves.h"
 #include "demo/lab/gait_fit/upper_body.h"

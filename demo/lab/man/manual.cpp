@@ -14,6 +14,7 @@
 
 #include <mobil/assets/files/output_file.h>
 #include "demo/program/commands.h"
+#include "demo/program/must.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/program.h"
 #include "demo/program/subcommands.h"
@@ -143,35 +144,27 @@ struct ManText {
   std::string out;
 };
 
-Result<void> write_pages(const Program& program, const std::vector<Subcommand>& commands, bool whole,
-                         const std::string& out) {
+void write_pages(const Program& program, const std::vector<Subcommand>& commands, bool whole, const std::string& out) {
   auto results = OutputFolder::make(out);
-  if (!results) return fail("--out " + results.error().message);
+  if (!results) throw Stopped("--out " + results.error().message);
   const auto page = [&](const std::string& name, const std::string& text) {
     return write_file(results->inside() / (name + ".1"), text);
   };
-  if (whole) {
-    if (auto done = page(program.name, manual(program)); !done) return done;
-  }
-  for (const Subcommand& command : commands) {
-    if (auto done = page(program.name + "-" + command.name, manual(program, command)); !done) return done;
-  }
-  if (auto done = results->put(); !done) return done;
+  if (whole) must(page(program.name, manual(program)));
+  for (const Subcommand& command : commands) must(page(program.name + "-" + command.name, manual(program, command)));
+  must(results->put());
   say_written(out);
-  return {};
 }
 
-Result<void> run_man(const ManText& text) {
+void run_man(const ManText& text) {
   const Program program = mobil_program();
-  const auto chosen = choose_named(program.commands, text.pages, "page of");
-  if (!chosen) return tl::unexpected(chosen.error());
-  if (!text.out.empty()) return write_pages(program, *chosen, text.pages.empty(), text.out);
+  const auto chosen = must(choose_named(program.commands, text.pages, "page of"));
+  if (!text.out.empty()) return write_pages(program, chosen, text.pages.empty(), text.out);
   if (text.pages.empty()) fmt::print("{}", manual(program));
   for (const std::string& name : text.pages) {
-    const auto command = std::ranges::find(*chosen, name, &Subcommand::name);
+    const auto command = std::ranges::find(chosen, name, &Subcommand::name);
     fmt::print("{}", manual(program, *command));
   }
-  return {};
 }
 
 }  // namespace
@@ -217,7 +210,7 @@ Subcommand man_command() {
                       .words = names_of(subcommand_rows())},
                      {"--out", &text->out, "Folder for the pages as files, of all subcommands where none is named"}};
   command.empty_refused = true;
-  command.run = [text] { return exit_status_of("man", run_man(*text)); };
+  command.run = [text] { return exit_status_of("man", attempt([&] { run_man(*text); })); };
   return command;
 }
 

@@ -8,20 +8,15 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <numbers>
-#include <string>
-#include <vector>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/components/activation.h>
 #include <mobil/components/muscle.h>
 #include <mobil/engine/error.h>
 #include <mobil/simulation.h>
-#include "assets/fem/muscle_template.h"
-#include "demo/lab/muscle/muscle_options.h"
 #include "demo/lab/muscle/muscle_run.h"
 #include "demo/program/commands.h"
 #include "demo/program/units.h"

@@ -2,10 +2,8 @@
 // The command line of `mobil muscle`, read and checked.
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"

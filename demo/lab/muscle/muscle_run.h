@@ -1,9 +1,6 @@
 #pragma once
 // What `mobil muscle` does with a request: steps the belly and keeps the far face's motion.
 
-#include <optional>
-#include <string>
-
 #include <mobil/basis_writer.h>
 #include "demo/lab/muscle/muscle_options.h"
 

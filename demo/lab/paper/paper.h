@@ -1,17 +1,12 @@
 #pragma once
 // The paper's figures and questions, as `mobil paper` makes them.
 
-#include <filesystem>
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include <mobil/engine/error.h>
-#include "demo/lab/paper/paper_stage.h"
+#include "demo/lab/paper/paper_cycle.h"
 #include "demo/lab/paper/paper_table.h"
 #include "demo/pictures/svg_plot.h"
+#include "demo/program/must.h"
 
 namespace mobil {
 
@@ -24,11 +19,11 @@ class PaperRun {
   void progress(std::string_view what, double part) const;
 
   /// Writes ENTRY.svg, ENTRY.csv.
-  Result<void> write(const PlotFigure& figure);
-  Result<void> write_csv(const std::string& text);
+  void write(const PlotFigure& figure);
+  void write_csv(const std::string& text);
   /// Writes ENTRY.png and tells `caption`; without a graphics device says so, once, and goes on. `make` is the way to
   /// the picture.
-  Result<void> write_picture(std::string_view caption, const std::function<Result<Image>()>& make);
+  void write_picture(std::string_view caption, const std::function<Image()>& make);
 
   std::string entry;          // the one that is being made
   std::filesystem::path out;  // where its files are written until it is done
@@ -37,7 +32,6 @@ class PaperRun {
   std::vector<std::string> written;
 
  private:
-  Result<void> wrote(const Result<void>& done, const std::string& file);
   bool blind_ = false;  // there is no graphics device
 };
 
@@ -51,15 +45,15 @@ GaitRequest paper_gait();
 /// These muscles alone.
 LegMuscles only(std::initializer_list<Muscle> muscles);
 
-Result<void> paper_figure14(PaperRun& run);
-Result<void> paper_figure15(PaperRun& run);
-Result<void> paper_figure16(PaperRun& run);
-Result<void> paper_figure17(PaperRun& run);
-Result<void> paper_weight(PaperRun& run);
-Result<void> paper_step_length(PaperRun& run);
-Result<void> paper_quadriceps(PaperRun& run);
-Result<void> paper_stature(PaperRun& run);
-Result<void> paper_contraction(PaperRun& run);
-Result<void> paper_anatomy(PaperRun& run);
+void paper_figure14(PaperRun& run);
+void paper_figure15(PaperRun& run);
+void paper_figure16(PaperRun& run);
+void paper_figure17(PaperRun& run);
+void paper_weight(PaperRun& run);
+void paper_step_length(PaperRun& run);
+void paper_quadriceps(PaperRun& run);
+void paper_stature(PaperRun& run);
+void paper_contraction(PaperRun& run);
+void paper_anatomy(PaperRun& run);
 
 }  // namespace mobil

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <memory>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/png.h>
@@ -24,7 +21,7 @@ namespace {
 
 struct Entry {
   std::string_view name, about;
-  Result<void> (*make)(PaperRun&);
+  void (*make)(PaperRun&);
   bool needs_anatomy = false;
 };
 
@@ -85,8 +82,7 @@ Result<void> make(const Entry& entry, const std::string& folder, PaperRun& run) 
   run.text.clear();
   run.written.clear();
   run.progress("walking", 0);
-  auto done = entry.make(run);
-  if (done) done = results->put();
+  const auto done = attempt([&] { entry.make(run); }).and_then([&] { return results->put(); });
   show("");
   if (!done) return fail(fmt::format("{}: {}", entry.name, done.error().message));
   fmt::print("{}: {}\n\n{}", entry.name, entry.about.substr(0, entry.about.rfind(" (")), run.text);
@@ -131,30 +127,28 @@ void PaperRun::progress(std::string_view what, double part) const {
   show_part(fmt::format("{}: {}", entry, what), part);
 }
 
-Result<void> PaperRun::wrote(const Result<void>& done, const std::string& file) {
-  if (done) written.push_back(file);
-  return done;
+void PaperRun::write(const PlotFigure& figure) {
+  written.push_back(entry + ".svg");
+  must(write_file(out / written.back(), svg(figure)));
 }
 
-Result<void> PaperRun::write(const PlotFigure& figure) {
-  return wrote(write_file(out / (entry + ".svg"), svg(figure)), entry + ".svg");
+void PaperRun::write_csv(const std::string& csv_text) {
+  written.push_back(entry + ".csv");
+  must(write_file(out / written.back(), csv_text));
 }
 
-Result<void> PaperRun::write_csv(const std::string& csv_text) {
-  return wrote(write_file(out / (entry + ".csv"), csv_text), entry + ".csv");
-}
-
-Result<void> PaperRun::write_picture(std::string_view caption, const std::function<Result<Image>()>& make) {
-  if (blind_) return {};
+void PaperRun::write_picture(std::string_view caption, const std::function<Image()>& make) {
+  if (blind_) return;
   progress("pictures", 0.9);
-  const auto image = make();
+  const auto image = attempt(make);
   if (!image) {
     blind_ = true;
     text += fmt::format("No pictures: {}\n", image.error().message);
-    return {};
+    return;
   }
   text += fmt::format("{}{}\n", text.empty() ? "" : "\n", caption);
-  return wrote(write_png((out / (entry + ".png")).string(), *image, PngEffort::small), entry + ".png");
+  written.push_back(entry + ".png");
+  must(write_png((out / written.back()).string(), *image, PngEffort::small));
 }
 
 BodyRequest paper_body() {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <mobil/components/activation.h>
 #include "assets/body/bent_legs.h"
@@ -31,39 +30,33 @@ LegMuscles pulling(ExcitationSource source, Method method) {
 }
 
 /// A man who stands on his toes or straight, every muscle of his legs excited at that level for a second.
-Result<ShownWalk> standing(const LegBend& bend, float level) {
+ShownWalk standing(const LegBend& bend, float level) {
   Simulation simulation;
-  const auto entity = simulation.spawn_posed(paper_body());
-  if (!entity) return tl::unexpected(entity.error());
-  const Body body = simulation.human(*entity)->body;
-  if (auto posed = simulation.set_pose(*entity, with_bent_legs(body, bend)); !posed)
-    return tl::unexpected(posed.error());
+  const auto entity = must(simulation.spawn_posed(paper_body()));
+  const Body body = simulation.human(entity)->body;
+  must(simulation.set_pose(entity, with_bent_legs(body, bend)));
   simulation.tick();
   LegMuscles choice = pulling(ExcitationSource::host, Method::reduced);
   choice.reduced.moving = false;
-  if (auto added = simulation.add_leg_muscles(*entity, choice); !added) return tl::unexpected(added.error());
-  for (const OwnMuscle& own : simulation.muscles(*entity)) {
-    for (const Side side : {Side::right, Side::left}) {
-      if (auto set = simulation.set_excitation(*entity, own.muscle, side, level); !set)
-        return tl::unexpected(set.error());
-    }
+  must(simulation.add_leg_muscles(entity, choice));
+  for (const OwnMuscle& own : simulation.muscles(entity)) {
+    for (const Side side : {Side::right, Side::left}) must(simulation.set_excitation(entity, own.muscle, side, level));
   }
   for (int tick = 0; tick < 60; ++tick) simulation.tick();
-  const Human human = *simulation.human(*entity);
-  const auto figure = make_figure(human);
-  if (!figure) return tl::unexpected(figure.error());
-  ShownWalk shown{begin_recording(*figure, 1), {}};
-  record_frame(*figure, simulation, human, shown.recording);
+  const Human human = *simulation.human(entity);
+  const auto figure = must(make_figure(human));
+  ShownWalk shown{begin_recording(figure, 1), {}};
+  record_frame(figure, simulation, human, shown.recording);
   return shown;
 }
 
-Result<Image> leg(const ShownWalk& shown, const Camera& camera) {
+Image leg(const ShownWalk& shown, const Camera& camera) {
   const Actor actor{&shown, 0, {}, Actor::Bones::right_leg, Actor::Muscles::right};
   return take_picture({camera, 260, 440, false}, {&actor, 1});
 }
 
 /// Calf from behind and thigh from the front, each relaxed and contracted; push-off, linear and contracting.
-Result<Image> legs(const CycleRequest& push_off) {
+Image legs(const CycleRequest& push_off) {
   struct View {
     LegBend bend;
     Camera camera;
@@ -74,20 +67,14 @@ Result<Image> legs(const CycleRequest& push_off) {
   for (const View& view : views) {
     for (const float level : {0.0F, 1.0F}) {
       const auto shown = standing(view.bend, level);
-      if (!shown) return tl::unexpected(shown.error());
-      auto image = leg(*shown, view.camera);
-      if (!image) return image;
-      row.push_back(std::move(*image));
+      row.push_back(leg(shown, view.camera));
     }
   }
   for (const bool pulls : {false, true}) {
     CycleRequest request = push_off;
     if (!pulls) request.muscles->activation = ExcitationSource::none;
     const auto walk = walk_cycle(request);
-    if (!walk) return tl::unexpected(walk.error());
-    auto image = leg(walk->shown, camera_at({-0.09F, 0.42F, -0.24F}, 0.46F, -30, 4));
-    if (!image) return image;
-    row.push_back(std::move(*image));
+    row.push_back(leg(walk.shown, camera_at({-0.09F, 0.42F, -0.24F}, 0.46F, -30, 4)));
   }
   return contact_sheet({&row, 1}, 4);
 }
@@ -105,23 +92,22 @@ struct MuscleCurves {
   CycleCurve activation{}, line_mm{}, fibre_mm{}, tendon_mm{}, force_n{};
 };
 
-Result<std::vector<MuscleCurves>> stride() {
+std::vector<MuscleCurves> stride() {
   SimulationOptions options;
   options.tick_s = contraction_tick_s;
   Simulation simulation(options);
-  const auto entity = simulation.spawn(paper_body(), paper_gait());
-  if (!entity) return tl::unexpected(entity.error());
+  const auto entity = must(simulation.spawn(paper_body(), paper_gait()));
   const LegMuscles choice = pulling(ExcitationSource::phase, Method::none);
-  if (auto added = simulation.add_leg_muscles(*entity, choice); !added) return tl::unexpected(added.error());
+  must(simulation.add_leg_muscles(entity, choice));
   struct Rows {
     std::vector<double> activation, line, fibre, tendon, force;
   };
   std::vector<double> phases;
   std::array<Rows, shown_muscles.size()> rows;
-  const auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {
+  over_steady_cycle(simulation, entity, [&](double phase) {
     phases.push_back(phase);
     for (std::size_t m = 0; m < rows.size(); ++m) {
-      const Entity muscle = simulation.muscle(*entity, *find_muscle(shown_muscles[m].name), Side::right);
+      const Entity muscle = simulation.muscle(entity, *find_muscle(shown_muscles[m].name), Side::right);
       const auto pull = *simulation.get<Musculotendon>(muscle);
       const auto line = *simulation.get<LineOfAction>(muscle);
       rows[m].activation.push_back(double{simulation.get<Activation>(muscle)->activation});
@@ -131,7 +117,6 @@ Result<std::vector<MuscleCurves>> stride() {
       rows[m].force.push_back(double{pull.force_n});
     }
   });
-  if (!walked) return tl::unexpected(walked.error());
   std::vector<MuscleCurves> curves;
   curves.reserve(rows.size());
   for (const Rows& own : rows) {
@@ -170,26 +155,25 @@ PlotFigure plot(const std::vector<MuscleCurves>& curves) {
 
 }  // namespace
 
-Result<void> paper_contraction(PaperRun& run) {
+void paper_contraction(PaperRun& run) {
   run.progress("stride", 0.1);
   const auto curves = stride();
-  if (!curves) return tl::unexpected(curves.error());
   std::string csv = "percent_gait";
   for (const ShownMuscle& muscle : shown_muscles)
     csv += fmt::format(",{0}_activation,{0}_fibre_mm,{0}_tendon_mm,{0}_force_n", muscle.name);
   csv += '\n';
   for (std::size_t i = 0; i < cycle_points; ++i) {
     csv += fmt::format("{:.6g}", 100.0 * static_cast<double>(i) / static_cast<double>(cycle_points - 1));
-    for (const MuscleCurves& c : *curves)
+    for (const MuscleCurves& c : curves)
       csv += fmt::format(",{:.4f},{:.3f},{:.3f},{:.2f}", c.activation[i], c.fibre_mm[i], c.tendon_mm[i], c.force_n[i]);
     csv += '\n';
   }
-  if (auto done = run.write_csv(csv); !done) return done;
-  if (auto done = run.write(plot(*curves)); !done) return done;
+  run.write_csv(csv);
+  run.write(plot(curves));
   const auto at = [](const CycleCurve& curve, double part) {
     return curve[static_cast<std::size_t>(std::lround(part * static_cast<double>(cycle_points - 1)))];
   };
-  const MuscleCurves& calf = (*curves)[2];
+  const MuscleCurves& calf = curves[2];
   run.text += fmt::format(
       "From 10 to 42 % of the cycle gastrocnemius medialis and its tendon lengthen by {:.1f} mm: the tendon by {:.1f}, "
       "the fibres by {:.1f}.\n",
@@ -198,7 +182,7 @@ Result<void> paper_contraction(PaperRun& run) {
   run.progress("legs", 0.3);
   const CycleRequest push_off{
       paper_body(), paper_gait(), pulling(ExcitationSource::phase, Method::reduced), {0.45}, {}};
-  return run.write_picture(
+  run.write_picture(
       "The calf on tiptoe and the thigh, each relaxed and at full activation; push-off at 45 % of the cycle, linear "
       "and "
       "contracting.",

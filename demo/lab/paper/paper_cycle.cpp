@@ -5,15 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <numbers>
 #include <numeric>
 
 #include <mobil/assets/files/csv_table.h>
+#include <mobil/engine/geometry.h>
 #include <mobil/forces.h>
+#include <mobil/renderer.h>
+#include <mobil/systems/capture/matrix.h>
 #include "assets/fem/muscle_template.h"
 #include "demo/anatomy/real_figure.h"
 #include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/compare/reference_tables.h"
+#include "demo/program/must.h"
+#include "demo/walk/drawn_skin.h"
 #include "demo/walk/walk_lines.h"
 
 namespace mobil {
@@ -133,33 +139,63 @@ std::vector<Vec3<float>> right_mesh_edges(const Simulation& simulation, const Hu
   return own;
 }
 
+using namespace geometry;
+using capture_math::radians;
+
+constexpr Colour mesh_ink{0.13F, 0.16F, 0.20F};
+constexpr float field_deg = 8;  // so narrow that rows of people are seen alike
+
+bool in_right_leg(Segment s) {
+  return s == Segment::pelvis || (s >= Segment::thigh_right && s <= Segment::toes_right);
+}
+
+/// What is to be drawn of a walk, of one frame.
+WalkRecording part_of(const Actor& actor) {
+  const WalkRecording& whole = actor.walk->recording;
+  WalkRecording part;
+  part.frames = {whole.frames[actor.frame]};
+  for (const BoneSurface& bone : whole.bones) {
+    const bool drawn =
+        actor.bones == Actor::Bones::all || (actor.bones == Actor::Bones::right_leg && in_right_leg(bone.segment));
+    if (drawn) part.bones.push_back(bone);
+  }
+  for (const RecordedMuscle& muscle : whole.muscles) {
+    const bool drawn = actor.muscles == Actor::Muscles::both ||
+                       (actor.muscles == Actor::Muscles::right && !muscle.name.ends_with("_left"));
+    if (drawn) {
+      part.muscles.push_back(
+          {muscle.name, muscle.segment, muscle.colour, muscle.triangle, {muscle.position_m[actor.frame]}});
+    }
+  }
+  return part;
+}
+
 }  // namespace
 
-Result<std::vector<PublishedLength>> read_published_lengths(std::string_view walk) {
+std::vector<PublishedLength> read_published_lengths(std::string_view walk) {
   const auto tables = reference_tables();
   const auto found = std::ranges::find(tables, lengths_file, &ReferenceTable::name);
   if (found == tables.end())
-    return fail(fmt::format("the program was built without assets/reference/{}", lengths_file));
-  const auto table = parse_csv(found->text, lengths_file, required);
-  if (!table) return tl::unexpected(table.error());
+    throw Stopped(fmt::format("the program was built without assets/reference/{}", lengths_file));
+  const auto table = must(parse_csv(found->text, lengths_file, required));
   std::vector<PublishedLength> lengths;
   for (const std::string_view name : length_names) {
     PublishedLength length{std::string(name), {}};
     std::size_t points = 0;
-    for (std::size_t r = 0; r < table->row.size(); ++r) {
-      if (cell(*table, r, "curve") != walk) continue;
-      const auto percent = number(cell(*table, r, "percent_gait"));
-      const auto mean = number(cell(*table, r, name));
+    for (std::size_t r = 0; r < table.row.size(); ++r) {
+      if (cell(table, r, "curve") != walk) continue;
+      const auto percent = number(cell(table, r, "percent_gait"));
+      const auto mean = number(cell(table, r, name));
       if (!percent || !mean || points >= cycle_points || *percent != 2.0 * static_cast<double>(points)) {
-        return fail(fmt::format("{} line {}: {} needs every 2 % of the cycle and a number for {}", lengths_file,
-                                table->line[r], walk, name));
+        throw Stopped(fmt::format("{} line {}: {} needs every 2 % of the cycle and a number for {}", lengths_file,
+                                  table.line[r], walk, name));
       }
       length.curve.mean[points] = *mean;
-      length.curve.sd[points] = number(cell(*table, r, fmt::format("{}_sd", name))).value_or(0);
+      length.curve.sd[points] = number(cell(table, r, fmt::format("{}_sd", name))).value_or(0);
       ++points;
     }
     if (points != cycle_points)
-      return fail(fmt::format("{}: {} of {} rows of {}", lengths_file, points, cycle_points, walk));
+      throw Stopped(fmt::format("{}: {} of {} rows of {}", lengths_file, points, cycle_points, walk));
     lengths.push_back(std::move(length));
   }
   return lengths;
@@ -169,29 +205,21 @@ const MuscleCycle& PaperCycle::muscle(Muscle wanted) const {
   return *std::ranges::find_if(muscles, [wanted](const MuscleCycle& m) { return m.plan.muscle == wanted; });
 }
 
-Result<PaperCycle> walk_cycle(const CycleRequest& request) {
+PaperCycle walk_cycle(const CycleRequest& request) {
   SimulationOptions options;
   options.tick_s = cycle_tick_s;
   Simulation simulation(options);
-  const auto entity = simulation.spawn(request.body, request.gait);
-  if (!entity) return tl::unexpected(entity.error());
-  simulation.add_forces(*entity);
-  if (request.muscles) {
-    if (auto added = simulation.add_leg_muscles(*entity, *request.muscles); !added) {
-      return tl::unexpected(added.error());
-    }
-  }
-  const Human human = *simulation.human(*entity);
+  const auto entity = must(simulation.spawn(request.body, request.gait));
+  simulation.add_forces(entity);
+  if (request.muscles) must(simulation.add_leg_muscles(entity, *request.muscles));
+  const Human human = *simulation.human(entity);
   Figure figure;
-  if (!request.shown_at.empty()) {
-    auto made = request.anatomy ? real_figure(human, *request.anatomy, false) : make_figure(human);
-    if (!made) return tl::unexpected(made.error());
-    figure = std::move(*made);
-  }
+  if (!request.shown_at.empty())
+    figure = must(request.anatomy ? real_figure(human, *request.anatomy, false) : make_figure(human));
   ShownWalk shown{begin_recording(figure, static_cast<float>(cycle_tick_s)), {}};
   TickRows rows;
   std::size_t next = 0;
-  const auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {
+  over_steady_cycle(simulation, entity, [&](double phase) {
     add_rows(simulation, human, rows);
     rows.phase.push_back(phase);
     for (; next < request.shown_at.size() && phase >= request.shown_at[next]; ++next) {
@@ -199,7 +227,6 @@ Result<PaperCycle> walk_cycle(const CycleRequest& request) {
       shown.mesh_edge.push_back(right_mesh_edges(simulation, human));
     }
   });
-  if (!walked) return tl::unexpected(walked.error());
   PaperCycle cycle = sample(simulation, human, rows);
   cycle.shown = std::move(shown);
   return cycle;
@@ -213,6 +240,56 @@ CycleRange range_of(const CycleCurve& curve) {
 
 double mean_of(const CycleCurve& curve) {
   return std::accumulate(curve.begin(), curve.end() - 1, 0.0) / (cycle_points - 1);
+}
+
+Camera camera_at(const Vec3<float>& target, float tall_m, float turn_deg, float rise_deg) {
+  const float distance = tall_m / 2 / std::tan(radians(field_deg / 2));
+  const float turn = radians(turn_deg), rise = radians(rise_deg);
+  Camera camera;
+  camera.target = target;
+  camera.eye = target + distance * Vec3<float>{-std::cos(turn) * std::cos(rise), std::sin(rise),
+                                               std::sin(turn) * std::cos(rise)};
+  camera.vertical_fov_deg = field_deg;
+  return camera;
+}
+
+Vec3<float> across(const Camera& camera) {
+  return camera_axes(camera).right;
+}
+
+std::vector<Actor> side_by_side(std::span<const PaperCycle> walks, const Camera& camera, float apart_m) {
+  std::vector<Actor> actors;
+  const float middle = (static_cast<float>(walks.size()) - 1) / 2;
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    const float place = apart_m * (static_cast<float>(i) - middle);
+    actors.push_back({.walk = &walks[i].shown, .frame = 0, .at = place * across(camera)});
+  }
+  return actors;
+}
+
+Image take_picture(const Stage& stage, std::span<const Actor> actors) {
+  auto renderer = must(Renderer::create(stage.width, stage.height));
+  RecordedScene drawn;
+  std::deque<WalkRecording> part;
+  std::vector<Vec3<float>> edges;
+  for (const Actor& actor : actors) {
+    const WalkRecording& own = part.emplace_back(part_of(actor));
+    const Vec3<float> pelvis = own.frames[0].position_m[index(Segment::pelvis)];
+    const Vec3<float> shift = actor.at - Vec3<float>{0, 0, pelvis.z};
+    add_bones(own, 0, shift, 0, drawn);
+    add_muscles(own, 0, shift, drawn);
+    if (!actor.mesh) continue;
+    for (const auto& p : actor.walk->mesh_edge[actor.frame]) edges.push_back(p + shift);
+  }
+  std::vector<DrawLines> lines;
+  if (!edges.empty()) lines.push_back({.position = edges, .colour = mesh_ink, .width = 1.3F});
+  Scene scene;
+  scene.camera = stage.camera;
+  scene.meshes = drawn.meshes;
+  scene.lines = lines;
+  scene.light = {-0.55F, 0.80F, 0.45F};
+  scene.ground = stage.ground;
+  return must(renderer.render(scene));
 }
 
 }  // namespace mobil

@@ -1,8 +1,11 @@
 #pragma once
-// One steady gait cycle of one person with leg muscles, as `mobil paper` tells and shows it.
+// One steady gait cycle of one person with leg muscles, as `mobil paper` tells and shows it; people put on a
+// stage, and pictures taken of it.
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +15,8 @@
 #include <mobil/components/gait.h>
 #include <mobil/engine/error.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/capture/camera.h>
+#include <mobil/systems/capture/image.h>
 #include "demo/pictures/cycle_curve.h"
 
 namespace mobil {
@@ -26,7 +31,7 @@ struct PublishedLength {
 
 /// All of one walk: opensim_normal_gait, schwartz_slow, schwartz_free or schwartz_fast; from the table that the program
 /// carries. Error: the table is not as it should be.
-Result<std::vector<PublishedLength>> read_published_lengths(std::string_view walk);
+std::vector<PublishedLength> read_published_lengths(std::string_view walk);
 
 /// `shown_at`: where in the cycle (0–1, ascending) pictures are to be made.
 struct CycleRequest {
@@ -67,7 +72,7 @@ struct PaperCycle {
 
 /// Walks until steady and then one cycle more, in ticks of 1/240 s. Errors: a body, gait or choice of muscles out of
 /// range; an anatomy folder that cannot be read.
-Result<PaperCycle> walk_cycle(const CycleRequest& request);
+PaperCycle walk_cycle(const CycleRequest& request);
 
 struct CycleRange {
   double low, high, low_percent, high_percent;
@@ -75,5 +80,34 @@ struct CycleRange {
 };
 CycleRange range_of(const CycleCurve& curve);
 double mean_of(const CycleCurve& curve);
+
+/// One moment of a walk. The point of the ground below the pelvis is put at `at`.
+struct Actor {
+  const ShownWalk* walk = nullptr;
+  std::size_t frame = 0;
+  Vec3<float> at{0, 0, 0};
+  enum class Bones : std::uint8_t { all, right_leg, none } bones = Bones::all;
+  enum class Muscles : std::uint8_t { both, right, none } muscles = Muscles::both;
+  bool mesh = false;  // the right leg's finite-element meshes, as lines
+};
+
+struct Stage {
+  Camera camera;
+  int width = 640, height = 480;
+  bool ground = true;
+};
+
+/// From the right of people who walk toward +z (which is to the right in the picture) and somewhat in front of them:
+/// `turn_deg` from the side, `rise_deg` above. Holds about `tall_m` of height at the target, hardly any perspective.
+Camera camera_at(const Vec3<float>& target, float tall_m, float turn_deg, float rise_deg);
+
+/// The direction to the right in pictures of that camera, of unit length.
+Vec3<float> across(const Camera& camera);
+
+/// People `apart_m` from one another, each in their own first frame, from left to right before the camera.
+std::vector<Actor> side_by_side(std::span<const PaperCycle> walks, const Camera& camera, float apart_m);
+
+/// Errors: no graphics device or driver.
+Image take_picture(const Stage& stage, std::span<const Actor> actors);
 
 }  // namespace mobil

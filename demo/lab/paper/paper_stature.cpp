@@ -127,7 +127,7 @@ std::string answer(const PaperTable& table) {
   return text;
 }
 
-Result<Image> stature_picture(const std::vector<PaperCycle>& walks) {
+Image stature_picture(const std::vector<PaperCycle>& walks) {
   const Camera camera = camera_at({0, 1.0F, 0}, 2.12F, 32, 3);
   return take_picture({camera, 940, 395}, side_by_side(walks, camera, 0.98F));
 }
@@ -184,7 +184,7 @@ PlotFigure weight_figure(const std::vector<PaperCycle>& walks) {
   return figure;
 }
 
-Result<Image> weight_picture(const std::vector<PaperCycle>& walks) {
+Image weight_picture(const std::vector<PaperCycle>& walks) {
   const Camera camera = camera_at({0, 0.93F, 0}, 1.98F, 32, 3);
   return take_picture({camera, 780, 480}, side_by_side(walks, camera, 1.0F));
 }
@@ -238,7 +238,7 @@ PlotFigure step_length_figure(const std::vector<PaperCycle>& walks) {
 
 }  // namespace
 
-Result<void> paper_stature(PaperRun& run) {
+void paper_stature(PaperRun& run) {
   std::vector<PaperCycle> walks;
   for (const Person& person : people) {
     run.progress("walking", static_cast<double>(walks.size()) / people.size());
@@ -246,27 +246,23 @@ Result<void> paper_stature(PaperRun& run) {
     request.body.height_m = person.height_m;
     request.body.mass_kg = person.mass_kg;
     request.body.constitution = person.constitution;
-    auto walk = walk_cycle(request);
-    if (!walk) return tl::unexpected(walk.error());
-    walks.push_back(std::move(*walk));
+    walks.push_back(walk_cycle(request));
   }
   const PaperTable table = stature_table(walks);
   run.text = turned_table_text(table) + answer(table);
-  if (auto done = run.write_csv(table_csv(table)); !done) return done;
-  if (auto done = run.write(stature_figure(walks)); !done) return done;
-  return run.write_picture("The picture: as in the table, all at the right heel strike.",
-                           [&] { return stature_picture(walks); });
+  run.write_csv(table_csv(table));
+  run.write(stature_figure(walks));
+  run.write_picture("The picture: as in the table, all at the right heel strike.",
+                    [&] { return stature_picture(walks); });
 }
 
-Result<void> paper_weight(PaperRun& run) {
+void paper_weight(PaperRun& run) {
   std::vector<PaperCycle> walks;
   for (std::size_t i = 0; i < masses_kg.size(); ++i) {
     run.progress("walking", static_cast<double>(i) / static_cast<double>(masses_kg.size()));
     CycleRequest request{paper_body(), paper_gait(), LegMuscles{}, {0.0}, {}};
     request.body.mass_kg = masses_kg[i];
-    auto walk = walk_cycle(request);
-    if (!walk) return tl::unexpected(walk.error());
-    walks.push_back(std::move(*walk));
+    walks.push_back(walk_cycle(request));
   }
   const PaperTable table = weight_table(walks);
   const auto& lightest = table.row.front().value;
@@ -282,23 +278,20 @@ Result<void> paper_weight(PaperRun& run) {
                  table.row.front().label, table.row.back().label, std::abs(heaviest[2] - lightest[2]),
                  heaviest[2] < lightest[2] ? "lower" : "higher", heaviest[3], lightest[3], stance,
                  heaviest[7] / lightest[7], weight_n(walks.back()) / weight_n(walks.front()));
-  if (auto done = run.write_csv(table_csv(table)); !done) return done;
-  if (auto done = run.write(weight_figure(walks)); !done) return done;
-  return run.write_picture("The picture: from left to right, all at the right heel strike.",
-                           [&] { return weight_picture(walks); });
+  run.write_csv(table_csv(table));
+  run.write(weight_figure(walks));
+  run.write_picture("The picture: from left to right, all at the right heel strike.",
+                    [&] { return weight_picture(walks); });
 }
 
-Result<void> paper_step_length(PaperRun& run) {
+void paper_step_length(PaperRun& run) {
   CycleRequest request{paper_body(), paper_gait(), {}, {}, {}};
   const auto natural = walk_cycle(request);
-  if (!natural) return tl::unexpected(natural.error());
   std::vector<PaperCycle> walks;
   for (const float times : times_natural) {
     run.progress("walking", static_cast<double>(walks.size() + 1) / (times_natural.size() + 1));
-    request.gait.step_length_m = times * natural->gait.step_length_m;
-    auto walk = walk_cycle(request);
-    if (!walk) return tl::unexpected(walk.error());
-    walks.push_back(std::move(*walk));
+    request.gait.step_length_m = times * natural.gait.step_length_m;
+    walks.push_back(walk_cycle(request));
   }
   const PaperTable table = step_length_table(walks);
   const auto &short_steps = table.row.front().value, &usual = table.row[1].value, &long_steps = table.row.back().value;
@@ -309,8 +302,8 @@ Result<void> paper_step_length(PaperRun& run) {
                  "{:.0f} and {:.0f} mm.\n",
                  short_steps[0], usual[0], long_steps[0], short_steps[5], usual[5], long_steps[5], short_steps[2],
                  usual[2], long_steps[2], short_steps[6], usual[6], long_steps[6]);
-  if (auto done = run.write_csv(table_csv(table)); !done) return done;
-  return run.write(step_length_figure(walks));
+  run.write_csv(table_csv(table));
+  run.write(step_length_figure(walks));
 }
 
 }  // namespace mobil

@@ -1,7 +1,7 @@
 #pragma once
 // What every entry of `mobil robustness` is made of: hard cases, each a promise with its bound, and what came of it.
 //
-// An entry is one function, `Result<void> stress_x(StressRun&)`, and one line in the list of stress_command.cpp. It
+// An entry is one function, `void stress_x(StressRun&)`, and one line in the list of stress_command.cpp. It
 // adds rows; a row holds where its measured value is on the promised side of its bound, and never where that is
 // NaN.
 
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <mobil/engine/error.h>
+#include "demo/program/must.h"
 
 namespace mobil {
 
@@ -49,27 +50,27 @@ struct StressRun {
   void progress(double part) const { show(entry, part); }
 };
 
-Result<void> stress_slivers(StressRun& run);
-Result<void> stress_aspect(StressRun& run);
-Result<void> stress_inverted(StressRun& run);
-Result<void> stress_poisson(StressRun& run);
-Result<void> stress_young(StressRun& run);
-Result<void> stress_damping(StressRun& run);
-Result<void> stress_steps(StressRun& run);
-Result<void> stress_caa(StressRun& run);
-Result<void> stress_step_load(StressRun& run);
-Result<void> stress_resonance(StressRun& run);
-Result<void> stress_energy_single(StressRun& run);
-Result<void> stress_denormals(StressRun& run);
-Result<void> stress_nan(StressRun& run);
-Result<void> stress_explosion(StressRun& run);
-Result<void> stress_excitation(StressRun& run);
-Result<void> stress_contraction(StressRun& run);
-Result<void> stress_walkers(StressRun& run);
-Result<void> stress_ways(StressRun& run);
-Result<void> stress_relevance(StressRun& run);
-Result<void> stress_ticks(StressRun& run);
-Result<void> stress_far(StressRun& run);
-Result<void> stress_day(StressRun& run);
+void stress_slivers(StressRun& run);
+void stress_aspect(StressRun& run);
+void stress_inverted(StressRun& run);
+void stress_poisson(StressRun& run);
+void stress_young(StressRun& run);
+void stress_damping(StressRun& run);
+void stress_steps(StressRun& run);
+void stress_caa(StressRun& run);
+void stress_step_load(StressRun& run);
+void stress_resonance(StressRun& run);
+void stress_energy_single(StressRun& run);
+void stress_denormals(StressRun& run);
+void stress_nan(StressRun& run);
+void stress_explosion(StressRun& run);
+void stress_excitation(StressRun& run);
+void stress_contraction(StressRun& run);
+void stress_walkers(StressRun& run);
+void stress_ways(StressRun& run);
+void stress_relevance(StressRun& run);
+void stress_ticks(StressRun& run);
+void stress_far(StressRun& run);
+void stress_day(StressRun& run);
 
 }  // namespace mobil

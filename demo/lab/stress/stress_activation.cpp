@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
@@ -47,17 +46,14 @@ struct Worst {
   }
 };
 
-Result<void> excite_all(Simulation& simulation, Entity human, float level) {
+void excite_all(Simulation& simulation, Entity human, float level) {
   for (const OwnMuscle& own : simulation.muscles(human)) {
-    for (const Side side : {Side::right, Side::left}) {
-      if (auto done = simulation.set_excitation(human, own.muscle, side, level); !done) return done;
-    }
+    for (const Side side : {Side::right, Side::left}) must(simulation.set_excitation(human, own.muscle, side, level));
   }
-  return {};
 }
 
 /// Stiffness that goes up and down as fast as activation can, at any rate: what shakes must not be pumped up by it.
-Result<void> stress_tuned(StressRun& run) {
+void stress_tuned(StressRun& run) {
   Worst walking, standing;
   double grown = 0;
   for (const int apart : {1, 2, 3, 5, 8}) {
@@ -65,24 +61,18 @@ Result<void> stress_tuned(StressRun& run) {
     LegMuscles choice = hosted(Method::reduced);
     choice.reduced.tuned = true;
     choice.inertia = true;
-    const auto walker = simulation.spawn({}, {.speed_m_s = 1.8F});
-    if (!walker) return tl::unexpected(walker.error());
-    const auto stands = simulation.spawn_posed({});
-    if (!stands) return tl::unexpected(stands.error());
-    for (const Entity human : {*walker, *stands}) {
-      if (auto added = simulation.add_leg_muscles(human, choice); !added) return added;
-    }
+    const auto walker = must(simulation.spawn({}, {.speed_m_s = 1.8F}));
+    const auto stands = must(simulation.spawn_posed({}));
+    for (const Entity human : {walker, stands}) must(simulation.add_leg_muscles(human, choice));
     const int ticks = run.quick ? 300 : 3600;
     std::array<double, 2> most_j{};  // in the first second, and later
     for (int tick = 0; tick < ticks; ++tick) {
       const float level = tick / apart % 2 == 0 ? 1.0F : 0.0F;
-      for (const Entity human : {*walker, *stands}) {
-        if (auto done = excite_all(simulation, human, level); !done) return done;
-      }
+      for (const Entity human : {walker, stands}) excite_all(simulation, human, level);
       simulation.tick();
-      walking.look(simulation, *walker);
-      standing.look(simulation, *stands);
-      for (const OwnMuscle& own : simulation.muscles(*stands)) {
+      walking.look(simulation, walker);
+      standing.look(simulation, stands);
+      for (const OwnMuscle& own : simulation.muscles(stands)) {
         for (const Entity muscle : own.entity)
           keep_worst(most_j[tick >= 60], double{simulation.get<BellyReport>(muscle)->kinetic_energy_j});
       }
@@ -95,23 +85,21 @@ Result<void> stress_tuned(StressRun& run) {
               "twice what a contraction takes");
   run.at_most(name, "kinetic energy of who stands after the first second, over that in it", 1, grown,
               "what pumps would grow; the first contraction is the largest");
-  return {};
 }
 
 }  // namespace
 
-Result<void> stress_excitation(StressRun& run) {
+void stress_excitation(StressRun& run) {
   Simulation simulation;
-  const auto human = simulation.spawn({}, {.speed_m_s = 1.3F});
-  if (!human) return tl::unexpected(human.error());
-  if (auto added = simulation.add_leg_muscles(*human, hosted(Method::ecd)); !added) return added;
+  const auto human = must(simulation.spawn({}, {.speed_m_s = 1.3F}));
+  must(simulation.add_leg_muscles(human, hosted(Method::ecd)));
   for (int tick = 0; tick < 30; ++tick) simulation.tick();
   const auto before = world_words(simulation);
   std::size_t refused = 0, asked = 0;
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                           -std::numeric_limits<float>::infinity()}) {
     for (std::size_t m = 0; m < muscle_group_count; ++m, ++asked)
-      refused += simulation.set_excitation(*human, static_cast<Muscle>(m), Side::right, bad) ? 0 : 1;
+      refused += simulation.set_excitation(human, static_cast<Muscle>(m), Side::right, bad) ? 0 : 1;
   }
   run.at_most("excitations that are no numbers", "of them taken", 0, static_cast<double>(asked - refused),
               "each is refused");
@@ -121,9 +109,9 @@ Result<void> stress_excitation(StressRun& run) {
   Worst worst;
   const int ticks = run.quick ? 600 : 3600;
   for (int tick = 0; tick < ticks; ++tick) {  // on and off, in every tick, while walking
-    if (auto done = excite_all(simulation, *human, tick % 2 == 0 ? 1.0F : 0.0F); !done) return done;
+    excite_all(simulation, human, tick % 2 == 0 ? 1.0F : 0.0F);
     simulation.tick();
-    worst.look(simulation, *human);
+    worst.look(simulation, human);
     if (tick % 60 == 0) run.progress(0.5 * tick / ticks);
   }
   run.at_most("excitation 0, 1, 0, 1 … from tick to tick", "control points' displacement, m", 0.1, worst.moved_m,
@@ -134,13 +122,12 @@ Result<void> stress_excitation(StressRun& run) {
               worst.end_off_m, "single precision");
 
   Simulation still;
-  const auto stands = still.spawn_posed({});
-  if (!stands) return tl::unexpected(stands.error());
-  if (auto added = still.add_leg_muscles(*stands, hosted(Method::reduced)); !added) return added;
-  if (auto done = excite_all(still, *stands, 1); !done) return done;
+  const auto stands = must(still.spawn_posed({}));
+  must(still.add_leg_muscles(stands, hosted(Method::reduced)));
+  excite_all(still, stands, 1);
   const int minutes = run.quick ? 1 : 10;
   const auto belly = [&](std::size_t m) {
-    return double{still.get<Musculotendon>(still.muscle(*stands, static_cast<Muscle>(m), Side::right))->belly_m};
+    return double{still.get<Musculotendon>(still.muscle(stands, static_cast<Muscle>(m), Side::right))->belly_m};
   };
   std::array<double, muscle_group_count> at_first{};
   Worst held;
@@ -148,7 +135,7 @@ Result<void> stress_excitation(StressRun& run) {
     still.tick();
     if (tick == 600)
       for (std::size_t m = 0; m < at_first.size(); ++m) at_first[m] = belly(m);
-    if (tick % 600 == 599) held.look(still, *stands);
+    if (tick % 600 == 599) held.look(still, stands);
     if (tick % 600 == 0) run.progress(0.5 + 0.5 * tick / (minutes * 3600.0));
   }
   double crept = 0;
@@ -157,10 +144,10 @@ Result<void> stress_excitation(StressRun& run) {
               "a steady pull is steady");
   run.at_most(fmt::format("{} minutes of tetanus", minutes), "volume shown off rest", 0.01, held.volume_off,
               "the tables' promise");
-  return stress_tuned(run);
+  stress_tuned(run);
 }
 
-Result<void> stress_contraction(StressRun& run) {
+void stress_contraction(StressRun& run) {
   // Every method, then another in each tick: knees and ankles bent as far as they go while all pull at their most.
   constexpr std::array methods = {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced};
   Worst steady, flickering;
@@ -169,27 +156,24 @@ Result<void> stress_contraction(StressRun& run) {
   for (std::size_t m = 0; m <= methods.size(); ++m) {
     const bool flickers = m == methods.size();
     Simulation simulation;
-    const auto human = simulation.spawn_posed({});
-    if (!human) return tl::unexpected(human.error());
-    if (auto added = simulation.add_leg_muscles(*human, hosted(flickers ? Method::ecd : methods[m])); !added)
-      return added;
-    if (auto done = excite_all(simulation, *human, 1); !done) return done;
-    const Body body = simulation.human(*human)->body;
+    const auto human = must(simulation.spawn_posed({}));
+    must(simulation.add_leg_muscles(human, hosted(flickers ? Method::ecd : methods[m])));
+    excite_all(simulation, human, 1);
+    const Body body = simulation.human(human)->body;
     const int ticks = run.quick ? 120 : 480;
     for (int tick = 0; tick < ticks; ++tick) {
       const auto part = static_cast<float>(0.5 - 0.5 * std::cos(2 * std::numbers::pi * tick / 120));
       const LegBend bend{90 * part, 120 * part, 60 * part - 40};
-      if (auto posed = simulation.set_pose(*human, with_bent_legs(body, bend)); !posed) return posed;
+      must(simulation.set_pose(human, with_bent_legs(body, bend)));
       if (flickers) {
         for (std::size_t g = 0; g < muscle_group_count; ++g) {
           const Method method = methods[(static_cast<std::size_t>(tick) + g) % methods.size()];
-          if (auto set = simulation.set_method(*human, static_cast<Muscle>(g), {method, {.cells = {2, 2, 8}}}); !set)
-            return set;
+          must(simulation.set_method(human, static_cast<Muscle>(g), {method, {.cells = {2, 2, 8}}}));
         }
       }
       simulation.tick();
-      (flickers ? flickering : steady).look(simulation, *human);
-      for (const OwnMuscle& own : simulation.muscles(*human)) {
+      (flickers ? flickering : steady).look(simulation, human);
+      for (const OwnMuscle& own : simulation.muscles(human)) {
         const auto pull = simulation.get<Musculotendon>(own.entity[Side::right]);
         slack += pull->slack;
         least_force_n = std::min(least_force_n, double{pull->force_n});
@@ -205,7 +189,6 @@ Result<void> stress_contraction(StressRun& run) {
               "vibration on top of what keeps it");
   run.at_most("another method in every tick", "control points' displacement, m", 0.25, flickering.moved_m,
               "lines lengthen by up to 0.2 m");
-  return {};
 }
 
 }  // namespace mobil

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "assets/fem/critical_step.h"
+#include "demo/program/must.h"
 
 namespace mobil {
 namespace {
@@ -31,28 +32,27 @@ void for_each_moving(const Cells& cells, FarEnd end, F&& f) {
 
 }  // namespace
 
-Result<LimitProbe> probe_limit(const HexahedralMesh& mesh, const StiffnessTerms& terms, ReferenceOptions options,
-                               std::uint32_t steps) {
+LimitProbe probe_limit(const HexahedralMesh& mesh, const StiffnessTerms& terms, ReferenceOptions options,
+                       std::uint32_t steps) {
   const Mass mass = options.method == Method::icd ? Mass::consistent : Mass::lumped;
   LimitProbe probe{critical_step(terms, options.across, options.along,
                                  {options.end, mass, options.stiffness_damping_s, options.foundation_1_s}),
                    0, 0};
   for (const bool above : {false, true}) {
     options.dt_s = (above ? just_above : just_below) * probe.limit_s;
-    auto belly = ReferenceBelly::make(mesh, terms, options);
-    if (!belly) return tl::unexpected(belly.error());
-    shake(*belly, mesh.cells, options.end, 1e-3);
+    auto belly = must(ReferenceBelly::make(mesh, terms, options));
+    shake(belly, mesh.cells, options.end, 1e-3);
     const ReferenceLoad none{};
-    belly->step(none, none);
-    const double first = total(*belly), first_kinetic = belly->report().kinetic_energy_j;
+    belly.step(none, none);
+    const double first = total(belly), first_kinetic = belly.report().kinetic_energy_j;
     for (std::uint32_t step = 1; step < (above ? 600 : steps); ++step) {
-      belly->step(none, none);
+      belly.step(none, none);
       if (above || step % 10 != 0) continue;
-      const double change = std::fabs(total(*belly) / first - 1);
+      const double change = std::fabs(total(belly) / first - 1);
       if (!(change <= probe.drift_below)) probe.drift_below = change;
       if (std::isnan(change)) break;
     }
-    if (above) probe.growth_above = belly->finite() ? belly->report().kinetic_energy_j / first_kinetic : 1e300;
+    if (above) probe.growth_above = belly.finite() ? belly.report().kinetic_energy_j / first_kinetic : 1e300;
   }
   return probe;
 }
@@ -82,12 +82,9 @@ Bellies::Bellies(MuscleTemplate shape)
   for (std::size_t l = 0; l < lane_count; ++l) scale.across[l] = scale.along[l] = 1;
 }
 
-Result<void> Bellies::solve_by(Method method, Mass mass, double dt_s) {
-  auto made = make_belly_solver(muscle, method, mass, dt_s);
-  if (!made) return tl::unexpected(made.error());
-  solver = std::move(*made);
+void Bellies::solve_by(Method method, Mass mass, double dt_s) {
+  solver = must(make_belly_solver(muscle, method, mass, dt_s));
   scratch.resize(scratch_floats(muscle, method) / lane_count);
-  return {};
 }
 
 void Bellies::tick(const FarFaceDrive& end, std::uint32_t substeps, float tick_s) {
@@ -145,13 +142,12 @@ void shake(ReferenceBelly& belly, const Cells& cells, FarEnd end, double size_m,
   for_each_moving(cells, end, [&](std::size_t at) { u[at] = uniform(random, -size_m, size_m); });
 }
 
-Result<std::uint32_t> substeps_of(const Bellies& bellies, double tick_s) {
+std::uint32_t substeps_of(const Bellies& bellies, double tick_s) {
   std::uint32_t most = 1;
   for (std::size_t l = 0; l < lane_count; ++l) {
-    const auto limit = critical_step(bellies.muscle.critical_steps, static_cast<double>(bellies.scale.across[l]),
-                                     static_cast<double>(bellies.scale.along[l]));
-    if (!limit) return tl::unexpected(limit.error());
-    most = std::max(most, substeps_within(*limit, tick_s));
+    const auto limit = must(critical_step(bellies.muscle.critical_steps, static_cast<double>(bellies.scale.across[l]),
+                                          static_cast<double>(bellies.scale.along[l])));
+    most = std::max(most, substeps_within(limit, tick_s));
   }
   return most;
 }

@@ -6,12 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <random>
-#include <string>
-#include <vector>
 
 #include <mobil/assets/fem/hexahedral_mesh.h>
 #include <mobil/components/muscle.h>
-#include <mobil/engine/error.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/fem/stiffness_terms.h"
@@ -34,8 +31,8 @@ struct LimitProbe {
 };
 
 /// `steps` below, 600 above. Of `options`, method, mass, end, damping and scales count. Errors: ReferenceBelly's.
-Result<LimitProbe> probe_limit(const HexahedralMesh& mesh, const StiffnessTerms& terms, ReferenceOptions options,
-                               std::uint32_t steps);
+LimitProbe probe_limit(const HexahedralMesh& mesh, const StiffnessTerms& terms, ReferenceOptions options,
+                       std::uint32_t steps);
 
 /// The worst of several probes; a limit that is NaN counts as the worst.
 struct WorstProbe {
@@ -64,7 +61,7 @@ struct Bellies {
   explicit Bellies(MuscleTemplate shape);
 
   /// Fails as make_belly_solver does, for bodies of the template's own size.
-  Result<void> solve_by(Method method, Mass mass, double dt_s);
+  void solve_by(Method method, Mass mass, double dt_s);
 
   /// One tick in `substeps` equal steps.
   void tick(const FarFaceDrive& end, std::uint32_t substeps, float tick_s);
@@ -85,7 +82,7 @@ void shake(Bellies& bellies, float size_m, std::uint32_t seed = 1);
 void shake(ReferenceBelly& belly, const Cells& cells, FarEnd end, double size_m, std::uint32_t seed = 1);
 
 /// Substeps that keep every lane within its critical step. Errors: critical_step's.
-Result<std::uint32_t> substeps_of(const Bellies& bellies, double tick_s);
+std::uint32_t substeps_of(const Bellies& bellies, double tick_s);
 
 /// Words that differ between two blocks of one template in displacement and velocity, but for `but_lane`.
 std::size_t different_words(const Bellies& a, const Bellies& b, std::size_t but_lane = lane_count);

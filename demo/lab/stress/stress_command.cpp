@@ -6,14 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "demo/lab/stress/stress.h"
 #include "demo/program/commands.h"
@@ -39,7 +35,7 @@ namespace {
 
 struct Stress {
   std::string_view name, about;
-  Result<void> (*run)(StressRun&);
+  void (*run)(StressRun&);
 };
 
 constexpr std::array stresses = {
@@ -140,7 +136,7 @@ void try_one(const Stress& stress, StressRun& run) {
   const std::size_t before = run.rows.size();
   run.entry = stress.name;
   run.progress(0);
-  if (const auto done = stress.run(run); !done) {
+  if (const auto done = attempt([&] { stress.run(run); }); !done) {
     run.at_most(std::string(stress.about), "failures before anything could be tried", 0, 1,
                 "all of this is within range", done.error().message);
   }

@@ -2,13 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
-#include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 
 namespace mobil {
@@ -19,16 +15,36 @@ std::string_view name(Element element) {
 }
 
 /// How far a far face moves sideways under 1 N sideways, m.
-Result<double> flexibility(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
-  auto belly = ReferenceBelly::make(mesh, terms, {.method = Method::statics, .end = FarEnd::free});
-  if (!belly) return tl::unexpected(belly.error());
-  belly->start({{1, 0, 0}, {}, {}});
-  return belly->displacement()[3 * std::size_t{insertion_centre(mesh.cells).front()}];
+double flexibility(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
+  auto belly = must(ReferenceBelly::make(mesh, terms, {.method = Method::statics, .end = FarEnd::free}));
+  belly.start({{1, 0, 0}, {}, {}});
+  return belly.displacement()[3 * std::size_t{insertion_centre(mesh.cells).front()}];
+}
+
+/// The motion of sixteen shaken sizes over some ticks by a method, in steps that scale with the material's period.
+Bellies ring(const Material& material, double dt_s, Method method, int ticks) {
+  Bellies bellies(must(make_muscle_template(spindle({2, 2, 8}), material, {FarEnd::held, 0, 0.5, 2})));
+  make_sixteen_sizes(bellies);
+  shake(bellies, 1e-3F);
+  if (method != Method::ecd) bellies.solve_by(method, Mass::consistent, dt_s);
+  const EndDrive<Lanes<float>> still{};
+  for (int tick = 0; tick < ticks; ++tick) bellies.tick({FarEnd::held, still}, 8, static_cast<float>(8 * dt_s));
+  return bellies;
+}
+
+std::size_t different_displacements(const Bellies& a, const Bellies& b) {
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.displacement.size(); ++i) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if (!(a.displacement[i][l] == b.displacement[i][l])) ++different;
+    }
+  }
+  return different;
 }
 
 }  // namespace
 
-Result<void> stress_poisson(StressRun& run) {
+void stress_poisson(StressRun& run) {
   const HexahedralMesh mesh = spindle({2, 2, 8});
   constexpr std::array<double, 6> ratios = {-0.99, 0.0, 0.3333, 0.49, 0.499, 0.4999};
   std::array<std::array<double, ratios.size()>, all_elements.size()> bend{};
@@ -37,31 +53,23 @@ Result<void> stress_poisson(StressRun& run) {
     double drift = 0;
     for (std::size_t r = 0; r < ratios.size(); ++r) {
       const Material material{1000, 10000, ratios[r]};
-      const auto terms = assemble(mesh, material, all_elements[e]);
-      if (!terms) return tl::unexpected(terms.error());
-      const auto probe =
-          probe_limit(mesh, *terms, {.method = Method::ecd, .end = FarEnd::free}, run.quick ? 200 : 3000);
-      if (!probe) return tl::unexpected(probe.error());
-      worst.take(*probe);
-      const auto bent = flexibility(mesh, *terms);
-      if (!bent) return tl::unexpected(bent.error());
-      bend[e][r] = *bent;
+      const auto terms = must(assemble(mesh, material, all_elements[e]));
+      const auto probe = probe_limit(mesh, terms, {.method = Method::ecd, .end = FarEnd::free}, run.quick ? 200 : 3000);
+      worst.take(probe);
+      bend[e][r] = flexibility(mesh, terms);
 
       MuscleOptions options{FarEnd::held, 0, 0.5, 2};
       options.element = all_elements[e];
-      auto made = make_muscle_template(mesh, material, options);
-      if (!made) return tl::unexpected(made.error());
-      Bellies bellies(std::move(*made));
+      Bellies bellies(must(make_muscle_template(mesh, material, options)));
       make_sixteen_sizes(bellies);
       shake(bellies, 1e-3F);
       const auto substeps = substeps_of(bellies, stress_tick_s);
-      if (!substeps) return tl::unexpected(substeps.error());
       const EndDrive<Lanes<float>> still{};
-      bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(stress_tick_s));
+      bellies.tick({FarEnd::held, still}, substeps, static_cast<float>(stress_tick_s));
       std::array<double, lane_count> first{};
       for (std::size_t l = 0; l < lane_count; ++l) first[l] = bellies.energy_j(l);
       for (int tick = 0; tick < (run.quick ? 10 : 120); ++tick) {
-        bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(stress_tick_s));
+        bellies.tick({FarEnd::held, still}, substeps, static_cast<float>(stress_tick_s));
       }
       for (std::size_t l = 0; l < lane_count; ++l) {
         const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
@@ -92,51 +100,19 @@ Result<void> stress_poisson(StressRun& run) {
   }
   run.at_most("Poisson's ratio of -1, above 0.4999, no number, infinite", "not refused", 0,
               static_cast<double>(accepted), "no stiffness, or one that no precision holds");
-  return {};
 }
-
-namespace {
-
-/// The motion of sixteen shaken sizes over some ticks by a method, in steps that scale with the material's period.
-Result<Bellies> ring(const Material& material, double dt_s, Method method, int ticks) {
-  auto made = make_muscle_template(spindle({2, 2, 8}), material, {FarEnd::held, 0, 0.5, 2});
-  if (!made) return tl::unexpected(made.error());
-  Bellies bellies(std::move(*made));
-  make_sixteen_sizes(bellies);
-  shake(bellies, 1e-3F);
-  if (method != Method::ecd) {
-    if (auto ok = bellies.solve_by(method, Mass::consistent, dt_s); !ok) return tl::unexpected(ok.error());
-  }
-  const EndDrive<Lanes<float>> still{};
-  for (int tick = 0; tick < ticks; ++tick) bellies.tick({FarEnd::held, still}, 8, static_cast<float>(8 * dt_s));
-  return bellies;
-}
-
-std::size_t different_displacements(const Bellies& a, const Bellies& b) {
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < a.displacement.size(); ++i) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      if (!(a.displacement[i][l] == b.displacement[i][l])) ++different;
-    }
-  }
-  return different;
-}
-
-}  // namespace
 
 /// Rings of materials whose square root of stiffness over mass is a power of two from one to the next: in steps of the
 /// same part of their periods they are the same numbers.
-Result<void> stress_young(StressRun& run) {
+void stress_young(StressRun& run) {
   constexpr int lowest = -3, highest = 4;
   const int ticks = run.quick ? 5 : 60;
-  const auto usual_terms = assemble(spindle({2, 2, 8}), Material{});
-  if (!usual_terms) return tl::unexpected(usual_terms.error());
+  const auto usual_terms = must(assemble(spindle({2, 2, 8}), Material{}));
   constexpr double usual_dt = 0.00125;
-  const double usual_limit = critical_step(*usual_terms, 1, 1, FarEnd::held);
+  const double usual_limit = critical_step(usual_terms, 1, 1, FarEnd::held);
   for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
     const double dt = method == Method::icd ? usual_dt / 2 : usual_dt;
     const auto usual = ring(Material{}, dt, method, ticks);
-    if (!usual) return tl::unexpected(usual.error());
     std::size_t different = 0, still = 0;
     double limit_error = 0;
     for (int power = lowest; power <= highest; ++power) {
@@ -144,12 +120,10 @@ Result<void> stress_young(StressRun& run) {
       material.young_pa *= std::ldexp(1.0, 4 * power);
       const int longer = -2 * power;
       const auto other = ring(material, std::ldexp(dt, longer), method, ticks);
-      if (!other) return tl::unexpected(other.error());
-      different += different_displacements(*usual, *other);
-      if (!(other->reach_m(0) > 0)) ++still;
-      const auto terms = assemble(spindle({2, 2, 8}), material);
-      if (!terms) return tl::unexpected(terms.error());
-      const double limit = critical_step(*terms, 1, 1, FarEnd::held);
+      different += different_displacements(usual, other);
+      if (!(other.reach_m(0) > 0)) ++still;
+      const auto terms = must(assemble(spindle({2, 2, 8}), material));
+      const double limit = critical_step(terms, 1, 1, FarEnd::held);
       const double error = std::fabs(limit / std::ldexp(usual_limit, longer) - 1);
       if (!(error <= limit_error)) limit_error = error;
       run.progress(static_cast<double>(power - lowest + 1) / (highest - lowest + 1));
@@ -159,7 +133,7 @@ Result<void> stress_young(StressRun& run) {
         fmt::format("{}, sixteen sizes by {}", tried, method_name[static_cast<std::size_t>(method)]),
         "displacements that are not the same number", 0, static_cast<double>(different + still),
         "all of the arithmetic scales by powers of two, unless something over- or underflows",
-        fmt::format("of {}", usual->displacement.size() * lane_count * static_cast<std::size_t>(highest - lowest + 1)));
+        fmt::format("of {}", usual.displacement.size() * lane_count * static_cast<std::size_t>(highest - lowest + 1)));
     if (method != Method::ecd) continue;
     run.at_most(tried, "critical step against its scaling, relative", 1e-12, limit_error,
                 "it goes with the square root of density over Young's modulus");
@@ -171,7 +145,6 @@ Result<void> stress_young(StressRun& run) {
   }
   run.at_most("Young's modulus below 1 Pa, above 1e12 Pa, no number, infinite", "not refused", 0,
               static_cast<double>(accepted), "no such material");
-  return {};
 }
 
 }  // namespace mobil

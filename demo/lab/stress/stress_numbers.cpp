@@ -3,17 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
-#include <cmath>
-#include <cstdint>
 #include <limits>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <mobil/engine/jobs.h>
-#include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 
 namespace mobil {
@@ -63,24 +57,18 @@ struct Inputs {
   }
 };
 
-Result<Inputs> make_inputs(Method method, FarEnd end, const Cells& cells, double damping_per_s, double foundation_hz) {
+Inputs make_inputs(Method method, FarEnd end, const Cells& cells, double damping_per_s, double foundation_hz) {
   MuscleOptions options{end, damping_per_s, 0.5, 2};
   options.mass = method == Method::icd ? Mass::consistent : Mass::lumped;
   options.foundation_hz = foundation_hz;
-  auto made = make_muscle_template(spindle(cells), Material{}, options);
-  if (!made) return tl::unexpected(made.error());
-  Inputs inputs{Bellies(std::move(*made))};
+  auto made = must(make_muscle_template(spindle(cells), Material{}, options));
+  Inputs inputs{Bellies(std::move(made))};
   Bellies& bellies = inputs.bellies;
   make_sixteen_sizes(bellies);
   shake(bellies, 1e-3F);
   const auto substeps = substeps_of(bellies, stress_tick_s);
-  if (!substeps) return tl::unexpected(substeps.error());
-  inputs.substeps = method == Method::statics ? 1 : *substeps;
-  if (method != Method::ecd) {
-    if (auto ok = bellies.solve_by(method, options.mass, stress_tick_s / inputs.substeps); !ok) {
-      return tl::unexpected(ok.error());
-    }
-  }
+  inputs.substeps = method == Method::statics ? 1 : substeps;
+  if (method != Method::ecd) bellies.solve_by(method, options.mass, stress_tick_s / inputs.substeps);
   bellies.frame.emplace();
   for (std::size_t l = 0; l < lane_count; ++l) {
     const auto part = static_cast<float>(l) / lane_count;
@@ -102,82 +90,6 @@ std::size_t different_reports(const BellyReport<Lanes<float>>& a, const BellyRep
     different += different_lanes(a.*field, b.*field, but_lane);
   return different;
 }
-
-}  // namespace
-
-Result<void> stress_nan(StressRun& run) {
-  constexpr std::array<float, 3> bad = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                                        -std::numeric_limits<float>::infinity()};
-  double part = 0;
-  for (const Method method : methods) {
-    std::size_t tried = 0, sick = 0, different = 0, compared = 0;
-    for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
-      auto clean = make_inputs(method, end, {2, 2, 4}, 8, 7);
-      if (!clean) return tl::unexpected(clean.error());
-      clean->tick();
-      const Inputs start = *clean;
-      clean->tick();
-      clean->tick();
-      const std::size_t count = clean->words().size();
-      for (std::size_t word = 0; word < count; ++word) {
-        for (const float value : bad) {
-          const std::size_t lane = 7 * ++tried % lane_count;
-          Inputs poisoned = start;
-          poisoned.words()[word]->lane[lane] = value;
-          poisoned.tick();
-          poisoned.tick();
-          different += different_words(clean->bellies, poisoned.bellies, lane) +
-                       different_reports(clean->bellies.report, poisoned.bellies.report, lane);
-          compared += (lane_count - 1) * (2 * clean->bellies.displacement.size() + 5);
-          if (!poisoned.bellies.finite(lane)) ++sick;
-        }
-      }
-      run.progress(++part / 12);
-    }
-    run.at_most(fmt::format("not-a-number, infinity or minus infinity in one lane of every input of a block by {}: "
-                            "scales, far face, frame, displacement, velocity; three kinds of far face",
-                            name(method)),
-                "words of the fifteen neighbours that are not the same bits", 0, static_cast<double>(different),
-                "lanes never meet",
-                fmt::format("of {}, in {} cases; {} of the sick lanes ended without a number", compared, tried, sick));
-  }
-  return {};
-}
-
-Result<void> stress_explosion(StressRun& run) {
-  constexpr std::size_t sick = 6;
-  for (const Method method : methods) {
-    auto sound = make_inputs(method, FarEnd::free, {2, 2, 8}, 0, 7);
-    if (!sound) return tl::unexpected(sound.error());
-    Inputs exploding = *sound;
-    std::string how = "at a tenth of its size, its step three and more times too long";
-    if (method == Method::ecd || method == Method::icd) {
-      exploding.bellies.scale.across[sick] = exploding.bellies.scale.along[sick] = 0.1F;
-    } else {
-      how = "pulled with 1e38 N";
-      exploding.traction.from_n.z[sick] = exploding.traction.to_n.z[sick] = 1e38F;
-    }
-    std::size_t different = 0;
-    double reach = 0;
-    const int ticks = run.quick ? 30 : 300;
-    for (int tick = 0; tick < ticks; ++tick) {
-      sound->tick();
-      exploding.tick();
-      different += different_words(sound->bellies, exploding.bellies, sick) +
-                   different_reports(sound->bellies.report, exploding.bellies.report, sick);
-      const double far = exploding.bellies.reach_m(sick);
-      if (!(far <= reach)) reach = far;
-    }
-    const std::string tried = fmt::format("one lane by {} {}, {} ticks", name(method), how, ticks);
-    run.at_most(tried, "words of the fifteen neighbours that are not the same bits, over all ticks", 0,
-                static_cast<double>(different), "lanes never meet");
-    run.at_least(tried, "how far it flew, m", 1e6, std::isnan(reach) ? std::numeric_limits<double>::infinity() : reach,
-                 "else nothing was tried; no number counts as infinitely far");
-  }
-  return {};
-}
-
-namespace {
 
 std::size_t subnormals(const Bellies& bellies) {
   std::size_t count = 0;
@@ -204,13 +116,80 @@ double largest_difference(const Bellies& a, const Bellies& b) {
 
 }  // namespace
 
-Result<void> stress_denormals(StressRun& run) {
+void stress_nan(StressRun& run) {
+  constexpr std::array<float, 3> bad = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                                        -std::numeric_limits<float>::infinity()};
+  double part = 0;
+  for (const Method method : methods) {
+    std::size_t tried = 0, sick = 0, different = 0, compared = 0;
+    for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
+      auto clean = make_inputs(method, end, {2, 2, 4}, 8, 7);
+      clean.tick();
+      const Inputs start = clean;
+      clean.tick();
+      clean.tick();
+      const std::size_t count = clean.words().size();
+      for (std::size_t word = 0; word < count; ++word) {
+        for (const float value : bad) {
+          const std::size_t lane = 7 * ++tried % lane_count;
+          Inputs poisoned = start;
+          poisoned.words()[word]->lane[lane] = value;
+          poisoned.tick();
+          poisoned.tick();
+          different += different_words(clean.bellies, poisoned.bellies, lane) +
+                       different_reports(clean.bellies.report, poisoned.bellies.report, lane);
+          compared += (lane_count - 1) * (2 * clean.bellies.displacement.size() + 5);
+          if (!poisoned.bellies.finite(lane)) ++sick;
+        }
+      }
+      run.progress(++part / 12);
+    }
+    run.at_most(fmt::format("not-a-number, infinity or minus infinity in one lane of every input of a block by {}: "
+                            "scales, far face, frame, displacement, velocity; three kinds of far face",
+                            name(method)),
+                "words of the fifteen neighbours that are not the same bits", 0, static_cast<double>(different),
+                "lanes never meet",
+                fmt::format("of {}, in {} cases; {} of the sick lanes ended without a number", compared, tried, sick));
+  }
+}
+
+void stress_explosion(StressRun& run) {
+  constexpr std::size_t sick = 6;
+  for (const Method method : methods) {
+    auto sound = make_inputs(method, FarEnd::free, {2, 2, 8}, 0, 7);
+    Inputs exploding = sound;
+    std::string how = "at a tenth of its size, its step three and more times too long";
+    if (method == Method::ecd || method == Method::icd) {
+      exploding.bellies.scale.across[sick] = exploding.bellies.scale.along[sick] = 0.1F;
+    } else {
+      how = "pulled with 1e38 N";
+      exploding.traction.from_n.z[sick] = exploding.traction.to_n.z[sick] = 1e38F;
+    }
+    std::size_t different = 0;
+    double reach = 0;
+    const int ticks = run.quick ? 30 : 300;
+    for (int tick = 0; tick < ticks; ++tick) {
+      sound.tick();
+      exploding.tick();
+      different += different_words(sound.bellies, exploding.bellies, sick) +
+                   different_reports(sound.bellies.report, exploding.bellies.report, sick);
+      const double far = exploding.bellies.reach_m(sick);
+      if (!(far <= reach)) reach = far;
+    }
+    const std::string tried = fmt::format("one lane by {} {}, {} ticks", name(method), how, ticks);
+    run.at_most(tried, "words of the fifteen neighbours that are not the same bits, over all ticks", 0,
+                static_cast<double>(different), "lanes never meet");
+    run.at_least(tried, "how far it flew, m", 1e6, std::isnan(reach) ? std::numeric_limits<double>::infinity() : reach,
+                 "else nothing was tried; no number counts as infinitely far");
+  }
+}
+
+void stress_denormals(StressRun& run) {
   for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
     auto flushed = make_inputs(method, FarEnd::held, {2, 2, 4}, 40, 0);
-    if (!flushed) return tl::unexpected(flushed.error());
-    flushed->bellies.frame.reset();
-    flushed->end = {};
-    Inputs plain = *flushed;
+    flushed.bellies.frame.reset();
+    flushed.end = {};
+    Inputs plain = flushed;
     std::size_t with = 0, without = 0;
     double apart = 0;
     int ticks_with_subnormals = 0;
@@ -218,14 +197,14 @@ Result<void> stress_denormals(StressRun& run) {
     for (int tick = 0; tick < ticks; ++tick) {
       {
         const FlushDenormals flush;
-        flushed->tick();
+        flushed.tick();
       }
       plain.tick();
-      with += subnormals(flushed->bellies);
+      with += subnormals(flushed.bellies);
       const std::size_t now = subnormals(plain.bellies);
       without += now;
       if (now > 0) ++ticks_with_subnormals;
-      const double difference = largest_difference(flushed->bellies, plain.bellies);
+      const double difference = largest_difference(flushed.bellies, plain.bellies);
       if (!(difference <= apart)) apart = difference;
     }
     const std::string tried = fmt::format(
@@ -244,7 +223,6 @@ Result<void> stress_denormals(StressRun& run) {
                  "they would move"
                : "what is taken for zero is below 1.2e-38, and a motion is a sum of some thousand of such");
   }
-  return {};
 }
 
 }  // namespace mobil

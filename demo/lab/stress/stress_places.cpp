@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
-#include <string>
-#include <vector>
 
 #include <mobil/components/fade.h>
 #include <mobil/engine/geometry.h>
@@ -37,19 +34,19 @@ double spacing_m(double far_m) {
   return double{std::nextafter(at, std::numeric_limits<float>::infinity())} - double{at};
 }
 
-Result<Entity> walker(Simulation& simulation, float speed_m_s, bool muscles, Method method = Method::reduced) {
+Entity walker(Simulation& simulation, float speed_m_s, bool muscles, Method method = Method::reduced) {
   GaitRequest gait;
   gait.speed_m_s = speed_m_s;
-  auto human = simulation.spawn({.height_m = 1.75F, .mass_kg = 72}, gait);
-  if (!human || !muscles) return human;
+  const auto human = must(simulation.spawn({.height_m = 1.75F, .mass_kg = 72}, gait));
+  if (!muscles) return human;
   LegMuscles choice;
   choice.method = method;
   choice.reduced.cells = {2, 2, 8};
-  if (auto added = simulation.add_leg_muscles(*human, choice); !added) return tl::unexpected(added.error());
+  must(simulation.add_leg_muscles(human, choice));
   return human;
 }
 
-Result<std::vector<Entity>> rows_of_walkers(Simulation& simulation, int count) {
+std::vector<Entity> rows_of_walkers(Simulation& simulation, int count) {
   std::vector<SpawnRequest> people(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     SpawnRequest& one = people[static_cast<std::size_t>(i)];
@@ -60,28 +57,27 @@ Result<std::vector<Entity>> rows_of_walkers(Simulation& simulation, int count) {
     one.z_m = 1.5F * static_cast<float>(i / 100);
   }
   std::vector<Entity> made(people.size());
-  if (auto done = simulation.spawn(people, made); !done) return tl::unexpected(done.error());
+  must(simulation.spawn(people, made));
   return made;
 }
 
 }  // namespace
 
-Result<void> stress_far(StressRun& run) {
+void stress_far(StressRun& run) {
   constexpr std::array places_m = {100.0, 1e3, 8e3, 64e3, 100e3, 999e3};
   for (const double far_m : places_m) {
     Simulation near, far;
     const auto here = walker(near, 1.3F, true), there = walker(far, 1.3F, true);
-    if (!here || !there) return tl::unexpected((here ? there : here).error());
-    if (auto put = far.place(*there, static_cast<float>(far_m), static_cast<float>(-far_m), 0); !put) return put;
+    must(far.place(there, static_cast<float>(far_m), static_cast<float>(-far_m), 0));
     double limb_m = 0, points_m = 0;
     for (int tick = 0; tick < 240; ++tick) {
       near.tick();
       far.tick();
-      const auto a = shape_of(*near.get<Pose>(*here)), b = shape_of(*far.get<Pose>(*there));
+      const auto a = shape_of(*near.get<Pose>(here)), b = shape_of(*far.get<Pose>(there));
       for (std::size_t i = 0; i < a.size(); ++i) {
         keep_worst(limb_m, std::abs(a[i] - b[i]));
       }
-      keep_worst(points_m, largest_difference(control_points(near, *here), control_points(far, *there)));
+      keep_worst(points_m, largest_difference(control_points(near, here), control_points(far, there)));
     }
     const double spacing = spacing_m(far_m);
     const std::string tried = fmt::format("{:g} km from the origin along both axes", far_m / 1e3);
@@ -90,60 +86,57 @@ Result<void> stress_far(StressRun& run) {
         fmt::format("floats are {:.2g} m apart there, and a place is a sum of up to thirty along the spine", spacing));
     run.at_most(tried, "control points off those at the origin, m", 4 * spacing + 1e-4, points_m,
                 "lines of action are a few roundings off, and bellies follow them");
-    if (auto moved = far.shift_origin(static_cast<float>(far_m), static_cast<float>(-far_m)); !moved) return moved;
+    must(far.shift_origin(static_cast<float>(far_m), static_cast<float>(-far_m)));
     for (int tick = 0; tick < 240; ++tick) {
       near.tick();
       far.tick();
     }
     run.at_most(tried + ", then the origin moved there and 4 s walked", "control points off those of who never left, m",
-                1e-4, largest_difference(control_points(near, *here), control_points(far, *there)),
+                1e-4, largest_difference(control_points(near, here), control_points(far, there)),
                 "nothing is left of the way but e^-16 of what it excited");
   }
-  return {};
 }
 
-Result<void> stress_day(StressRun& run) {
+void stress_day(StressRun& run) {
   const double hours = run.quick ? 0.1 : 24;
   const auto ticks = static_cast<std::uint32_t>(hours * 3600 * 60);
   Simulation awake, asleep;
   const auto walks = walker(awake, 1.4F, false), sleeps = walker(asleep, 1.4F, false);
-  if (!walks || !sleeps) return tl::unexpected((walks ? sleeps : walks).error());
   for (int tick = 0; tick < 300; ++tick) {
     awake.tick();
     asleep.tick();
   }
-  const Vec3<float> from = awake.get<Pose>(*walks)->position_m[0];
-  const std::uint32_t steps_before = awake.get<GaitState>(*walks)->steps;
-  if (auto done = asleep.sleep({&*sleeps, 1}); !done) return tl::unexpected(done.error());
-  const double duration_s = double{awake.get<StepPlan>(*walks)->duration_s};
+  const Vec3<float> from = awake.get<Pose>(walks)->position_m[0];
+  const std::uint32_t steps_before = awake.get<GaitState>(walks)->steps;
+  must(asleep.sleep({&sleeps, 1}));
+  const double duration_s = double{awake.get<StepPlan>(walks)->duration_s};
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {
     awake.tick();
     if (tick % 100000 == 0) run.progress(static_cast<double>(tick) / ticks);
   }
   for (std::uint32_t tick = 0; tick < ticks; ++tick) asleep.tick();
-  const Vec3<float> to = awake.get<Pose>(*walks)->position_m[0];
+  const Vec3<float> to = awake.get<Pose>(walks)->position_m[0];
   const double walked_m = distance_m(from, to), seconds = ticks / 60.0;
   const std::string tried = fmt::format("{:g} hours of walking, {:.1f} km", hours, walked_m / 1e3);
   run.at_most(tried, "of the way too much or too little", 1e-3, std::abs(walked_m / (1.4 * seconds) - 1),
               "the step's length and duration are what was asked for to single precision; a step more or less");
   run.at_most(tried, "steps too many or too few", 1 + 1e-6 * seconds / duration_s,
-              std::abs(awake.get<GaitState>(*walks)->steps - steps_before - seconds / duration_s),
+              std::abs(awake.get<GaitState>(walks)->steps - steps_before - seconds / duration_s),
               "the clock counts whole units of 2^-15 ticks");
   run.at_most(tried, "off the line aside, m", 1, std::abs(double{to.x} - double{from.x}),
               "a straight line is anchor + k chord, not a sum");
-  if (auto done = asleep.wake({&*sleeps, 1}); !done) return done;
+  must(asleep.wake({&sleeps, 1}));
   for (int tick = 0; tick < 60; ++tick) {
     awake.tick();
     asleep.tick();
   }
   run.at_most(fmt::format("{:g} hours asleep against the same awake", hours),
               "words of the person that differ, a second after waking", 0,
-              static_cast<double>(different_words(human_words(awake, *walks), human_words(asleep, *sleeps))),
+              static_cast<double>(different_words(human_words(awake, walks), human_words(asleep, sleeps))),
               "clock and place follow in closed form, to the bit");
-  return {};
 }
 
-Result<void> stress_ticks(StressRun& run) {
+void stress_ticks(StressRun& run) {
   constexpr double longest_tick_s = 1.0 / 10;
   constexpr std::array rates_hz = {10.0, 20.0, 24.0, 30.0, 50.0, 60.0, 75.0, 90.0, 120.0, 144.0, 240.0, 500.0, 1000.0};
   for (const double rate_hz : rates_hz) {
@@ -151,18 +144,17 @@ Result<void> stress_ticks(StressRun& run) {
     for (const Method method : {Method::ecd, Method::caa, Method::reduced}) {
       Simulation simulation({.tick_s = 1 / rate_hz});
       const auto human = walker(simulation, 1.4F, true, method);
-      if (!human) return tl::unexpected(human.error());
       const auto run_s = [&](double seconds) {
         for (int tick = 0; tick < static_cast<int>(seconds * rate_hz); ++tick) {
           simulation.tick();
-          keep_worst(worst_m, largest(control_points(simulation, *human)));
+          keep_worst(worst_m, largest(control_points(simulation, human)));
         }
       };
       run_s(run.quick ? 1 : 2);
-      const Vec3<float> from = simulation.get<Pose>(*human)->position_m[0];
+      const Vec3<float> from = simulation.get<Pose>(human)->position_m[0];
       const double start_s = simulation.time_s();
       run_s(run.quick ? 2 : 20);
-      const Vec3<float> to = simulation.get<Pose>(*human)->position_m[0];
+      const Vec3<float> to = simulation.get<Pose>(human)->position_m[0];
       const double speed = distance_m(from, to) / (simulation.time_s() - start_s);
       keep_worst(speed_off, std::abs(speed / 1.4 - 1));
     }
@@ -173,10 +165,9 @@ Result<void> stress_ticks(StressRun& run) {
                 worst_m,
                 "twice what this walk shows at 60 ticks a second; steps within a tick stay below critical ones");
   }
-  return {};
 }
 
-Result<void> stress_relevance(StressRun& run) {
+void stress_relevance(StressRun& run) {
   const int crowd = run.quick ? 60 : 400, updates = run.quick ? 120 : 600;
   struct Scene {
     const char* name;
@@ -194,11 +185,9 @@ Result<void> stress_relevance(StressRun& run) {
   for (const Scene& scene : scenes) {
     Simulation simulation;
     const auto people = rows_of_walkers(simulation, crowd);
-    if (!people) return tl::unexpected(people.error());
     RelevanceOptions options;
     options.machine_factor = 1;
-    auto relevance = Relevance::make(simulation, options);
-    if (!relevance) return tl::unexpected(relevance.error());
+    auto relevance = must(Relevance::make(simulation, options));
     SceneNeeds needs;
     needs.muscles.reset();
     needs.muscles.set(static_cast<std::size_t>(Muscle::triceps_surae));
@@ -206,32 +195,31 @@ Result<void> stress_relevance(StressRun& run) {
     needs.compact_unseen = scene.compact;
     if (scene.asleep) needs.asleep_beyond_m = 20;
     if (scene.budget_s > 0) needs.budget_s = scene.budget_s;
-    if (auto set = relevance->set_scene(needs); !set) return set;
-    if (auto done = relevance->manage(*people); !done) return done;
+    must(relevance.set_scene(needs));
+    must(relevance.manage(people));
     std::size_t refused = 0;
     double worst_m = 0, cheapest_s = 1e9;
     for (int update = 0; update < updates; ++update) {
       if (scene.turns_every > 0 && update % scene.turns_every == 0) {
         needs.camera->forward.z = -needs.camera->forward.z;
-        if (auto set = relevance->set_scene(needs); !set) return set;
+        must(relevance.set_scene(needs));
       }
-      const RelevanceReport report = relevance->update();
+      const RelevanceReport report = relevance.update();
       refused += report.refused;
       cheapest_s = std::min(cheapest_s, report.predicted_s);
       simulation.tick();
-      for (const Entity human : *people) keep_worst(worst_m, largest(control_points(simulation, human)));
+      for (const Entity human : people) keep_worst(worst_m, largest(control_points(simulation, human)));
     }
     run.at_most(scene.name, "refusals", 0, static_cast<double>(refused),
                 "every choice is one that the simulation takes");
     run.at_most(scene.name, "largest displacement of a control point, m", 0.1, worst_m,
                 "twice what these walks show: changes of method do not kick");
     std::size_t there = 0;
-    for (const Entity human : *people) there += simulation.get<Pose>(human).has_value() ? 1 : 0;
+    for (const Entity human : people) there += simulation.get<Pose>(human).has_value() ? 1 : 0;
     run.at_least(scene.name, "people with a pose", static_cast<double>(crowd), static_cast<double>(there),
                  "awake, compact or asleep, everybody is somewhere");
     run.progress(++part / static_cast<double>(scenes.size()));
   }
-  return {};
 }
 
 }  // namespace mobil

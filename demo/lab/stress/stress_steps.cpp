@@ -3,16 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "assets/fem/critical_step.h"
 #include "demo/lab/muscle/muscle_options.h"
-#include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 
 namespace mobil {
@@ -23,7 +18,7 @@ struct Block {
 };
 
 /// What `mobil muscle` makes of a step a little below and a little above the limit that it names.
-Result<void> ask_for_steps(StressRun& run) {
+void ask_for_steps(StressRun& run) {
   const std::vector<Block> blocks = {
       {"2x2x8", "10666.7", "0"}, {"1x1x1", "1e6", "0"}, {"4x4x16", "10666.7", "8"}, {"3x2x5", "200", "1000"}};
   std::size_t refused = 0, named = 0, accepted = 0, asked = 0;
@@ -36,9 +31,8 @@ Result<void> ask_for_steps(StressRun& run) {
       text.damping = block.damping;
       text.method = method;
       text.seconds = "0.01";
-      const auto usual = read_muscle_request(text);
-      if (!usual) return tl::unexpected(usual.error());
-      const double limit = *usual->critical_step_s;
+      const auto usual = must(read_muscle_request(text));
+      const double limit = *usual.critical_step_s;
       ++asked;
       text.dt = fmt::format("{:.12g}", 0.9999 * limit);
       if (read_muscle_request(text)) ++accepted;
@@ -55,26 +49,23 @@ Result<void> ask_for_steps(StressRun& run) {
               "steps not refused with the limit named, or refused at 0.9999 of it", 0,
               static_cast<double>(3 * asked - refused - named - accepted), "above it the solution grows without bound",
               fmt::format("\"{}\"", example));
-  return {};
 }
 
-Result<void> try_in_double(StressRun& run) {
+void try_in_double(StressRun& run) {
   const std::vector<HexahedralMesh> meshes = {spindle({2, 2, 8}), spindle({3, 2, 5}),
                                               make_block({1, 1, 2}, 0.01).value(), make_block({4, 3, 2}, 0.02).value()};
   for (const Method method : {Method::ecd, Method::icd}) {
     WorstProbe worst;
     for (const HexahedralMesh& mesh : meshes) {
-      const auto terms = assemble(mesh, Material{});
-      if (!terms) return tl::unexpected(terms.error());
+      const auto terms = must(assemble(mesh, Material{}));
       for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
         for (const auto& [across, along] : {std::pair{1.0, 1.0}, std::pair{0.6, 1.4}, std::pair{1.5, 0.7}}) {
           for (const double foundation : {0.0, 300.0}) {
             const auto probe = probe_limit(
-                mesh, *terms,
+                mesh, terms,
                 {.method = method, .end = end, .foundation_1_s = foundation, .across = across, .along = along},
                 run.quick ? 100 : 2000);
-            if (!probe) return tl::unexpected(probe.error());
-            worst.take(*probe);
+            worst.take(probe);
           }
         }
       }
@@ -84,31 +75,29 @@ Result<void> try_in_double(StressRun& run) {
                                           worst.tried, method_name[static_cast<std::size_t>(method)]);
     add_rows(run, tried, worst);
   }
-  return {};
 }
 
 /// The tabulated limit, which is that of individuals, in the kernel.
-Result<void> try_in_lanes(StressRun& run) {
+void try_in_lanes(StressRun& run) {
   double drift = 0, growth = 1e300;
   std::size_t tried = 0;
   for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
-    auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, {end, 0, 0.4, 2.5});
-    if (!made) return tl::unexpected(made.error());
+    auto made = must(make_muscle_template(spindle({2, 2, 8}), Material{}, {end, 0, 0.4, 2.5}));
     const EndDrive<Lanes<float>> still{};
     const EndTraction<Lanes<float>> slack{};
     const FarFaceDrive drive = end == FarEnd::free ? FarFaceDrive(slack) : FarFaceDrive(end, still);
     for (const auto& [across, along] :
          {std::pair{1.0F, 1.0F}, std::pair{0.6F, 1.4F}, std::pair{1.5F, 0.7F}, std::pair{0.83F, 1.17F}}) {
-      const auto limit = critical_step(made->critical_steps, static_cast<double>(across), static_cast<double>(along));
-      if (!limit) return tl::unexpected(limit.error());
+      const auto limit =
+          must(critical_step(made.critical_steps, static_cast<double>(across), static_cast<double>(along)));
       for (const bool above : {false, true}) {
-        Bellies bellies(*made);
+        Bellies bellies(made);
         for (std::size_t l = 0; l < lane_count; ++l) {
           bellies.scale.across[l] = across;
           bellies.scale.along[l] = along;
         }
         shake(bellies, 1e-3F);
-        const auto dt = static_cast<float>((above ? 1.015 : 0.999) * *limit);
+        const auto dt = static_cast<float>((above ? 1.015 : 0.999) * limit);
         bellies.tick(drive, 1, dt);
         const double first = bellies.energy_j(0), kinetic = static_cast<double>(bellies.report.kinetic_energy_j[0]);
         const std::uint32_t steps = above ? 600 : run.quick ? 1000 : 20000;
@@ -130,7 +119,6 @@ Result<void> try_in_lanes(StressRun& run) {
               "conserved; rounding in single precision is amplified by at most 500");
   run.at_least(bellies + " at 1.015 of it", "growth of kinetic energy in 600 steps", 1e6, growth,
                "the table is at most 1 % low, which leaves at least e^0.2 a step");
-  return {};
 }
 
 /// The range of sizes that one solver serves (assets/fem/belly_solver.h).
@@ -144,17 +132,16 @@ void make_sizes_of_one_solver(Bellies& bellies) {
 }
 
 /// Elongation of every lane that answers its load of 1 N at rest, m.
-Result<std::array<double, lane_count>> static_elongation(const Bellies& bellies, FarEnd end) {
+std::array<double, lane_count> static_elongation(const Bellies& bellies, FarEnd end) {
   std::array<double, lane_count> elongation{};
   for (std::size_t l = 0; l < lane_count; ++l) {
-    auto belly = ReferenceBelly::make(bellies.muscle.mesh, bellies.muscle.terms,
-                                      {.method = Method::statics,
-                                       .end = end,
-                                       .across = static_cast<double>(bellies.scale.across[l]),
-                                       .along = static_cast<double>(bellies.scale.along[l])});
-    if (!belly) return tl::unexpected(belly.error());
-    belly->start({{0, 0, 1}, {}, {}});
-    elongation[l] = belly->report().elongation_m;
+    auto belly = must(ReferenceBelly::make(bellies.muscle.mesh, bellies.muscle.terms,
+                                           {.method = Method::statics,
+                                            .end = end,
+                                            .across = static_cast<double>(bellies.scale.across[l]),
+                                            .along = static_cast<double>(bellies.scale.along[l])}));
+    belly.start({{0, 0, 1}, {}, {}});
+    elongation[l] = belly.report().elongation_m;
   }
   return elongation;
 }
@@ -165,20 +152,15 @@ struct Decay {
   double left = 0;        // last energy over the first
 };
 
-Result<Decay> decay(const MuscleOptions& options, Method method, int ticks) {
-  auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, options);
-  if (!made) return tl::unexpected(made.error());
-  Bellies bellies(std::move(*made));
+Decay decay(const MuscleOptions& options, Method method, int ticks) {
+  Bellies bellies(must(make_muscle_template(spindle({2, 2, 8}), Material{}, options)));
   make_sixteen_sizes(bellies);
   shake(bellies, 1e-3F);
   std::uint32_t substeps = 4;
   if (method == Method::caa) {
-    if (auto ok = bellies.solve_by(method, Mass::lumped, stress_tick_s / substeps); !ok)
-      return tl::unexpected(ok.error());
+    bellies.solve_by(method, Mass::lumped, stress_tick_s / substeps);
   } else {
-    const auto within = substeps_of(bellies, stress_tick_s);
-    if (!within) return tl::unexpected(within.error());
-    substeps = *within;
+    substeps = substeps_of(bellies, stress_tick_s);
     bellies.scratch.resize(scratch_floats(bellies.muscle, method) / lane_count);
   }
   const EndTraction<Lanes<float>> slack{};
@@ -211,13 +193,13 @@ MuscleOptions with(double damping_per_s, double stiffness_damping_s) {
 
 }  // namespace
 
-Result<void> stress_steps(StressRun& run) {
-  if (auto done = ask_for_steps(run); !done) return done;
-  if (auto done = try_in_double(run); !done) return done;
-  return try_in_lanes(run);
+void stress_steps(StressRun& run) {
+  ask_for_steps(run);
+  try_in_double(run);
+  try_in_lanes(run);
 }
 
-Result<void> stress_caa(StressRun& run) {
+void stress_caa(StressRun& run) {
   const int steps = run.quick ? 50 : 1000;
   double part = 0;
   for (const Mass mass : {Mass::lumped, Mass::consistent}) {
@@ -225,35 +207,32 @@ Result<void> stress_caa(StressRun& run) {
       double most = 0, energy = 0, in_double = 0;
       constexpr std::array<double, 5> absurd = {0.05, 0.5, 5, 50, 100};
       for (const double dt : absurd) {
-        auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, {FarEnd::free, 0, 0.5, 2});
-        if (!made) return tl::unexpected(made.error());
-        Bellies bellies(std::move(*made));
+        Bellies bellies(must(make_muscle_template(spindle({2, 2, 8}), Material{}, {FarEnd::free, 0, 0.5, 2})));
         if (alike) {
           bellies.stiffness = Stiffness::shared;
         } else {
           make_sizes_of_one_solver(bellies);
         }
-        if (auto ok = bellies.solve_by(Method::caa, mass, dt); !ok) return ok;
+        bellies.solve_by(Method::caa, mass, dt);
         const auto rest = static_elongation(bellies, FarEnd::free);
-        if (!rest) return tl::unexpected(rest.error());
         EndTraction<Lanes<float>> pull{};
         for (std::size_t l = 0; l < lane_count; ++l) pull.from_n.z[l] = pull.to_n.z[l] = 1;
-        auto reference = ReferenceBelly::make(bellies.muscle.mesh, bellies.muscle.terms,
-                                              {.method = Method::caa, .mass = mass, .end = FarEnd::free, .dt_s = dt});
-        if (!reference) return tl::unexpected(reference.error());
+        auto reference =
+            must(ReferenceBelly::make(bellies.muscle.mesh, bellies.muscle.terms,
+                                      {.method = Method::caa, .mass = mass, .end = FarEnd::free, .dt_s = dt}));
         const ReferenceLoad load{{0, 0, 1}, {}, {}};
-        const double own = alike ? (*rest)[0] : 1e300;
+        const double own = alike ? rest[0] : 1e300;
         for (int step = 0; step < steps; ++step) {
           bellies.tick(pull, 1, static_cast<float>(dt));
           for (std::size_t l = 0; l < lane_count; ++l) {
-            const double of_static = static_cast<double>(bellies.report.elongation_m[l]) / (*rest)[l];
+            const double of_static = static_cast<double>(bellies.report.elongation_m[l]) / rest[l];
             if (!(of_static <= most)) most = of_static;
-            const double strain = static_cast<double>(bellies.report.strain_energy_j[l]) / (0.5 * (*rest)[l]);
+            const double strain = static_cast<double>(bellies.report.strain_energy_j[l]) / (0.5 * rest[l]);
             if (!(strain <= energy)) energy = strain;
           }
           if (!alike || step >= 200) continue;
-          reference->step(load, load);
-          const double of_static = reference->report().elongation_m / own;
+          reference.step(load, load);
+          const double of_static = reference.report().elongation_m / own;
           if (!(of_static <= in_double)) in_double = of_static;
         }
         run.progress(++part / (4.0 * absurd.size()));
@@ -269,37 +248,33 @@ Result<void> stress_caa(StressRun& run) {
                   "4, by the same invariant: it bounds every part of the motion");
     }
   }
-  return {};
 }
 
-Result<void> stress_damping(StressRun& run) {
+void stress_damping(StressRun& run) {
   for (const Method method : {Method::ecd, Method::caa}) {
     const auto name = method_name[static_cast<std::size_t>(method)];
     for (const auto& [alpha, beta] : {std::pair{8.0, 0.0}, std::pair{1000.0, 0.0}, std::pair{0.0, 0.001},
                                       std::pair{0.0, 0.03}, std::pair{1000.0, 0.03}}) {
       if (run.quick && beta > 0.01) continue;  // thousands of substeps a tick
       const auto result = decay(with(alpha, beta), method, run.quick ? 20 : 60);
-      if (!result) return tl::unexpected(result.error());
       run.at_most(
           fmt::format("sixteen sizes shaken, by {}, mass damping {} 1/s, stiffness damping {} s", name, alpha, beta),
-          "largest rise of energy from tick to tick, in parts of itself", 0.01, result->worst_rise,
+          "largest rise of energy from tick to tick, in parts of itself", 0.01, result.worst_rise,
           "damping takes energy away; rounding where 1e-9 of it is left",
-          fmt::format("{:.2g} of the first is left", result->left));
+          fmt::format("{:.2g} of the first is left", result.left));
     }
   }
   WorstProbe worst;
   const HexahedralMesh mesh = spindle({2, 2, 8});
-  const auto terms = assemble(mesh, Material{});
-  if (!terms) return tl::unexpected(terms.error());
+  const auto terms = must(assemble(mesh, Material{}));
   double least_s = 1e300, rise = 0;
   for (const double beta : {1e-4, 1e-3, 1e-2, 0.1, 1.0}) {
     const auto probe =
-        probe_limit(mesh, *terms, {.method = Method::ecd, .end = FarEnd::free, .stiffness_damping_s = beta}, 200);
-    if (!probe) return tl::unexpected(probe.error());
-    worst.take(*probe);
-    least_s = std::min(least_s, probe->limit_s);
+        probe_limit(mesh, terms, {.method = Method::ecd, .end = FarEnd::free, .stiffness_damping_s = beta}, 200);
+    worst.take(probe);
+    least_s = std::min(least_s, probe.limit_s);
     // the fastest mode alone keeps its size at the limit; nothing grows
-    if (!(probe->drift_below <= rise)) rise = probe->drift_below;
+    if (!(probe.drift_below <= rise)) rise = probe.drift_below;
   }
   run.at_most(fmt::format("stiffness damping of 0.0001 to 1 s in double at {} of the critical step", just_below),
               "change of energy in parts of the first", 1, rise, "it falls, to nothing at the least",
@@ -320,7 +295,6 @@ Result<void> stress_damping(StressRun& run) {
   run.at_most("damping of either kind or a foundation that is negative, too large, no number, infinite", "not refused",
               0, static_cast<double>(accepted), "it would make energy, or nothing would be left of the motion",
               fmt::format("{} refused", asked - accepted));
-  return {};
 }
 
 }  // namespace mobil

@@ -24,9 +24,7 @@ MatrixXd principal_shapes(const MatrixXd& displacement, Index count) {
   const Index samples = std::min(displacement.cols(), most_samples);
   MatrixXd sampled(displacement.rows(), samples);
   for (Index i = 0; i < samples; ++i) sampled.col(i) = displacement.col(i * displacement.cols() / samples);
-  MatrixXd gram = MatrixXd::Zero(samples, samples);
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(sampled.transpose());
-  const SymmetricEigen eigen = symmetric_eigen(gram);
+  const SymmetricEigen eigen = symmetric_eigen(product(transposed(sampled), sampled));
   const double negligible = 1e-12 * std::max(eigen.values(samples - 1), 1e-18);
   MatrixXd shapes(displacement.rows(), std::min(count, samples));
   Index kept = 0;

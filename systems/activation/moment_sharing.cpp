@@ -33,10 +33,10 @@ HWY_INLINE Three chosen(const WideMask& mask, const Three& a, const Three& b) {
 }
 
 /// Symmetric and positive definite.
-struct Slope {
+struct Symmetric {
   Wide xx, xy, xz, yy, yz, zz;
 };
-HWY_INLINE Three solved(const Slope& s, const Three& b) {
+HWY_INLINE Three solved(const Symmetric& s, const Three& b) {
   const Wide over_x = wide(1.0F) / s.xx, l_y = s.xy * over_x, l_z = s.xz * over_x;
   const Wide d_y = fnma(l_y, s.xy, s.yy), over_y = wide(1.0F) / d_y, m_z = fnma(l_y, s.xz, s.yz);
   const Wide k_z = m_z * over_y, d_z = fnma(k_z, m_z, fnma(l_z, s.xz, s.zz));
@@ -67,7 +67,7 @@ HWY_INLINE Three shortened(const Three& step, const Wide& most, const Pull* pull
 struct Dual {
   Wide value;
   Three left;
-  Slope slope;
+  Symmetric slope;
 };
 HWY_INLINE Dual dual_at(const Three& y, const Three& moments, const Pull* pull, const Three* arm) {
   const Wide zero = wide(0.0F);

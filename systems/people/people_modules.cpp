@@ -76,7 +76,7 @@ void publish_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<flo
 
 /// A skeleton has all of its parts, and a walker all of those that gait works on; of the pose's all or, of who is
 /// compact, none.
-Result<void> check_key(const TableKey& key, const World&) {
+Result<void> check_walker_key(const TableKey& key, const World&) {
   const auto count = [&](std::initializer_list<std::uint64_t> ids) {
     return std::count_if(ids.begin(), ids.end(), [&](std::uint64_t id) { return find_part(key, id) != nullptr; });
   };
@@ -102,7 +102,7 @@ Result<void> check_forces_key(const TableKey& key, const World&) {
 }
 
 /// Every body is one that can live.
-Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
+Result<void> check_walker_rows(const SavedWorld& saved, std::uint32_t table) {
   const std::uint32_t size = saved.column(table, type_id<BodySize<float>>());
   const std::uint32_t physique = saved.column(table, type_id<Physique<float>>());
   const std::uint32_t limbs = saved.column(table, type_id<LimbLengths<float>>());
@@ -173,8 +173,8 @@ Module skeleton_module() {
                     .add("limbs' mass", &move_mass_along_limbs)
                     .after("centre of mass");
               },
-          .check_key = &check_key,
-          .check_rows = &check_rows};
+          .check_key = &check_walker_key,
+          .check_rows = &check_walker_rows};
 }
 
 }  // namespace mobil::inline v0_3

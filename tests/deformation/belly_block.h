@@ -43,7 +43,7 @@ inline BellySolver make_solver(const MuscleTemplate& muscle, Method method, Mass
 }
 
 /// Anything that can drive a far face, and the frame: the same for the kernel and the oracle.
-struct Drive {
+struct EndPull {
   EndDrive<Lanes<float>> displacement{}, force{};
   EndTraction<Lanes<float>> traction{};
   FrameLoad<Lanes<float>> frame{};
@@ -74,8 +74,8 @@ struct Drive {
 };
 
 /// A smooth drive that starts from rest, other in every lane.
-inline Drive drive_at(double t, double size, bool framed) {
-  Drive drive;
+inline EndPull drive_at(double t, double size, bool framed) {
+  EndPull drive;
   drive.framed = framed;
   const auto wave = [](double time, std::size_t lane, double phase) {
     return std::sin(7 * time + 0.3 * static_cast<double>(lane) + phase) * std::min(1.0, 5 * time);
@@ -134,7 +134,7 @@ struct Block {
     stiffness = Stiffness::shared;
     for (std::size_t l = 0; l < lane_count; ++l) scale.across[l] = scale.along[l] = 1;
   }
-  void tick(const Drive& drive, std::uint32_t substeps, float length_s = tick_s) {
+  void tick(const EndPull& drive, std::uint32_t substeps, float length_s = tick_s) {
     const BellyBlock block{
         muscle, scale, u.data()->lane, v.data()->lane, report, stiffness, drive.framed ? &drive.frame : nullptr};
     const FarFaceDrive end = drive.of(muscle.options.far_end);
@@ -174,7 +174,7 @@ inline Distance distance_from_reference(Block& block, bool framed, int ticks, st
   }
   std::vector<std::array<double, 5>> error(lane_count), norm(lane_count);
   for (int tick = 0; tick < ticks; ++tick) {
-    const Drive drive = drive_at(tick * static_cast<double>(tick_s), 1, framed);
+    const EndPull drive = drive_at(tick * static_cast<double>(tick_s), 1, framed);
     block.tick(drive, substeps);
     for (std::size_t l = 0; l < lane_count; ++l) {
       ReferenceBelly& belly = model[l];

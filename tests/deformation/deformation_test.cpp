@@ -103,7 +103,7 @@ TEST(Deformation, VolumeIsThatOfTheDeformedMesh) {
     const MuscleTemplate muscle = make({3, 2, 5}, end, 0);
     Block block = stepped_explicitly(muscle);
     shake(block, 0.002F);
-    Drive drive;
+    EndPull drive;
     for (std::size_t l = 0; l < lane_count; ++l) drive.displacement.from[l] = drive.displacement.to[l] = 0.01F;
     block.tick(drive, 1, 1e-9F);
     for (std::size_t l = 0; l < lane_count; ++l) {

@@ -120,7 +120,7 @@ TEST(Implicit, OneLayerOfElementsMovesOrIsHeldWhole) {
         EXPECT_LT(distance_from_reference(block, true, 20, 1).displacement, 1e-4);
         continue;
       }
-      const Drive drive = drive_at(0.1, 1, true);
+      const EndPull drive = drive_at(0.1, 1, true);
       block.tick(drive, 1);
       for (std::size_t i = 0; i < block.u.size(); ++i) {
         const bool is_far_z = i >= 12 && i % 3 == 2;
@@ -139,10 +139,10 @@ TEST(Implicit, FreeUndampedMotionKeepsItsEnergy) {
       block.solver.sweeps = 5;
       if (alike) block.be_all_alike();
       shake(block, 0.002F);
-      block.tick(Drive{}, 1);
+      block.tick(EndPull{}, 1);
       std::vector<double> first(lane_count);
       for (std::size_t l = 0; l < lane_count; ++l) first[l] = energy(block, l);
-      for (int tick = 0; tick < 300; ++tick) block.tick(Drive{}, 1);
+      for (int tick = 0; tick < 300; ++tick) block.tick(EndPull{}, 1);
       for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(energy(block, l) / first[l], 1, 5e-5) << "lane " << l;
     }
   }
@@ -153,12 +153,12 @@ TEST(Implicit, MeanAccelerationIsStableAtAnyStepAndCentralDifferencesAreNot) {
     const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::free, 0});
     Block block(muscle, make_solver(muscle, Method::caa, Mass::lumped, static_cast<double>(length_s)), 0.06, 0.12);
     shake(block, 0.001F);
-    for (int tick = 0; tick < 1000; ++tick) block.tick(Drive{}, 1, length_s);
+    for (int tick = 0; tick < 1000; ++tick) block.tick(EndPull{}, 1, length_s);
     EXPECT_LT(largest(block), 0.1);
 
     Block lost(muscle, make_solver(muscle, Method::icd, Mass::consistent, static_cast<double>(length_s)), 0, 0);
     shake(lost, 0.001F);
-    for (int tick = 0; tick < 40; ++tick) lost.tick(Drive{}, 1, length_s);
+    for (int tick = 0; tick < 40; ++tick) lost.tick(EndPull{}, 1, length_s);
     EXPECT_GT(largest(lost), 1e6);
   }
 }
@@ -168,10 +168,10 @@ TEST(Implicit, CentralDifferencesWithConsistentMassKeepTheirEnergyAndReachTheirL
   Block block(muscle, make_solver(muscle, Method::icd, Mass::consistent, static_cast<double>(tick_s)), 0.2, 0.2);
   shake(block, 0.001F);
   const std::uint32_t n = icd_substeps(block);
-  block.tick(Drive{}, n);
+  block.tick(EndPull{}, n);
   std::vector<double> first(lane_count);
   for (std::size_t l = 0; l < lane_count; ++l) first[l] = energy(block, l);
-  for (int tick = 0; tick < 300; ++tick) block.tick(Drive{}, n);
+  for (int tick = 0; tick < 300; ++tick) block.tick(EndPull{}, n);
   for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(energy(block, l) / first[l], 1, 5e-5) << "lane " << l;
 }
 
@@ -188,7 +188,7 @@ TEST(Implicit, RestStaysAtRest) {
   for (const Method method : {Method::caa, Method::icd, Method::statics}) {
     const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::held, 8});
     Block block(muscle, make_solver(muscle, method, Mass::consistent, static_cast<double>(tick_s)), 0.06, 0.12);
-    for (int tick = 0; tick < 3; ++tick) block.tick(Drive{}, 8);
+    for (int tick = 0; tick < 3; ++tick) block.tick(EndPull{}, 8);
     for (const auto& column : {block.u, block.v}) {
       for (const auto& lanes : column) {
         for (const float x : lanes.lane) ASSERT_EQ(x, 0.0F);

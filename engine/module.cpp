@@ -34,9 +34,10 @@ Result<Schedule> make_schedule(std::span<const Module> modules, std::pmr::memory
       return fail("modules: '" + module.name + "' and '" + other->name + "' both claim " + std::string(part.name) +
                   "; list it in one of them");
     }
-    if (!module.systems) continue;
     systems.begin_module(module.name);
-    module.systems(systems);
+    for (const Phase& phase : module.before) systems.before(phase);
+    for (const Phase& phase : module.after) systems.after_all(phase);
+    if (module.systems) module.systems(systems);
   }
   return systems.build(memory);
 }

@@ -39,8 +39,11 @@ struct Schedule::Pass {
   }
 };
 
-Schedule::Schedule(std::vector<System> systems, std::pmr::memory_resource* memory)
+Schedule::Schedule(std::vector<System> systems, std::vector<TimedPhase> before, std::vector<TimedPhase> after,
+                   std::pmr::memory_resource* memory)
     : systems_(std::move(systems)),
+      before_(std::move(before)),
+      after_(std::move(after)),
       passes_(schedule_passes(systems_)),
       timings_(systems_.size()),
       counted_(systems_.size()),
@@ -226,6 +229,22 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
   }
 }
 
+void Schedule::run_phases(std::span<TimedPhase> phases, Frame frame) {
+  for (TimedPhase& one : phases) {
+    const double start = clock_();
+    one.phase.run(frame);
+    one.last_seconds = clock_() - start;
+    one.seconds += one.last_seconds;
+  }
+}
+
+void Schedule::tick(World& world, Tick& tick, Workspace& workspace, const Jobs& jobs) {
+  run_phases(before_, {world, jobs, tick, workspace});
+  run(world, tick, jobs);
+  ++tick.index;
+  run_phases(after_, {world, jobs, tick, workspace});
+}
+
 const Timing* Schedule::timing(std::string_view name) const {
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     if (systems_[s].name == name) return &timings_[s];
@@ -235,6 +254,8 @@ const Timing* Schedule::timing(std::string_view name) const {
 
 void Schedule::reset_timings() {
   std::fill(timings_.begin(), timings_.end(), Timing{});
+  for (auto* const phases : {&before_, &after_})
+    for (TimedPhase& one : *phases) one.seconds = one.last_seconds = 0;
   std::fill(counted_.begin(), counted_.end(), Counted{});
 }
 
@@ -269,6 +290,7 @@ void list(std::string& text, const System& system, Access::Mode mode, std::strin
 
 std::string Schedule::describe() const {
   std::string text;
+  for (const TimedPhase& one : before_) text += "before: " + one.phase.name + '\n';
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     text += std::to_string(s + 1) + ". " + systems_[s].name;
     list(text, systems_[s], Access::Mode::read, "reads");
@@ -277,15 +299,25 @@ std::string Schedule::describe() const {
     list(text, systems_[s], Access::Mode::write, "writes");
     text += '\n';
   }
+  for (const TimedPhase& one : after_) text += "after: " + one.phase.name + '\n';
   return text;
 }
 
 Result<Schedule> ScheduleBuilder::build(std::pmr::memory_resource* memory) const {
+  for (const auto* const phases : {&before_, &after_}) {
+    for (auto one = phases->begin(); one != phases->end(); ++one) {
+      const auto same_name = [&](const TimedPhase& other) { return other.phase.name == one->phase.name; };
+      if (one->phase.name.empty() || !one->phase.run || std::any_of(phases->begin(), one, same_name)) {
+        return fail("schedule: phase '" + one->phase.name + "' of module '" + one->module +
+                    "' has no name, another phase's name or no function; give it a name of its own and a function");
+      }
+    }
+  }
   const auto order = schedule_order(systems_);
   if (!order) return tl::unexpected(order.error());
   std::vector<System> sorted;
   for (const std::size_t s : *order) sorted.push_back(systems_[s]);
-  return Schedule(std::move(sorted), memory);
+  return Schedule(std::move(sorted), before_, after_, memory);
 }
 
 }  // namespace mobil::inline v0_3

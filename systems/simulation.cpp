@@ -25,7 +25,6 @@
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
-#include "systems/muscles/warm_muscles.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/whole.h"
@@ -33,6 +32,7 @@
 #include "systems/simulation_world.h"
 #include "systems/snapshot/snapshot.h"
 #include "systems/standard_modules.h"
+#include "systems/simulation_waking.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -47,15 +47,14 @@ Result<T> named(const char* call, Result<T> result) {
 }  // namespace
 
 Simulation::Simulation(const SimulationOptions& options, Clock clock)
-    : memory_(options.memory),
-      world_(std::make_unique<World>(options.memory)),
+    : world_(std::make_unique<World>(options.memory)),
       clock_(clock),
       modules_(standard_modules()),
       library_(options.library_of != nullptr ? options.library_of->library_ : std::make_shared<BellyLibrary>()),
-      work_(std::make_unique<MuscleWork>()),
-      sleep_work_(std::make_unique<SleepWork>()),
-      compact_work_(std::make_unique<CompactWork>()),
-      step_log_(std::make_unique<StepLog>(options.memory)) {
+      workspace_(std::make_unique<Workspace>(options.memory)),
+      tick_{static_cast<float>(clock.tick_s()), 0} {
+  workspace_->get<MuscleMeans>() = {library_, clock.tick_s()};
+  workspace_->get<StepLog>().plan_for(clock.most_ticks());
   if (options.jobs) {
     jobs_ = *options.jobs;
   } else {
@@ -66,8 +65,8 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
   for (const Module& module : modules_)
     for (const KeyPart& part : module.parts) our_parts_.push_back(part.id);
   std::ranges::sort(our_parts_);
-  awake_parts_ = our_parts_;
-  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>()}) std::erase(awake_parts_, kept);
+  auto& owned = workspace_->get<SleepWork>().owned = our_parts_;
+  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>()}) std::erase(owned, kept);
   modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
   for (const Module& module : options.modules) {
     for (const NamedResource& one : module.resources) world_->share_as(one.part, one.resource);
@@ -108,7 +107,7 @@ Result<void> Simulation::destroy(Entity entity) {
 }
 
 MuscleScene Simulation::muscle_scene() {
-  return {*world_, *library_, *work_, jobs_, {tick_, tick_s()}};
+  return {*world_, *library_, workspace_->get<MuscleWork>(), jobs_, {tick_.index, tick_s()}};
 }
 
 Result<void> Simulation::spawn(std::span<const SpawnRequest> people, std::span<Entity> entities) {
@@ -142,7 +141,7 @@ Result<void> Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival
     forget_past(*world_, human);
     settle_fat(*world_, human);
   }
-  work_->recent = {};
+  workspace_->get<MuscleWork>().recent = {};
   return done;
 }
 
@@ -169,7 +168,7 @@ Result<void> Simulation::load_baked(std::span<const std::byte> baked) {
 /// A walker, awake or asleep, is asked for what could be made of a request.
 Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
   if (!gait) return tl::unexpected(gait.error());
-  const SleepTime now{tick_, static_cast<float>(tick_s())};
+  const SleepTime now{tick_.index, tick_.dt_s};
   if (is_asleep(human)) {
     if (same_style(gait_of(*world_, human)->style, gait->style) && !is_busy(*world_, human, now)) {
       ask_sleepers(*world_, jobs_, std::array{AskedSleeper{human, *gait}}, now);
@@ -182,13 +181,13 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
 
 Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
   auto gait = changed_gait(*world_, human, change);
-  if (gait) keep_walk_limits(*world_, jobs_, human, *gait, sleep_work_->styles);
+  if (gait) keep_walk_limits(*world_, jobs_, human, *gait, workspace_->get<SleepWork>().styles);
   return ask(human, gait);
 }
 
 Result<void> Simulation::set_gait(Entity human, const GaitRequest& asked) {
   auto gait = new_gait(*world_, human, asked);
-  if (gait) keep_walk_limits(*world_, jobs_, human, *gait, sleep_work_->styles);
+  if (gait) keep_walk_limits(*world_, jobs_, human, *gait, workspace_->get<SleepWork>().styles);
   return ask(human, gait);
 }
 
@@ -213,16 +212,16 @@ Result<void> Simulation::turn_to(Entity human, float heading_rad) {
 }
 
 Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes) {
-  std::vector<Entity>& people = sleep_work_->rows;
+  std::vector<Entity>& people = workspace_->get<SleepWork>().rows;
   people.clear();
   for (const WalkChange& change : changes) people.push_back(change.human);
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
-  const SleepTime now{tick_, static_cast<float>(tick_s())};
-  find_asked(*world_, jobs_, changes, now, *sleep_work_, people);
+  const SleepTime now{tick_.index, tick_.dt_s};
+  find_asked(*world_, jobs_, changes, now, workspace_->get<SleepWork>(), people);
   if (!people.empty()) {
     if (auto done = wake(std::vector(people)); !done) return tl::unexpected(done.error());
   }
-  return ask_walks(*world_, jobs_, changes, now, *sleep_work_);
+  return ask_walks(*world_, jobs_, changes, now, workspace_->get<SleepWork>());
 }
 
 Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
@@ -235,51 +234,30 @@ Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
 
 Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
-  return sleep_people(muscle_scene(), people, false, {}, awake_parts_, *sleep_work_, [&] { return expand(people); });
+  auto& work = workspace_->get<SleepWork>();
+  return sleep_people(muscle_scene(), people, false, {}, work.owned, work, [&] { return expand(people); });
 }
 
 Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
-  World::Attempt attempt(*world_, jobs_);
-  std::vector<Entity>&asleep = sleep_work_->asleep, &managed = sleep_work_->managed;
-  asleep.clear();
-  managed.clear();
-  for (const Entity one : people)
-    if (is_asleep(one)) (world_->has<SleepsManaged>(one) ? managed : asleep).push_back(one);
-  if (!managed.empty()) {
-    if (auto done = SimulationWorld::wake(*this, managed, Woken::whole); !done) return named("wake", std::move(done));
-  }
-  const auto warm = [&](std::span<const Entity> some, const LegMuscles& choice) {
-    warm_muscles(some, choice, within_m);
-  };
-  auto done = wake_people(muscle_scene(), asleep, {}, {}, awake_parts_, *sleep_work_, warm);
-  if (done) attempt.keep();
-  return named("wake", std::move(done));
+  return named("wake", mobil::wake(muscle_scene(), *workspace_, people, within_m));
 }
 
 Result<std::size_t> Simulation::compact(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
-  return compact_people(muscle_scene(), people, *compact_work_);
+  return compact_people(muscle_scene(), people, workspace_->get<CompactWork>());
 }
 
 Result<void> Simulation::expand(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
   World::Attempt attempt(*world_, jobs_);
-  auto done = expand_people(muscle_scene(), people, *compact_work_);
+  auto done = expand_people(muscle_scene(), people, workspace_->get<CompactWork>());
   if (done) attempt.keep();
   return named("expand", std::move(done));
 }
 
 bool Simulation::is_compact(Entity human) const {
   return mobil::is_compact(*world_, human);
-}
-
-void Simulation::warm_muscles(std::span<const Entity> people, const LegMuscles& choice, float within_m) {
-  const std::uint32_t ticks = warm_ticks(within_m, tick_s());
-  if (ticks == 0) return;
-  if (sleep_work_->warming == nullptr)
-    sleep_work_->warming = std::make_unique<WarmingRoom>(standard_modules(), memory_);
-  sleep_work_->warming->warm(muscle_scene(), people, choice, ticks);
 }
 
 bool Simulation::is_asleep(Entity human) const {
@@ -292,7 +270,7 @@ void Simulation::reserve(std::size_t people) {
 
 Status Simulation::read_absent(Entity entity, std::uint64_t part, void* row) const {
   if (is_compact(entity)) return read_compact(*world_, entity, part, row);
-  return read_asleep(*world_, entity, {tick_, static_cast<float>(tick_s())}, part, row);
+  return read_asleep(*world_, entity, {tick_.index, tick_.dt_s}, part, row);
 }
 
 Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading_rad) {
@@ -302,7 +280,7 @@ Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading
 }
 
 Result<void> Simulation::place(std::span<const PlaceRequest> places) {
-  std::vector<Entity>& people = sleep_work_->rows;
+  std::vector<Entity>& people = workspace_->get<SleepWork>().rows;
   people.clear();
   for (const PlaceRequest& to : places) people.push_back(to.person);
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
@@ -315,8 +293,8 @@ Result<void> Simulation::place(std::span<const PlaceRequest> places) {
   if (!people.empty()) {
     if (auto done = wake(std::vector(people)); !done) return done;
   }
-  place_people(*world_, {tick_, static_cast<float>(tick_s())}, places, sleep_work_->ways);
-  work_->recent = {};
+  place_people(*world_, {tick_.index, tick_.dt_s}, places, workspace_->get<SleepWork>().ways);
+  workspace_->get<MuscleWork>().recent = {};
   return {};
 }
 
@@ -325,8 +303,8 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
     return fail(fmt::format("shift_origin: ({}, {}) m is not within ±1000000 m", x_m, z_m));
   shift_people(*world_, x_m, z_m);
   shift_muscles(*world_, x_m, z_m);
-  shift_sleepers(*world_, {tick_, static_cast<float>(tick_s())}, x_m, z_m);
-  work_->recent = {};
+  shift_sleepers(*world_, {tick_.index, tick_.dt_s}, x_m, z_m);
+  workspace_->get<MuscleWork>().recent = {};
   return {};
 }
 
@@ -341,7 +319,7 @@ Result<void> Simulation::set_fat_wobble(std::span<const Entity> people, bool on)
 }
 
 Result<void> Simulation::roots(std::span<const Entity> people, std::span<Root> out, double ahead_s) const {
-  return read_roots(*world_, people, {tick_, static_cast<float>(tick_s())}, ahead_s, out);
+  return read_roots(*world_, people, {tick_.index, tick_.dt_s}, ahead_s, out);
 }
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
@@ -407,57 +385,40 @@ Ticks Simulation::advance(double seconds) {
 }
 
 void Simulation::tick(std::uint32_t count) {
-  step_log_->clear();
-  for (std::uint32_t i = 0; i < count; ++i) run_tick();
-}
-
-void Simulation::run_tick() {
-  const auto dt_s = static_cast<float>(clock_.tick_s());
-  step_log_->prepare(*world_, dt_s, clock_.most_ticks());  // what may lack memory, before anything changes
-  schedule_->run(*world_, {dt_s, tick_}, jobs_);
-  ++tick_;
-  step_log_->take(*world_, tick_, dt_s);
-  end_fades(*world_, dt_s, *work_);
-  sleep_work_->restless.clear();
-  end_unsettled(*world_, jobs_, {tick_, dt_s}, sleep_work_->unsettled, sleep_work_->rows, sleep_work_->restless);
-  if (!sleep_work_->restless.empty()) wake(std::vector(sleep_work_->restless));
+  workspace_->get<StepLog>().clear();
+  for (std::uint32_t i = 0; i < count; ++i) schedule_->tick(*world_, tick_, *workspace_, jobs_);
 }
 
 std::span<const StepEvent> Simulation::events() const {
-  return step_log_->events();
+  return workspace_->get<StepLog>().events();
 }
 
 StepReport Simulation::report() const {
-  return read_report(*schedule_, tick_);
-}
-
-SnapshotWork& Simulation::snapshot_work() const {
-  if (snapshots_ == nullptr) snapshots_ = std::make_unique<SnapshotWork>();
-  return *snapshots_;
+  return read_report(*schedule_, tick_.index);
 }
 
 std::size_t Simulation::snapshot_bytes() const {
-  return mobil::snapshot_bytes({*world_, *library_, modules_, jobs_}, snapshot_work());
+  return mobil::snapshot_bytes({*world_, *library_, modules_, jobs_}, workspace_->get<SnapshotWork>());
 }
 
 Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
-  return save_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), clock_.remainder_units(), tick_},
-                       snapshot_work(), out);
+  const SnapshotTime time{clock_.tick_units(), clock_.remainder_units(), tick_.index};
+  return save_snapshot({*world_, *library_, modules_, jobs_}, time, workspace_->get<SnapshotWork>(), out);
 }
 
 Result<void> Simulation::restore(std::span<const std::byte> in, const RestoreLimits& limits) {
-  const auto done =
-      restore_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0}, snapshot_work(), limits, in);
+  const auto done = restore_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0},
+                                     workspace_->get<SnapshotWork>(), limits, in);
   if (!done) return fail("restore: " + done.error().message, done.error().status);
-  work_->recent = {};
-  step_log_->clear();
-  tick_ = done->tick;
+  workspace_->get<MuscleWork>().recent = {};
+  workspace_->get<StepLog>().clear();
+  tick_.index = done->tick;
   clock_.set_remainder_units(done->remainder_units);
   return {};
 }
 
 std::uint64_t Simulation::state_hash() const {
-  return state_hash_of(state_sum(), tick_);
+  return state_hash_of(state_sum(), tick_.index);
 }
 
 std::uint64_t Simulation::state_sum() const {

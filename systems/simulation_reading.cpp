@@ -57,6 +57,9 @@ StepReport read_report(const Schedule& schedule, std::uint32_t ticks) {
     const Timing& t = timings[s];
     report.systems.push_back({systems[s].name, systems[s].module, t.last_seconds, t.last_rows, t.seconds, t.rows});
   }
+  for (const bool after : {false, true})
+    for (const TimedPhase& one : after ? schedule.after() : schedule.before())
+      report.phases.push_back({one.phase.name, one.module, after, one.last_seconds, one.seconds});
   return report;
 }
 

@@ -10,6 +10,7 @@
 #include "systems/muscles/sleep.h"
 #include "systems/people/by_table.h"
 #include "systems/people/ground_forces.h"
+#include "systems/simulation_waking.h"
 
 namespace mobil::inline v0_3 {
 
@@ -74,17 +75,12 @@ Result<void> Simulation::remove_forces(Entity human) {
 
 std::size_t SimulationWorld::sleep(Simulation& simulation, std::span<const Entity> people,
                                    std::span<const KeyPart> keeps) {
-  return *sleep_people(simulation.muscle_scene(), people, true, keeps, simulation.awake_parts_,
-                       *simulation.sleep_work_);
+  auto& work = simulation.workspace_->get<SleepWork>();
+  return *sleep_people(simulation.muscle_scene(), people, true, keeps, work.owned, work);
 }
 
 Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entity> people, Woken as) {
-  auto done = wake_people(simulation.muscle_scene(), people, {WakingMuscles::later, as}, relevance_parts(),
-                          simulation.awake_parts_, *simulation.sleep_work_);
-  Tiers<float> unseen{};
-  unseen.view = static_cast<std::uint32_t>(View::out_of_reach);
-  for (const Entity human : people) simulation.world_->set(human, unseen);
-  return done;
+  return wake_managed(simulation.muscle_scene(), simulation.workspace_->get<SleepWork>(), people, as);
 }
 
 void SimulationWorld::choose_from_now(Simulation& simulation, Entity human) {
@@ -103,17 +99,17 @@ Result<void> SimulationWorld::begin_kept(Simulation& simulation, Entity human) {
 }
 
 std::size_t SimulationWorld::compact(Simulation& simulation, std::span<const Entity> people) {
-  return compact_people(simulation.muscle_scene(), people, *simulation.compact_work_);
+  return compact_people(simulation.muscle_scene(), people, simulation.workspace_->get<CompactWork>());
 }
 
 Result<void> SimulationWorld::expand(Simulation& simulation, std::span<const Entity> people) {
-  return expand_people(simulation.muscle_scene(), people, *simulation.compact_work_);
+  return expand_people(simulation.muscle_scene(), people, simulation.workspace_->get<CompactWork>());
 }
 
 Result<void> SimulationWorld::begin_muscles(Simulation& simulation, std::span<const Entity> people,
                                             const LegMuscles& choice, float within_m) {
   return begin_leg_muscles(simulation.muscle_scene(), people, choice).map([&] {
-    simulation.warm_muscles(people, choice, within_m);
+    warm_muscles(simulation.muscle_scene(), *simulation.workspace_, people, choice, within_m);
   });
 }
 

@@ -12,6 +12,7 @@
 #include "systems/people/people_modules.h"
 #include "systems/people/sleep_module.h"
 #include "systems/terrain/terrain_module.h"
+#include "systems/simulation_waking.h"
 
 namespace mobil::inline v0_3 {
 
@@ -21,6 +22,7 @@ std::vector<Module> standard_modules() {
   for (Module& module : muscle_modules()) all.push_back(std::move(module));
   all.push_back(compact_module());
   all.push_back(relevance_module());
+  all.back().after = {settled_walkers()};
   all.push_back(avoidance_module());
   all.push_back(terrain_module());
   return all;

@@ -57,23 +57,32 @@ std::vector<Touched> touched_by(std::span<const System> systems) {
 class Picture {
  public:
   explicit Picture(const Schedule& schedule)
-      : systems_(schedule.systems()), passes_(schedule.passes()), columns_(touched_by(schedule.systems())) {
+      : systems_(schedule.systems()),
+        before_(schedule.before()),
+        after_(schedule.after()),
+        passes_(schedule.passes()),
+        columns_(touched_by(schedule.systems())) {
     std::size_t longest = 0, longest_column = 0;
     for (const System& system : systems_) longest = std::max(longest, system.name.size());
+    for (const auto phases : {before_, after_})
+      for (const TimedPhase& one : phases) longest = std::max(longest, one.phase.name.size());
     for (const Touched& column : columns_) longest_column = std::max(longest_column, column.name.size());
     left_ = margin + 18 + letter_width * static_cast<double>(longest) + 10;
     const double name = letter_width * static_cast<double>(longest_column);
-    top_ = margin + legend_height + 0.87 * name + 8;
+    head_ = margin + legend_height + 0.87 * name + 8;
+    top_ = head_ + row_height * static_cast<double>(before_.size());
     right_ = slope * name;
   }
 
   std::string text() {
     const double inner = column_width * static_cast<double>(columns_.size());
     const double width = left_ + inner + right_ + margin;
-    const double height = top_ + row_height * static_cast<double>(systems_.size()) + margin;
+    const double height = top_ + row_height * static_cast<double>(systems_.size() + after_.size()) + margin;
     add(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" font-family="Helvetica, Arial, sans-serif" font-size="11" fill="#333"><rect width="100%" height="100%" fill="#fff"/>)",
         width, height);
     for (std::size_t p = 0; p < passes_.size(); ++p) draw_pass(p, inner);
+    draw_phases(before_, head_);
+    draw_phases(after_, row_y(systems_.size()) - row_height / 2);
     for (std::size_t c = 0; c < columns_.size(); ++c) draw_column(c);
     draw_legend();
     text_ += "</svg>\n";
@@ -102,10 +111,18 @@ class Picture {
     }
   }
 
+  void draw_phases(std::span<const TimedPhase> phases, double y) {
+    for (const TimedPhase& one : phases) {
+      add(R"(<text class="phase" x="{:.1f}" y="{:.1f}" text-anchor="end" font-style="italic" fill="#666">{}</text>)",
+          left_ - 8, y + row_height / 2 + 4, one.phase.name);
+      y += row_height;
+    }
+  }
+
   void draw_column(std::size_t c) {
     const Touched& column = columns_[c];
     const double x = column_x(c);
-    add(R"|(<text transform="translate({:.1f} {:.1f}) rotate(-60)">{}</text>)|", x + 4, top_ - 5, column.name);
+    add(R"|(<text transform="translate({:.1f} {:.1f}) rotate(-60)">{}</text>)|", x + 4, head_ - 5, column.name);
     const auto [first, last] = std::ranges::minmax(column.by, {}, &Touched::By::system);
     add(R"(<line x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}" stroke="#c3c9d2"/>)", x, row_y(first.system),
         row_y(last.system));
@@ -145,14 +162,15 @@ class Picture {
       add(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", x + 9, margin + 10, words);
       x += 30 + letter_width * static_cast<double>(words.size());
     }
-    add(R"(<text x="{:.1f}" y="{:.1f}">Numbers at the left: passes, between which threads wait for each other.</text>)",
-        margin, margin + 28);
+    add(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", margin, margin + 28,
+        "Numbers: passes, between which threads wait for each other. Slanting: phases, one at a time.");
   }
 
   std::span<const System> systems_;
+  std::span<const TimedPhase> before_, after_;
   std::span<const SystemRange> passes_;
   std::vector<Touched> columns_;
-  double left_, top_, right_;
+  double left_, head_, top_, right_;
   std::string text_;
 };
 

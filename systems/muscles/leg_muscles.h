@@ -20,6 +20,12 @@
 
 namespace mobil::inline v0_3 {
 
+/// What changes of muscles need throughout a simulation: templates and bases, and the length of a tick.
+struct MuscleMeans {
+  std::shared_ptr<BellyLibrary> library;
+  double tick_s = 0;
+};
+
 /// What is needed to make and change muscles.
 struct MuscleScene {
   World& world;

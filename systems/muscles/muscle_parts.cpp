@@ -144,7 +144,10 @@ Module fade_module() {
   return {
       .name = "fade",
       .parts = {component_part<Fade>(), key_part(FieldWidth<FadeStart>{}), key_part(FieldWidth<ShownDisplacement>{})},
-      .systems = [](ScheduleBuilder& systems) { systems.add("fade", &fade).after("finite shape"); }};
+      .systems = [](ScheduleBuilder& systems) { systems.add("fade", &fade).after("finite shape"); },
+      .after = {{"faded muscles", [](Frame& frame) {
+                   end_fades(frame.world, frame.tick.dt_s, frame.workspace.get<MuscleWork>());
+                 }}}};
 }
 
 std::vector<Module> muscle_modules() {

@@ -52,6 +52,7 @@ struct SleepWork {
   std::vector<Sleeping> waking_people;
   std::vector<Entity> rows, restless, asleep, managed, alike;
   UnsettledTables unsettled;
+  std::vector<std::uint64_t> owned;           // ids of the library's parts that no sleeper has, ascending
   std::vector<KeyPart> parts;                 // of who wakes or falls asleep
   std::vector<std::uint64_t> all_but_choice;  // parts
   std::unique_ptr<WarmingRoom> warming;

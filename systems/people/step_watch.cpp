@@ -67,6 +67,14 @@ Module step_watch_module() {
               [](ScheduleBuilder& systems) {
                 systems.add("steps ahead", &watch_ahead).add("step events", &watch_behind).after("steps ahead");
               },
+          .before = {{"memory of step events",
+                      [](Frame& frame) {
+                        frame.workspace.get<StepLog>().prepare(frame.world, frame.tick.dt_s);
+                      }}},
+          .after = {{"step events",
+                     [](Frame& frame) {
+                       frame.workspace.get<StepLog>().take(frame.world, frame.tick.index, frame.tick.dt_s);
+                     }}},
           .check_key = &check_watch_key};
 }
 
@@ -92,14 +100,14 @@ Status watch_steps(World& world, const Jobs& jobs, std::span<const Entity> peopl
   return Status::ok;
 }
 
-void StepLog::prepare(const World& world, float tick_s, std::uint32_t ticks) {
+void StepLog::prepare(const World& world, float tick_s) {
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     if (world.tables()[tables_seen_].column(type_id<StepEvents>()) != Table::no_column)
       tables_.push_back(static_cast<std::uint32_t>(tables_seen_));
   }
   std::size_t watched = 0;
   for (const std::uint32_t t : tables_) watched += world.tables()[t].row_count();
-  const std::size_t usual = watched * most_events(ticks, tick_s), needed = events_.size() + watched * StepEvents::most;
+  const std::size_t usual = watched * most_events(most_ticks_, tick_s), needed = events_.size() + watched * StepEvents::most;
   if (events_.capacity() < usual) events_.reserve(usual);
   if (events_.capacity() < needed) events_.reserve(std::max(needed, 2 * events_.capacity()));
 }

@@ -35,6 +35,9 @@ TEST(SchedulePicture, EverySystemAndEveryAccessHasItsMark) {
     }
   }
   EXPECT_GT(written, 20U);
+  for (const auto phases : {simulation.schedule().before(), simulation.schedule().after()})
+    for (const TimedPhase& one : phases)
+      EXPECT_NE(picture.find(">" + one.phase.name + "<"), std::string::npos) << one.phase.name;
   // each once more in the legend
   EXPECT_EQ(count_of("class=\"read\"", picture), read + 1);
   EXPECT_EQ(count_of("class=\"write\"", picture), written + 1);
@@ -47,11 +50,14 @@ TEST(SchedulePicture, TheCommittedOneIsTodays) {
       << "the systems have changed; run: mobil schedule --svg demo/gallery/schedule.svg";
 }
 
-TEST(ScheduleCommand, PrintsOneLineASystem) {
+TEST(ScheduleCommand, PrintsOneLineAPhaseAndSystem) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("schedule", folder.path);
   EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(ran.out, '\n')), Simulation().schedule().systems().size());
+  const Simulation simulation;
+  const Schedule& all = simulation.schedule();
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(ran.out, '\n')),
+            all.before().size() + all.systems().size() + all.after().size());
   EXPECT_NE(ran.out.find("kinematics; reads "), std::string::npos) << ran.out;
 }
 

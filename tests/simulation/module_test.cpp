@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <mobil/schedule.h>
@@ -192,6 +193,41 @@ TEST(Modules, TogetherKnowEveryPartThatACrowdEverHas) {
     }
   }
   EXPECT_GT(muscles, 1000U);
+}
+
+/// A host's phases spawn and despawn walkers within `advance`; threads do not show.
+TEST(Modules, PhasesOfAHostSpawnAndDespawn) {
+  struct Arrivals {
+    std::vector<Entity> all;
+  };
+  const auto run = [](int threads) {
+    Simulation* running = nullptr;
+    Module arrivals{.name = "arrivals",
+                    .before = {{"arrivals",
+                                [&running](Frame& frame) {
+                                  auto& all = frame.workspace.get<Arrivals>().all;
+                                  if (frame.tick.index % 10 == 0) all.push_back(*running->spawn(BodyRequest{}));
+                                }}},
+                    .after = {{"departures", [&running](Frame& frame) {
+                                 auto& all = frame.workspace.get<Arrivals>().all;
+                                 if (all.size() < 4) return;
+                                 EXPECT_TRUE(running->despawn(all.front()));
+                                 all.erase(all.begin());
+                               }}}};
+    Simulation simulation({.threads = threads, .modules = {arrivals}});
+    running = &simulation;
+    for (int frame = 0; frame < 30; ++frame) simulation.advance(0.05);
+    EXPECT_EQ(simulation.people().size(), 3U);
+    const StepReport report = simulation.report();
+    std::string names;
+    for (const PhaseReport& one : report.phases)
+      names += std::string(one.name) + (one.after ? " after, " : " before, ");
+    EXPECT_EQ(names,
+              "memory of step events before, arrivals before, step events after, faded muscles after, settled walkers "
+              "after, departures after, ");
+    return simulation.state_hash();
+  };
+  EXPECT_EQ(run(1), run(2));
 }
 
 }  // namespace mobil::module_test

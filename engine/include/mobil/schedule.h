@@ -28,6 +28,7 @@
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/packed.h>
+#include <mobil/engine/phase.h>
 #include <mobil/engine/scratch.h>
 #include <mobil/engine/world.h>
 
@@ -61,6 +62,13 @@ struct Timing {
   double last_seconds = 0;
 };
 
+/// A phase, its module, and the calling thread's time in it: in all, and in the last tick.
+struct TimedPhase {
+  Phase phase;
+  std::string module;
+  double seconds = 0, last_seconds = 0;
+};
+
 /// What systems added to their Tally: in the last tick, and in all since timings were last reset.
 struct Counted {
   std::uint64_t last = 0, all = 0;
@@ -80,8 +88,14 @@ class Schedule {
   /// runs.
   void run(World& world, Tick tick, const Jobs& jobs = {});
 
+  /// A whole tick: phases before the systems, `run`, and phases after them. `tick.index` grows by one once the systems
+  /// have run. Throws what phases throw (mobil/engine/phase.h).
+  void tick(World& world, Tick& tick, Workspace& workspace, const Jobs& jobs = {});
+
   /// In the order of running.
   std::span<const System> systems() const { return systems_; }
+  std::span<const TimedPhase> before() const { return before_; }
+  std::span<const TimedPhase> after() const { return after_; }
   std::span<const SystemRange> passes() const { return passes_; }
   std::span<const Timing> timings() const { return timings_; }
   /// Null when there is no system of that name.
@@ -97,7 +111,7 @@ class Schedule {
   /// says what systems cost while others use the machine.
   void measure_with(double (*clock)());
 
-  /// The order as text, a line a system: what it reads and writes.
+  /// The order as text, a line a phase or system: what a system reads and writes.
   std::string describe() const;
 
  private:
@@ -126,12 +140,15 @@ class Schedule {
   static void for_tiles(const Pass& pass, std::size_t begin, std::size_t end, const F& f);
   void run_packed(Pass& pass, std::size_t blocks, const Jobs& jobs);
 
-  Schedule(std::vector<System> systems, std::pmr::memory_resource* memory);
+  Schedule(std::vector<System> systems, std::vector<TimedPhase> before, std::vector<TimedPhase> after,
+           std::pmr::memory_resource* memory);
+  void run_phases(std::span<TimedPhase> phases, Frame frame);
   void match(World& world);
   void order_tiles(std::size_t pass, std::size_t threads);
   Counted tally(std::uint64_t tag) const;
 
   std::vector<System> systems_;
+  std::vector<TimedPhase> before_, after_;
   std::vector<SystemRange> passes_;
   std::vector<Timing> timings_;
   std::vector<Counted> counted_;                           // by system
@@ -177,8 +194,18 @@ class ScheduleBuilder {
     return *this;
   }
 
-  /// Fails on two systems of one name, on an `after` that names no system, on a system that takes a component twice and
-  /// writes it, on two writers without an order and on cycles. `memory` serves the systems' scratch memory and the
+  /// Phases run in the order of adding.
+  ScheduleBuilder& before(Phase phase) {
+    before_.push_back({std::move(phase), module_});
+    return *this;
+  }
+  ScheduleBuilder& after_all(Phase phase) {
+    after_.push_back({std::move(phase), module_});
+    return *this;
+  }
+
+  /// Fails on two systems or phases of one name, on an `after` that names no system, on a system that takes a component
+  /// twice and writes it, on two writers without an order and on cycles. `memory` serves the systems' scratch memory and the
   /// lists of chosen rows; it is asked by one thread at a time, perhaps during a run, and must outlive the schedule.
   Result<Schedule> build(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const;
 
@@ -232,6 +259,7 @@ class ScheduleBuilder {
   }
 
   std::vector<System> systems_;
+  std::vector<TimedPhase> before_, after_;
   std::string module_;
 };
 

@@ -41,6 +41,7 @@
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/module.h>
+#include <mobil/engine/phase.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/muscles/own_muscle.h>
 #include <mobil/systems/people/limit_watch.h>
@@ -102,6 +103,14 @@ struct SystemReport {
   std::uint64_t total_entities = 0;
 };
 
+/// Time of one phase of a tick (mobil/engine/phase.h), of the thread that ticks.
+struct PhaseReport {
+  std::string_view name, module;  // good as long as the simulation
+  bool after = false;             // the systems; else before them
+  double seconds = 0;             // in the last tick
+  double total_seconds = 0;       // in all ticks since the schedule's timings were last reset
+};
+
 /// What simulating cost, system by system in the order of running. A system that matches no table reports 0 entities
 /// and 0 s.
 struct StepReport {
@@ -114,13 +123,11 @@ struct StepReport {
   /// (mobil/systems/people/limit_watch.h): in the last tick, and summed over all ticks since timings were last reset.
   /// `broken_limits` tells which limits.
   std::uint64_t beyond_limits = 0, total_beyond_limits = 0;
+  /// In the order of running.
+  std::vector<PhaseReport> phases{};
 };
 
-struct MuscleWork;    // systems/muscles/change_muscles.h
-struct MuscleScene;   // systems/muscles/leg_muscles.h
-struct SleepWork;     // systems/muscles/sleep.h
-struct CompactWork;   // systems/muscles/compact.h
-struct SnapshotWork;  // systems/snapshot/snapshot.h
+struct MuscleScene;  // systems/muscles/leg_muscles.h
 
 class BellyLibrary;  // systems/muscles/belly_library.h
 
@@ -320,11 +327,11 @@ class Simulation {
   /// Runs `count` ticks.
   void tick(std::uint32_t count = 1);
   /// Ticks run so far.
-  std::uint32_t ticks() const { return tick_; }
+  std::uint32_t ticks() const { return tick_.index; }
   /// Length of a tick, s.
   double tick_s() const { return clock_.tick_s(); }
   /// Time simulated so far, s.
-  double time_s() const { return tick_ * clock_.tick_s(); }
+  double time_s() const { return tick_.index * clock_.tick_s(); }
   /// What the last tick cost, and all of them, system by system.
   StepReport report() const;
   /// The state alone as bytes, in the caller's memory: all rows and handles, the tick and the time fed since. Neither
@@ -453,33 +460,24 @@ class Simulation {
   }
   Simulation(const SimulationOptions& options, Clock clock);
   MuscleScene muscle_scene();
-  void run_tick();
-  SnapshotWork& snapshot_work() const;
   Status read_absent(Entity entity, std::uint64_t part, void* row) const;
   Result<void> make_whole(std::span<const Entity> people);
   Result<void> make_whole_for(Entity human);
   Result<void> make_muscles_whole(std::span<const Entity> people);
   template <class F>
   Result<void> of_whole(Entity human, const char* name, const F& change);
-  void warm_muscles(std::span<const Entity> people, const LegMuscles& choice, float within_m);
   Result<void> ask(Entity human, const Result<Gait<float>>& gait);
 
-  std::pmr::memory_resource* memory_;
   std::unique_ptr<World> world_;
   Clock clock_;
   std::optional<Threads> threads_;
   Jobs jobs_;
   std::vector<Module> modules_;
-  std::vector<std::uint64_t> our_parts_;    // of the library's modules, ascending
-  std::vector<std::uint64_t> awake_parts_;  // of these all that who sleeps has not
+  std::vector<std::uint64_t> our_parts_;  // of the library's modules, ascending
   std::unique_ptr<Schedule> schedule_;
   std::shared_ptr<BellyLibrary> library_;
-  std::unique_ptr<MuscleWork> work_;
-  std::unique_ptr<SleepWork> sleep_work_;
-  std::unique_ptr<CompactWork> compact_work_;
-  std::unique_ptr<StepLog> step_log_;
-  mutable std::unique_ptr<SnapshotWork> snapshots_;  // made when first needed
-  std::uint32_t tick_ = 0;
+  std::unique_ptr<Workspace> workspace_;
+  Tick tick_;
 };
 
 }  // namespace mobil::inline v0_3

@@ -23,6 +23,7 @@
 
 #include <mobil/engine/error.h>
 #include <mobil/engine/key.h>
+#include <mobil/engine/phase.h>
 
 namespace mobil::inline v0_3 {
 
@@ -61,6 +62,8 @@ struct Module {
   std::function<void(Table& table, const World& world, std::size_t begin, std::size_t end)> make{};
   /// Adds its systems; may be empty.
   std::function<void(ScheduleBuilder&)> systems{};
+  /// Phases before and after the systems of a tick; those of earlier modules come first.
+  std::vector<Phase> before{}, after{};
   /// Whether a table's key makes sense, asked before a snapshot's rows are given a table; may be empty. `world` has the
   /// key's resources.
   std::function<Result<void>(const TableKey& key, const World& world)> check_key{};

@@ -50,9 +50,11 @@ class StepLog {
 
   /// Forgets all events.
   void clear() { events_.clear(); }
-  /// Before a tick: takes memory where more people are watched than ever before, for an `advance` of `ticks` ticks, and
-  /// where a longer `tick(n)` has had more events.
-  void prepare(const World& world, float tick_s, std::uint32_t ticks);
+  /// The longest `advance`, in ticks.
+  void plan_for(std::uint32_t ticks) { most_ticks_ = ticks; }
+  /// Before a tick: takes memory where more people are watched than ever before, for the longest `advance`, and where a
+  /// longer `tick(n)` has had more events.
+  void prepare(const World& world, float tick_s);
   /// After the tick has run: `tick` is its number, from 1 on. Takes no memory.
   void take(const World& world, std::uint32_t tick, float tick_s);
   std::span<const StepEvent> events() const { return events_; }
@@ -61,6 +63,7 @@ class StepLog {
   std::pmr::vector<StepEvent> events_;
   std::pmr::vector<std::uint32_t> tables_;  // those with StepEvents
   std::size_t tables_seen_ = 0;
+  std::uint32_t most_ticks_ = 1;
 };
 
 }  // namespace mobil::inline v0_3

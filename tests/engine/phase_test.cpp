@@ -1,0 +1,125 @@
+// Phases: their order around the systems, what they may do, and what is left where one of them throws.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <mobil/engine/module.h>
+#include <mobil/schedule.h>
+
+namespace mobil::phase_test {
+template <class F>
+struct Age {
+  F ticks;
+};
+struct Births {
+  std::vector<Entity> all;
+};
+
+/// Writes what runs into `said`, with the number of finished ticks.
+Module telling(std::string& said, const std::string& name) {
+  const auto tell = [&said](const std::string& what) {
+    return Phase{what, [&said, what](Frame& frame) { said += what + std::to_string(frame.tick.index) + ' '; }};
+  };
+  return {.name = name,
+          .systems =
+              [&said, name](ScheduleBuilder& systems) {
+                systems.add(name, [&said, name](const Age<Lanes<float>>&, Tick tick) {
+                  said += name + std::to_string(tick.index) + ' ';
+                });
+              },
+          .before = {tell("before " + name)},
+          .after = {tell("after " + name)}};
+}
+
+/// Somebody is born before each tick, and whoever has lived for three ticks goes after it.
+Module generations() {
+  return {.name = "generations",
+          .parts = {component_part<Age>()},
+          .systems =
+              [](ScheduleBuilder& systems) {
+                systems.add("age", [](Age<Lanes<float>>& age) {
+                  for (std::size_t lane = 0; lane < lane_count; ++lane) age.ticks[lane] += 1;
+                });
+              },
+          .before = {{"births",
+                      [](Frame& frame) {
+                        frame.workspace.get<Births>().all.push_back(frame.world.create(Age<float>{0}));
+                      }}},
+          .after = {{"deaths", [](Frame& frame) {
+                       for (const Entity one : frame.workspace.get<Births>().all)
+                         if (frame.world.alive(one) && frame.world.get<Age>(one)->ticks == 3) frame.world.destroy(one);
+                     }}}};
+}
+
+TEST(Phases, RunAroundTheSystemsInTheOrderOfModules) {
+  std::string said;
+  auto schedule = *make_schedule(std::array{telling(said, "a"), telling(said, "b")});
+  World world;
+  world.create(Age<float>{0});
+  Workspace workspace;
+  Tick tick{0.01F, 7};
+  schedule.tick(world, tick, workspace);
+  EXPECT_EQ(said, "before a7 before b7 a7 b7 after a8 after b8 ");
+  EXPECT_EQ(tick.index, 8U);
+  EXPECT_EQ(schedule.describe(), "before: before a\nbefore: before b\n1. a; reads Age\n2. b; reads Age\n"
+                                 "after: after a\nafter: after b\n");
+}
+
+TEST(Phases, ChangeRowsAndKeepWhatTheyNeed) {
+  auto schedule = *make_schedule(std::array{generations()});
+  World world;
+  Workspace workspace;
+  Tick tick{0.01F, 0};
+  for (int i = 0; i < 20; ++i) schedule.tick(world, tick, workspace);
+  const std::vector<Entity>& all = workspace.get<Births>().all;
+  ASSERT_EQ(all.size(), 20U);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(world.alive(all[i]), i >= 18) << i;
+  EXPECT_EQ(world.get<Age>(all[18])->ticks, 2);
+}
+
+TEST(Phases, ATickWhoseBeginningThrowsDoesNotCount) {
+  std::string said;
+  Module failing = telling(said, "b");
+  failing.before.front().run = [](Frame&) { throw std::runtime_error("no room"); };
+  auto schedule = *make_schedule(std::array{telling(said, "a"), failing});
+  World world;
+  world.create(Age<float>{0});
+  Workspace workspace;
+  Tick tick{0.01F, 3};
+  EXPECT_THROW(schedule.tick(world, tick, workspace), std::runtime_error);
+  EXPECT_EQ(tick.index, 3U);
+  EXPECT_EQ(said, "before a3 ");
+}
+
+TEST(Phases, AreTimed) {
+  static double now = 0;
+  auto schedule = *make_schedule(std::array<Module, 1>{
+      {{.name = "slow",
+        .before = {{"slow", [](Frame&) { now += 2; }}},
+        .after = {{"slow", [](Frame&) { now += 5; }}}}}});
+  schedule.measure_with([] { return now; });
+  World world;
+  Workspace workspace;
+  Tick tick{0.01F, 0};
+  for (int i = 0; i < 3; ++i) schedule.tick(world, tick, workspace);
+  EXPECT_EQ(schedule.before().front().last_seconds, 2);
+  EXPECT_EQ(schedule.before().front().seconds, 6);
+  EXPECT_EQ(schedule.after().front().seconds, 15);
+  EXPECT_EQ(schedule.after().front().module, "slow");
+  schedule.reset_timings();
+  EXPECT_EQ(schedule.after().front().seconds, 0);
+}
+
+TEST(Phases, NeedANameOfTheirOwnAndAFunction) {
+  const Phase good{"one", [](Frame&) {}}, same{"one", [](Frame&) {}}, nameless{"", [](Frame&) {}}, empty{"two", {}};
+  for (const Phase& bad : {same, nameless, empty}) {
+    const auto refused = make_schedule(std::array<Module, 1>{{{.name = "host", .after = {good, bad}}}});
+    ASSERT_FALSE(refused) << bad.name;
+    EXPECT_NE(refused.error().message.find("of module 'host'"), std::string::npos) << refused.error().message;
+  }
+}
+
+}  // namespace mobil::phase_test

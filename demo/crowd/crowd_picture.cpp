@@ -23,7 +23,7 @@
 namespace mobil {
 namespace {
 
-/// What is seen through the skin of who is near: the shirt hides the rest.
+/// Parts visible through the skin of near people; the shirt hides the rest.
 bool is_leg(Segment segment) {
   return segment == Segment::pelvis || (segment >= Segment::thigh_right && segment < Segment::clavicle_right);
 }

@@ -95,9 +95,9 @@ inline constexpr std::size_t most_recorded_poses = 800'000;
 /// cannot be written.
 Result<void> check_crowd_exports(const std::vector<std::filesystem::path>& files);
 
-/// Everybody, as many pictures a second as films have, for `seconds` from now on, in which the crowd goes on. People
-/// are called person_NUMBER, by their number in the crowd. Nobody may leave meanwhile. Errors: what the simulation
-/// refuses.
+/// Records all people for the next `seconds`, as many pictures a second as films have; the crowd walks on. People are
+/// called person_NUMBER, by their number in the crowd, and must not be despawned until it returns. Errors: those of the
+/// simulation.
 Result<CrowdRecording> record_crowd(CrowdScene& scene, double seconds, const CrowdScene::Progress& progress = {});
 
 /// Writes the recording to each file. Errors begin with the option.

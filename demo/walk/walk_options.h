@@ -22,7 +22,7 @@ struct WalkExport {
 /// From names, whose endings say the format. Errors: an ending that is none, a name with a folder, the same name twice.
 Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& names);
 
-/// Whether it tells of every tick, without surfaces; the others are of every picture.
+/// True for a format with every tick and without surfaces; the others are of every picture.
 bool of_every_tick(const WalkExport& wanted);
 
 /// Writes one file into `folder`. `ticks`: poses of every tick and forces, where they are; `pictures`: with surfaces.

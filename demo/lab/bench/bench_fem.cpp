@@ -20,7 +20,7 @@
 namespace mobil {
 namespace {
 
-/// What one rival said of itself; times are its processor's.
+/// Results that one rival reports; times are its processor's.
 struct RivalTime {
   double us_per_step = 0, median_us = 0, dt_s = 0;
   double far_z_m = 0;  // its first muscle's far face after 248 steps, where it says

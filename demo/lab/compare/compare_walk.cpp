@@ -33,7 +33,7 @@ Quat<double> halfway(const Quat<double>& a, const Quat<double>& b) {
   return {q.x / size, q.y / size, q.z / size, q.w / size};
 }
 
-/// What somebody is asked while the meter runs.
+/// A person's requests while energy is measured.
 struct Request {
   double after_s;
   double speed_m_s;

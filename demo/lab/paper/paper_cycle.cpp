@@ -149,7 +149,7 @@ bool in_right_leg(Segment s) {
   return s == Segment::pelvis || (s >= Segment::thigh_right && s <= Segment::toes_right);
 }
 
-/// What is to be drawn of a walk, of one frame.
+/// One frame of a walk, ready to be drawn.
 WalkRecording part_of(const Actor& actor) {
   const WalkRecording& whole = actor.walk->recording;
   WalkRecording part;

@@ -5,6 +5,11 @@
 #include <string>
 
 namespace mobil::inline v0_3 {
+
+tl::unexpected<Error> damaged(std::string_view what) {
+  return fail("the snapshot does not agree with itself (" + std::string(what) + "); give one that `save` made");
+}
+
 namespace {
 
 struct WorldHeader {
@@ -58,40 +63,36 @@ void across_gap(const WordGap& gap, std::size_t from, std::size_t bytes, const C
   if (before < bytes) copy(from + before + block_bytes(gap.words), before, bytes - before);
 }
 
-Error damaged(const std::string& what) {
-  return {"the snapshot does not agree with itself (" + what + "); give one that `save` made"};
-}
-
 Result<void> check_tables(const SavedWorld& saved, std::size_t blocks_bytes) {
   std::uint64_t part = 0, entity = 0, byte = 0;
   for (std::size_t t = 0; t < saved.tables.size(); ++t) {
     const SavedTable table = saved.tables[t];
     if (table.first_part != part || table.first_entity != entity || table.first_block_byte != byte || table.rows == 0 ||
         table.parts > saved.parts.size() - part) {
-      return tl::unexpected(damaged("a table's place"));
+      return damaged("a table's place");
     }
     std::uint64_t words = 0, before = 0, left_out = 0;
     for (std::uint32_t i = 0; i < table.parts; ++i) {
       const SavedPart p = saved.parts[table.first_part + i];
       if ((i != 0 && p.id <= before) || p.kind > static_cast<std::uint32_t>(PartKind::published) || p.left_out > 1 ||
           (p.left_out == 1 && !has_column(static_cast<PartKind>(p.kind))))
-        return tl::unexpected(damaged("a table's key"));
+        return damaged("a table's key");
       before = p.id;
       if (!has_column(static_cast<PartKind>(p.kind))) continue;
-      if (p.value > blocks_bytes) return tl::unexpected(damaged("a column's width"));
+      if (p.value > blocks_bytes) return damaged("a column's width");
       left_out += p.left_out;
       if (p.left_out == 0) words += p.value;
     }
-    if (left_out > 1) return tl::unexpected(damaged("a table's key"));
-    if (words != table.words || table.rows > saved.entities.size()) return tl::unexpected(damaged("a table's size"));
+    if (left_out > 1) return damaged("a table's key");
+    if (words != table.words || table.rows > saved.entities.size()) return damaged("a table's size");
     part += table.parts;
     entity += table.rows;
     if (words != 0 && blocks_of(table.rows) > (blocks_bytes - byte) / block_bytes(table.words))
-      return tl::unexpected(damaged("a table's blocks"));
+      return damaged("a table's blocks");
     byte += blocks_of(table.rows) * block_bytes(table.words);
   }
   if (part != saved.parts.size() || entity != saved.entities.size() || byte != blocks_bytes)
-    return tl::unexpected(damaged("the tables' sizes"));
+    return damaged("the tables' sizes");
   return {};
 }
 
@@ -101,25 +102,25 @@ Result<void> check_register(const SavedWorld& saved) {
     const SavedTable table = saved.tables[t];
     for (std::uint32_t row = 0; row < table.rows; ++row) {
       const auto slot = saved.find(saved.entities[table.first_entity + row]);
-      if (!slot || slot->table != t || slot->row != row) return tl::unexpected(damaged("whose a row is"));
+      if (!slot || slot->table != t || slot->row != row) return damaged("whose a row is");
     }
   }
   std::size_t alive = 0, listed = 0, retired = 0;
   for (std::size_t i = 0; i < saved.slots.size(); ++i) {
     const SavedSlot slot = saved.slots[i];
-    if (slot.table != SavedWorld::nobody && slot.generation == 0) return tl::unexpected(damaged("a handle"));
+    if (slot.table != SavedWorld::nobody && slot.generation == 0) return damaged("a handle");
     alive += slot.table != SavedWorld::nobody ? 1 : 0;
     retired += slot.table == SavedWorld::nobody && slot.generation == 0 ? 1 : 0;
   }
   for (std::uint32_t next = saved.first_free; next != SavedWorld::nobody; ++listed) {
     if (next >= saved.slots.size() || listed > saved.slots.size())
-      return tl::unexpected(damaged("the list of free handles"));
+      return damaged("the list of free handles");
     const SavedSlot slot = saved.slots[next];
-    if (slot.table != SavedWorld::nobody || slot.generation == 0) return tl::unexpected(damaged("a free handle"));
+    if (slot.table != SavedWorld::nobody || slot.generation == 0) return damaged("a free handle");
     next = slot.row;
   }
   if (alive != saved.entities.size() || alive + listed + retired != saved.slots.size())
-    return tl::unexpected(damaged("the number of handles"));
+    return damaged("the number of handles");
   return {};
 }
 
@@ -256,7 +257,7 @@ Result<SavedWorld> WorldSnapshot::read(const OpenSnapshot& snapshot) {
     saved.slots = reader.take_many<SavedSlot>(header.slots);
     saved.entities = reader.take_many<Entity>(header.entities);
   }
-  if (!reader.whole()) return tl::unexpected(damaged("the sizes of its lists"));
+  if (!reader.whole()) return damaged("the sizes of its lists");
   saved.first_free = header.first_free;
   saved.blocks = snapshot.blocks;
   if (auto ok = check_tables(saved, snapshot.blocks.size()); !ok) return tl::unexpected(ok.error());
@@ -285,7 +286,7 @@ Result<KeyPart> WorldSnapshot::known_part(const World& world, const SavedPart& p
   for (const SharedNumber& number : shared) {
     if (number.id == part.id && number.saved == part.value) return KeyPart{part.id, kind, number.present, like->name};
   }
-  return tl::unexpected(damaged("a shared resource that it does not describe"));
+  return damaged("a shared resource that it does not describe");
 }
 
 Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::span<const KeyPart> known,
@@ -307,7 +308,7 @@ Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::
       const SavedPart part = saved.parts[from.first_part + i];
       const bool column = has_column(static_cast<PartKind>(part.kind)) && part.value != 0;
       if (part.left_out != (part.id == without && column ? 1U : 0U))
-        return tl::unexpected(damaged("which columns are left out"));
+        return damaged("which columns are left out");
     }
     const std::uint64_t hash = key_hash(key_);
     std::uint32_t at = 0;
@@ -319,7 +320,7 @@ Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::
       at = world.table_of(key_);
       saved_.resize(world.tables_.size(), SavedWorld::nobody);
     }
-    if (saved_[at] != SavedWorld::nobody) return tl::unexpected(damaged("two tables of one key"));
+    if (saved_[at] != SavedWorld::nobody) return damaged("two tables of one key");
     saved_[at] = t;
     table_[t] = at;
     world.tables_[at].reserve(from.rows);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <mobil/engine/error.h>
@@ -50,6 +51,9 @@ struct SavedWorld {
   std::uint32_t column(std::uint32_t table, std::uint64_t id) const;
   std::uint32_t word(std::uint32_t table, std::uint32_t row, std::uint32_t column_word) const;
 };
+
+/// The error of a snapshot that contradicts itself in `what`.
+tl::unexpected<Error> damaged(std::string_view what);
 
 /// Whether `is_sound` says so of component C in every row of a table; true where the table has none.
 template <template <class> class C, class Sound>

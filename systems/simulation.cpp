@@ -107,7 +107,7 @@ Result<void> Simulation::destroy(Entity entity) {
 }
 
 MuscleScene Simulation::muscle_scene() {
-  return {*world_, *library_, workspace_->get<MuscleWork>(), jobs_, {tick_.index, tick_s()}};
+  return scene_of({*world_, jobs_, tick_, *workspace_});
 }
 
 Result<void> Simulation::spawn(std::span<const SpawnRequest> people, std::span<Entity> entities) {

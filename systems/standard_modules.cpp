@@ -11,8 +11,8 @@
 #include "systems/people/fat_wobble.h"
 #include "systems/people/people_modules.h"
 #include "systems/people/sleep_module.h"
-#include "systems/terrain/terrain_module.h"
 #include "systems/simulation_waking.h"
+#include "systems/terrain/terrain_module.h"
 
 namespace mobil::inline v0_3 {
 

@@ -73,7 +73,7 @@ std::string anatomy_table(const AnatomySurvey& survey) {
   return text;
 }
 
-/// The same as members of one object: folder, unit_m, said, meshes, faults.
+/// The survey as one JSON object with the members folder, unit_m, said, meshes and faults.
 std::string anatomy_json(const std::string& folder, const AnatomySurvey& survey) {
   Json meshes = Json::array(), faults = Json(survey.faults);
   for (const auto& mesh : survey.mesh) {

@@ -29,7 +29,7 @@ bool of_every_tick(const WalkExport& wanted);
 Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& ticks,
                           const std::filesystem::path& folder);
 
-/// What --help says of them.
+/// Text of --help about formats of export.
 extern const char* const walk_exports_help;
 
 enum class WalkView { stick, wireframe, surface, skin, glass };

@@ -37,7 +37,7 @@ bool is_sound_course(const Course<float>& course) {
 
 Result<void> check_course(const SavedWorld& saved, std::uint32_t table) {
   if (!every_row<Course>(saved, table, is_sound_course))
-    return fail("the snapshot does not agree with itself (where somebody wants to go); give one that `save` made");
+    return damaged("where somebody wants to go");
   return {};
 }
 

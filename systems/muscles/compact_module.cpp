@@ -93,7 +93,7 @@ Result<void> check_compact_key(const TableKey& key, const World& world) {
             (set >> muscles().size()).none();
   }
   if (sound) return {};
-  return fail("the snapshot does not agree with itself (somebody's compact muscles); give one that `save` made");
+  return damaged("somebody's compact muscles");
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ Result<void> check_key(const TableKey& key, const World&) {
   const bool design = has(type_id<LegDesign<float>>()), reserve = has(type_id<MomentReserve<float>>());
   const bool asked = has(type_id<AskedForces>()), moments = has(type_id<JointMoments<float>>());
   if (design == reserve && reserve == asked && (!design || moments)) return {};
-  return fail("the snapshot does not agree with itself (shared moments of a person); give one that `save` made");
+  return damaged("shared moments of a person");
 }
 
 }  // namespace of_leg_moments

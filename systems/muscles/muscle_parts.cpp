@@ -48,7 +48,7 @@ Result<void> check_key(const TableKey& key, const World& world) {
       (find_part(key, type_id<Asleep<float>>()) != nullptr || find_part(key, type_id<Physique<float>>()) != nullptr) &&
       find_part(key, type_id<LegMuscles>()) != nullptr && std::ranges::count_if(key, is_ours) == 1;
   if (!ours || person || muscle_kind(key, world)) return {};
-  return fail("the snapshot does not agree with itself (the parts of a muscle); give one that `save` made");
+  return damaged("the parts of a muscle");
 }
 
 /// Sides that lists are read by, those of the lanes without a row too.
@@ -59,7 +59,7 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
   std::uint32_t all = 0;
   for (std::uint32_t row = 0; row < lanes; ++row) all |= saved.word(table, row, owner + 2);
   if (all <= 1) return {};
-  return fail("the snapshot does not agree with itself (the side of a muscle); give one that `save` made");
+  return damaged("the side of a muscle");
 }
 
 /// The kind that a key's tags and resources tell of; nothing where they tell of no muscle.

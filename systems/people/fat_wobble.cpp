@@ -12,6 +12,7 @@
 #include <mobil/schedule.h>
 #include <mobil/systems/people/sleepers.h>
 #include "engine/exact_math.h"
+#include "engine/snapshot.h"
 #include "systems/kinematics/fat_motion.h"
 #include "systems/people/by_table.h"
 
@@ -24,7 +25,7 @@ Result<void> check_fat_key(const TableKey& key, const World&) {
   const bool awake = !has(type_id<FatWobble<float>>()) || has(type_id<BodySize<float>>());
   const bool asleep = !has(type_id<SleepsWithFat>()) || has(type_id<Asleep<float>>());
   if (awake && asleep) return {};
-  return fail("the snapshot does not agree with itself (whose fat wobbles); give one that `save` made");
+  return damaged("whose fat wobbles");
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ Result<void> check_walker_key(const TableKey& key, const World&) {
   const bool nobody = body == 0 && pose == 0 && walk == 0, posed = body == 2 && pose == 4 && walk == 0;
   const bool walker = body == 2 && (pose == 4 || pose == 0) && walk == 3;
   if ((nobody || posed || walker) && (limbs == 0 || posed)) return {};
-  return fail("the snapshot does not agree with itself (the parts of a person); give one that `save` made");
+  return damaged("the parts of a person");
 }
 
 /// Forces have all of their parts, and those of walkers or of posed people.
@@ -98,7 +98,7 @@ Result<void> check_forces_key(const TableKey& key, const World&) {
   const bool motion = has(type_id<BodyMotion<float>>()), past = has(type_id<PosedPast<float>>());
   if (forces == has(type_id<JointMoments<float>>()) && motion == (forces && walks) && past == (forces && !walks))
     return {};
-  return fail("the snapshot does not agree with itself (the forces of a person); give one that `save` made");
+  return damaged("the forces of a person");
 }
 
 /// Every body is one that can live.
@@ -119,7 +119,7 @@ Result<void> check_walker_rows(const SavedWorld& saved, std::uint32_t table) {
     if (limbs != Table::no_column)
       body.limbs = {number(limbs), number(limbs + 1), number(limbs + 2), number(limbs + 3)};
     if (check_body(body)) continue;
-    return fail("the snapshot does not agree with itself (a person's body); give one that `save` made");
+    return damaged("a person's body");
   }
   return {};
 }

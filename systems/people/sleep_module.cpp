@@ -57,7 +57,7 @@ Result<void> check_sleeper_key(const TableKey& key, const World&) {
   const bool sound = asleep ? packed != own && !has(type_id<BodySize<float>>()) && !has(type_id<Gait<float>>())
                             : !packed && !own && !others;
   if (sound) return {};
-  return fail("the snapshot does not agree with itself (the parts of a sleeper); give one that `save` made");
+  return damaged("the parts of a sleeper");
 }
 
 bool is_sound(const SteadyWalk<float>& walk) {
@@ -85,7 +85,7 @@ Result<void> check_sleepers(const SavedWorld& saved, std::uint32_t table) {
       read(row, since, unsettled);
       sound = sound && is_sound(unsettled.before);
     }
-    if (!sound) return fail("the snapshot does not agree with itself (a sleeper); give one that `save` made");
+    if (!sound) return damaged("a sleeper");
   }
   return {};
 }

@@ -15,6 +15,7 @@
 #include <mobil/systems/people/person.h>
 #include <mobil/systems/people/sleepers.h>
 #include "systems/gait/gait.h"
+#include "engine/snapshot.h"
 #include "systems/gait/step_events.h"
 #include "systems/people/by_table.h"
 
@@ -37,7 +38,7 @@ Result<void> check_watch_key(const TableKey& key, const World&) {
   const bool awake = !has(type_id<StepEvents>()) || has(type_id<GaitState<float>>());
   const bool asleep = !has(type_id<SleepsWatched>()) || has(type_id<Asleep<float>>());
   if (awake && asleep) return {};
-  return fail("the snapshot does not agree with itself (whose steps are watched); give one that `save` made");
+  return damaged("whose steps are watched");
 }
 
 /// Of a person in some ticks at most: at two steps a tick where these are longer than steps, at six steps a second.

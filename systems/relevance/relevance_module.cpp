@@ -22,7 +22,7 @@ bool is_sound_tiers(const Tiers<float>& tiers) {
 
 Result<void> check_tiers(const SavedWorld& saved, std::uint32_t table) {
   if (every_row<Tiers>(saved, table, is_sound_tiers)) return {};
-  return fail("the snapshot does not agree with itself (a choice of methods); give one that `save` made");
+  return damaged("a choice of methods");
 }
 
 }  // namespace

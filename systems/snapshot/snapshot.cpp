@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/snapshot.h"
 #include "systems/snapshot/snapshot_check.h"
 
 namespace mobil::inline v0_3 {
@@ -125,7 +126,7 @@ Result<SavedFront> read_front(std::span<const std::byte> bytes) {
     front.parts = reader.take_many<SavedPartName>(front.header.parts);
   }
   if (!reader.whole())
-    return fail("the snapshot does not agree with itself (the sizes of its lists); give one that `save` made");
+    return damaged("the sizes of its lists");
   return front;
 }
 

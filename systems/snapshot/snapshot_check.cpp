@@ -12,14 +12,11 @@
 
 #include <mobil/components/leg_muscles.h>
 #include <mobil/components/muscle.h>
+#include "engine/snapshot.h"
 #include "systems/muscles/muscle_parts.h"
 
 namespace mobil::inline v0_3 {
 namespace {
-
-tl::unexpected<Error> damaged(const char* what) {
-  return fail(std::string("the snapshot does not agree with itself (") + what + "); give one that `save` made");
-}
 
 /// Which words of a table's rows are floats: those of components that are, and of fields all. (Where a field has two
 /// numbers a word, the upper one is looked at.)

@@ -9,6 +9,7 @@
 #include "assets/fem/solver_arrays.h"
 #include "assets/reduction/basis_arrays.h"
 #include "engine/row_hash.h"
+#include "engine/snapshot.h"
 #include "systems/lines/muscle_lines.h"
 
 namespace mobil::inline v0_3 {
@@ -269,7 +270,7 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, std::s
     return std::nullopt;
   };
   if (saved.recipe.kind == ResourceKind::unknown || saved.recipe.kind > ResourceKind::named)
-    return fail("the snapshot does not agree with itself (a recipe); give one that `save` made");
+    return damaged("a recipe");
   if (const auto there = find()) return *there;
   if (saved.recipe.kind == ResourceKind::named)
     return fail(

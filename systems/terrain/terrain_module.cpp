@@ -29,7 +29,7 @@ bool is_sound_footing(const Footing<float>& footing) {
 
 Result<void> check_footing(const SavedWorld& saved, std::uint32_t table) {
   if (!every_row<Footing>(saved, table, is_sound_footing))
-    return fail("the snapshot does not agree with itself (the ground under somebody); give one that `save` made");
+    return damaged("the ground under somebody");
   return {};
 }
 

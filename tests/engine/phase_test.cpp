@@ -1,4 +1,4 @@
-// Phases: their order around the systems, what they may do, and what is left where one of them throws.
+// Order of phases around the systems, changes of rows in them, and the state after one of them throws.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -34,7 +34,7 @@ Module telling(std::string& said, const std::string& name) {
           .after = {tell("after " + name)}};
 }
 
-/// Somebody is born before each tick, and whoever has lived for three ticks goes after it.
+/// Creates an entity before each tick, and destroys those that are three ticks old after it.
 Module generations() {
   return {.name = "generations",
           .parts = {component_part<Age>()},

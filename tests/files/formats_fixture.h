@@ -30,7 +30,7 @@ inline bool has_python() {
   return said_by("python3 --version").status == 0;
 }
 
-/// What it says of each frame, and of each name where there are `names`; nothing where Python has no such library.
+/// Output of a Python library for each frame, and for each of `names` if given; empty if Python lacks that library.
 inline std::vector<std::string> read_by_python(const std::string& what, const fs::path& file,
                                                const std::vector<std::size_t>& frames, const std::string& names = {}) {
   std::string at;

@@ -19,7 +19,7 @@ namespace {
 
 /// Times in s, of messages between two ranks and of a tick's work.
 struct ClusterModel {
-  // Latency is none of them: the first rank is ahead, and nobody waits for a single message.
+  // Latency is not a parameter: the first rank is ahead, so no rank waits for a single message.
   double overhead = 0;  // o: that a rank spends on sending a message
   double per_byte = 0;  // G: more for each byte of a long one
   double person = 0;    // of one awake walker, a tick
@@ -32,7 +32,7 @@ struct ClusterModel {
 /// √(2 ln ranks · people / ranks) more than the mean; where there are fewer cores than ranks, these take turns.
 struct ClusterTick {
   double work = 0;    // of the fullest rank
-  double serial = 0;  // of the first rank, while nobody else can go on: commands, and sending them down the tree
+  double serial = 0;  // of the first rank, while all others wait: commands, and sending them down the tree
   double all() const { return work + serial; }
 };
 

@@ -1,7 +1,7 @@
 // Figures 18, 19 and 20 of the paper as numbers: what one second of one muscle costs by method, step and mesh, how far
 // the cheap solution is from the dear one, and whether a fourth muscle group at 3 ms costs what three cost at 2 ms.
-// Methods that solve: constant average acceleration (CAA), implicit central differences (ICD), static answers. What a
-// step costs with one body for all and with everybody's own, and how far off it then is.
+// Methods that solve: constant average acceleration (CAA), implicit central differences (ICD), static answers.
+// Cost and error of a step with one body for all people and with a body for each.
 
 #include <fmt/format.h>
 

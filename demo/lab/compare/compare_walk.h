@@ -16,8 +16,8 @@
 namespace mobil {
 
 /// Moment of the ground less the rate of angular momentum of all 48 segments about their common centre of mass, N m per
-/// kg of body, about the axis across the pelvis (`pitch`) and along it (`roll`). About the vertical nothing is said:
-/// what a foot's friction bears there is no part of the ground reaction.
+/// kg of body, about the axis across the pelvis (`pitch`) and along it (`roll`). The moment about
+/// the vertical is left out: the ground reaction does not contain a foot's frictional torque.
 struct UnbalancedMoment {
   double pitch_rms = 0, pitch_peak = 0, roll_rms = 0, roll_peak = 0;
 };

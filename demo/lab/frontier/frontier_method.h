@@ -35,7 +35,7 @@ struct FrontierFrame {
 
 /// Sixteen right legs' bellies of one muscle, a walk each; walks that are fewer are repeated. Displacement of the far
 /// end (m) and load of the frame a tick, both linear between ticks. All begin at rest without load: over the first
-/// second everything grows smoothly to what it is. From tick `first` on answers are compared.
+/// second displacement and load grow smoothly to their values. From tick `first` on answers are compared.
 struct FrontierDrive {
   Muscle muscle;
   std::size_t walks;  // of the lanes, how many are walks of their own

@@ -113,7 +113,7 @@ class FrontierCrowd {
   std::size_t muscles() const { return blocks_.size() * lane_count; }
   /// How much of a tick one call of tick() is.
   double ticks_a_call() const { return ticks_a_call_; }
-  /// Of one individual's own numbers that a tick reads or writes, with what the control points take.
+  /// Bytes of one individual that a tick reads or writes, control points included.
   std::size_t bytes_each() const { return bytes_each_; }
   /// Steps in a tick, the mean of all.
   double steps_a_tick() const {

@@ -332,7 +332,7 @@ void stress_ways(StressRun& run) {
     Entity human, calm;
     double worst_m = 0;
   };
-  // All in one simulation, for what is made once for each muscle takes longest; people do not meet.
+  // All trials share one simulation, because set-up of each muscle takes longest; people do not meet.
   Simulation simulation;
   std::vector<Trial> trials;
   const auto all = ways();

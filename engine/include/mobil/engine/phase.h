@@ -13,7 +13,6 @@
 #include <memory>
 #include <memory_resource>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 

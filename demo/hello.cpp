@@ -20,7 +20,7 @@ int main() {
     return 2;
   }
   // An effect is a component: without this line nobody pays for muscles.
-  if (const auto added = simulation.add_leg_muscles(*human); !added) {
+  if (const auto added = simulation.set_muscles(*human); !added) {
     std::fprintf(stderr, "%s\n", added.error().message.c_str());
     return 2;
   }

@@ -34,6 +34,14 @@ Result<Schedule> make_schedule(std::span<const Module> modules, std::pmr::memory
       return fail("modules: '" + module.name + "' and '" + other->name + "' both claim " + std::string(part.name) +
                   "; list it in one of them");
     }
+    for (const GlobalPart& one : module.globals) {
+      const auto has_it = [&](const Module& other) {
+        return std::ranges::any_of(other.globals, [&](const GlobalPart& theirs) { return theirs.id == one.id; });
+      };
+      if (std::ranges::any_of(before, has_it))
+        return fail("modules: '" + module.name + "' has the global " + std::string(one.name) +
+                    ", which another module has; list it in one of them");
+    }
     systems.begin_module(module.name);
     for (const Phase& phase : module.before) systems.before(phase);
     for (const Phase& phase : module.after) systems.after_all(phase);

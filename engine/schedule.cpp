@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <stdexcept>
 
 #include "engine/schedule_order.h"
 
@@ -73,6 +74,7 @@ void Schedule::match(World& world) {
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
     for (std::size_t p = 0; p < passes_.size(); ++p) {
+      if (!matches_[p].empty() && matches_[p].back().table == &table) matches_[p].pop_back();  // memory ran out before
       Match match{&table, {}};
       for (std::size_t s = passes_[p].first; s < passes_[p].last; ++s) {
         std::vector<Bound> bound(systems_[s].parameters);
@@ -81,6 +83,30 @@ void Schedule::match(World& world) {
         match.steps.push_back({s, std::move(bound)});
       }
       if (!match.steps.empty()) matches_[p].push_back(std::move(match));
+    }
+    check_alternatives(table);
+  }
+}
+
+/// No two alternatives write one component of a table, but in an order that one of them names.
+void Schedule::check_alternatives(const Table& table) const {
+  std::vector<const System*> there;
+  for (const auto& matches : matches_) {
+    if (matches.empty() || matches.back().table != &table) continue;
+    for (const Step& step : matches.back().steps)
+      if (!systems_[step.system].alternatives.empty()) there.push_back(&systems_[step.system]);
+  }
+  for (const System* const a : there) {
+    for (const System* const b : there) {
+      if (a == b || a->alternatives != b->alternatives || std::ranges::count(a->after, b->name) > 0 ||
+          std::ranges::count(b->after, a->name) > 0)
+        continue;
+      for (const Access& write : a->accesses)
+        for (const Access& other : b->accesses)
+          if (write.mode == Access::Mode::write && other.mode == Access::Mode::write && write.id == other.id)
+            throw std::logic_error("schedule: '" + a->name + "' and '" + b->name +
+                                   "' are alternatives, and both write " + std::string(write.name) +
+                                   " of one table; say which comes second with .after(…)");
     }
   }
 }
@@ -200,7 +226,15 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
     spent_ns_[s].store(0, std::memory_order_relaxed);
     tally_[s].store(0, std::memory_order_relaxed);
   }
-  for (std::size_t p = 0; p < passes_.size(); ++p) order_tiles(p, jobs.threads);
+  // All memory is there before anything runs.
+  for (std::size_t p = 0; p < passes_.size(); ++p) {
+    order_tiles(p, jobs.threads);
+    if (!systems_[passes_[p].first].choose) continue;
+    std::size_t blocks = 0;
+    for (const Match& m : matches_[p]) blocks += m.table->block_count();
+    chosen_lanes_.reserve(blocks);
+    chosen_.reserve(blocks * lane_count);
+  }
   for (std::size_t p = 0; p < passes_.size(); ++p) {
     std::size_t blocks = 0;
     for (Match& m : matches_[p]) {
@@ -229,20 +263,20 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
   }
 }
 
-void Schedule::run_phases(std::span<TimedPhase> phases, Frame frame) {
-  for (TimedPhase& one : phases) {
-    const double start = clock_();
-    one.phase.run(frame);
-    one.last_seconds = clock_() - start;
-    one.seconds += one.last_seconds;
-  }
+void Schedule::run_phase(TimedPhase& one, const Frame& frame) {
+  const double start = clock_();
+  one.phase.run(frame);
+  one.last_seconds = clock_() - start;
+  one.seconds += one.last_seconds;
 }
 
 void Schedule::tick(World& world, Tick& tick, Workspace& workspace, const Jobs& jobs) {
-  run_phases(before_, {world, jobs, tick, workspace});
+  const Frame frame{world, jobs, tick, workspace, *this};
+  for (; phases_done_ < before_.size(); ++phases_done_) run_phase(before_[phases_done_], frame);
+  phases_done_ = 0;
   run(world, tick, jobs);
   ++tick.index;
-  run_phases(after_, {world, jobs, tick, workspace});
+  for (TimedPhase& one : after_) run_phase(one, frame);
 }
 
 const Timing* Schedule::timing(std::string_view name) const {

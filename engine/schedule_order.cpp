@@ -30,12 +30,16 @@ Result<Relation> explicit_order(std::span<const System> systems) {
   Relation before(systems.size());
   for (std::size_t b = 0; b < systems.size(); ++b) {
     for (const std::string& name : systems[b].after) {
-      const auto at = std::find_if(systems.begin(), systems.end(), [&](const System& s) { return s.name == name; });
-      if (at == systems.end()) {
+      bool there = false;
+      for (std::size_t a = 0; a < systems.size(); ++a) {
+        if (systems[a].name != name && systems[a].alternatives != name) continue;
+        before.set(a, b);
+        there = true;
+      }
+      if (!there) {
         return fail("schedule: system " + quoted(systems[b]) + " is to run after '" + name +
                     "', which was never added; add it or drop the after");
       }
-      before.set(static_cast<std::size_t>(at - systems.begin()), b);
     }
   }
   return before;
@@ -106,6 +110,7 @@ Result<std::vector<std::size_t>> schedule_order(std::span<const System> systems)
         for (const Access& other : systems[r].accesses) {
           if (other.mode == Mode::none || other.id != write.id || stated(w, r) || stated(r, w)) continue;
           if (other.mode == Mode::write) {
+            if (!systems[w].alternatives.empty() && systems[w].alternatives == systems[r].alternatives) continue;
             return fail("schedule: systems " + quoted(systems[w]) + " and " + quoted(systems[r]) + " both write " +
                         std::string(write.name) + "; say which comes second with .after(…)");
           }

@@ -11,7 +11,7 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint64_t magic = 0x70616e736c69626d;  // "mbilsnap" in bytes
-constexpr std::uint32_t format_version = 7;
+constexpr std::uint32_t format_version = 8;
 constexpr std::uint32_t byte_order = 0x01020304;
 
 struct Header {

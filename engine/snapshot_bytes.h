@@ -78,6 +78,10 @@ class ByteReader {
     left_ = left_.subspan(static_cast<std::size_t>(count) * sizeof(T));
     return records;
   }
+  std::span<const std::byte> take_bytes(std::uint64_t count) {
+    const Records<std::byte> bytes = take_many<std::byte>(count);
+    return bytes.size() == 0 ? std::span<const std::byte>{} : std::span(left_.data() - bytes.size(), bytes.size());
+  }
   /// All was there and nothing is left.
   bool whole() const { return !short_ && left_.empty(); }
 

@@ -12,6 +12,7 @@ World::World(std::pmr::memory_resource* memory)
       table_hash_(memory),
       resources_(memory),
       resource_content_(memory),
+      globals_(memory),
       members_(memory),
       scratch_(memory),
       moves_{std::pmr::vector<std::uint32_t>(memory), std::pmr::vector<RowMove>(memory)},

@@ -5,10 +5,13 @@
 #include <mobil/anthropometry.h>
 #include <mobil/components/sleep.h>
 #include <mobil/each.h>
+#include <mobil/engine/world.h>
 #include <mobil/schedule.h>
+#include <mobil/systems/limits/limit_watch.h>
 #include <mobil/systems/people/person.h>
 #include "systems/muscles/leg_muscles.h"
-#include "systems/muscles/sleep.h"
+#include "systems/people/whole.h"
+#include "systems/states/sleep.h"
 
 namespace mobil::inline v0_3 {
 
@@ -17,7 +20,7 @@ std::optional<Human> read_human(const Simulation& simulation, Entity entity) {
   if (!is_person(world, entity)) return std::nullopt;
   const auto asleep = kept_choice(world, entity);
   LegMuscles choice = asleep ? *asleep : choice_of(world, entity).value_or(LegMuscles{});
-  if (simulation.is_compact(entity) && choice.muscles.any()) {
+  if (is_compact(world, entity) && choice.muscles.any()) {
     const auto first = static_cast<Muscle>(std::countr_zero(choice.muscles.to_ulong()));
     const MuscleMethod method = simulation.method(entity, first);
     choice.method = method.method;

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include <mobil/simulation.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/muscles/human.h>
 
 namespace mobil::inline v0_3 {
 

@@ -5,7 +5,7 @@
 #include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/assets/surfaces/surface_binding.h>
 #include <mobil/fit_anatomy.h>
-#include <mobil/systems/skin/rest_surfaces.h>
+#include <mobil/systems/surfaces/rest_surfaces.h>
 
 namespace mobil {
 namespace {

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include <mobil/assets/files/output_file.h>
+#include <mobil/lod.h>
+#include <mobil/muscle_library.h>
+#include <mobil/muscle_table.h>
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
@@ -39,28 +42,29 @@ Result<void> bake(const BakeText& text) {
   if (auto place = check_result_place("--out", file); !place) return place;
   const double start_s = wall_now_s();
   Simulation simulation({.threads = static_cast<int>(*threads)});
-  RelevanceOptions options;
+  LodOptions options;
   options.leg_muscles.inertia = text.inertia;
-  Relevance relevance(simulation, options);
+  Lod lod = simulation.lod();
+  if (auto done = lod.set_options(options); !done) return done;
   SceneNeeds all;
   all.muscles = text.muscles == "members" ? muscle_members() : muscle_groups();
   all.camera = Viewpoint{};  // who walks towards it needs every method
-  if (auto done = relevance.set_scene(all); !done) return done;
+  if (auto done = lod.set_scene(all); !done) return done;
   const auto progress = [](std::size_t done, std::size_t of) { show_progress("baking", done, of); };
-  auto done = relevance.prepare({}, progress);
+  auto done = lod.prepare({}, progress);
   show("");
   if (!done) return done;
-  const std::vector<std::byte> bytes = simulation.bake();
+  const std::vector<std::byte> bytes = simulation.muscle_library().bake();
   if (auto written = write_baked(file, bytes); !written) return fail("--out " + written.error().message);
   const double made_s = wall_now_s() - start_s;
   Simulation fresh;
   const double before_s = wall_now_s();
-  if (auto loaded = fresh.load_baked(bytes); !loaded) return loaded;
+  if (auto loaded = fresh.muscle_library().load(bytes); !loaded) return loaded;
   const double loaded_s = wall_now_s();
   const auto person = fresh.spawn({});
   if (!person) return tl::unexpected(person.error());
   const double spawned_s = wall_now_s();
-  if (auto added = fresh.add_leg_muscles(*person, options.leg_muscles); !added) return added;
+  if (auto added = fresh.set_muscles(*person, options.leg_muscles); !added) return added;
   say_where(fmt::format(
       "written {}: {:.1f} MB, made in {:.1f} s, loaded in {:.1f} ms; a person's first muscles then take {:.2f} ms",
       text.out, 1e-6 * static_cast<double>(bytes.size()), made_s, 1e3 * (loaded_s - before_s),
@@ -82,7 +86,7 @@ Result<void> load_baked(Simulation& simulation, const std::filesystem::path& fil
   std::ifstream in(file, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (!in) return fail(fmt::format("{}: cannot be read; is it being written?", file.string()));
-  if (auto done = simulation.load_baked(bytes); !done)
+  if (auto done = simulation.muscle_library().load(bytes); !done)
     return fail(fmt::format("{}: {}", file.string(), done.error().message));
   return {};
 }
@@ -101,16 +105,16 @@ Result<void> load_baked_option(Simulation& simulation, const std::filesystem::pa
   return {};
 }
 
-Result<void> prepare_and_keep(Relevance& relevance, const Simulation& simulation, std::span<const float> tolerances_m,
+Result<void> prepare_and_keep(Simulation& simulation, std::span<const float> tolerances_m,
                               const std::function<void(std::size_t done, std::size_t of)>& progress) {
   constexpr double worth_s = 0.5;
   const double start_s = wall_now_s();
-  if (auto done = relevance.prepare(tolerances_m, progress); !done) return done;
+  if (auto done = simulation.lod().prepare(tolerances_m, progress); !done) return done;
   const auto file = kept_file();
   if (wall_now_s() - start_s < worth_s || file.empty()) return {};
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  if (!error) (void)write_baked(file, simulation.bake());
+  if (!error) (void)write_baked(file, simulation.muscle_library().bake());
   return {};
 }
 
@@ -120,7 +124,7 @@ Subcommand bake_command() {
   command.footer =
       "Meshes, operators and bases of all methods among which a scene may choose, for bodies of usual build. A "
       "program\n"
-      "loads them by Simulation::load_baked and then waits for none of them. The file belongs to this version and to\n"
+      "loads them by MuscleLibrary::load and then waits for none of them. The file belongs to this version and to\n"
       "processors that compute alike: others refuse it. What is lacking is still made when it is called for.\n"
       "\nExamples: mobil bake\n"
       "          mobil bake --inertia --out game/assets/mobil.baked\n"

@@ -5,9 +5,13 @@
 #include <numbers>
 
 #include <mobil/anthropometry.h>
-#include <mobil/components/relevance.h>
+#include <mobil/components/lod.h>
+#include <mobil/each.h>
+#include <mobil/engine/world.h>
+#include <mobil/lod.h>
 #include <mobil/shard_bytes.h>
 #include <mobil/systems/cluster/shard.h>
+#include <mobil/systems/people/sleepers.h>
 #include "demo/bake/baked_file.h"
 
 namespace mobil {
@@ -45,11 +49,11 @@ AliveScene::AliveScene(const AliveRequest& request) : request_(request), threads
   side_m_ = side_of(request);
   simulation_ = std::make_unique<Simulation>(
       SimulationOptions{.jobs = threads_.jobs(), .memory = &memory_, .library_of = request.library});
-  RelevanceOptions options;
+  LodOptions options;
   options.machine_factor = 1;
   options.switching_s = 0.0005;
   options.wakes = 4000;
-  relevance_ = std::make_unique<Relevance>(*simulation_, options);
+  (void)simulation_->lod().set_options(options);  // they are in range
   camera_ = first_view(request);
 }
 
@@ -64,10 +68,9 @@ Result<std::unique_ptr<AliveScene>> AliveScene::make_empty(const AliveRequest& r
   if (!request.muscles) needs.muscles = 0;
   needs.asleep_beyond_m = asleep_beyond_m;
   needs.compact_unseen = true;
-  if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
+  if (auto done = scene->simulation_->lod().set_scene(needs); !done) return tl::unexpected(done.error());
   if (!request.muscles) return scene;
-  if (auto done = prepare_and_keep(*scene->relevance_, *scene->simulation_, {}, {}); !done)
-    return tl::unexpected(done.error());
+  if (auto done = prepare_and_keep(*scene->simulation_, {}, {}); !done) return tl::unexpected(done.error());
   return scene;
 }
 
@@ -101,7 +104,7 @@ Result<void> AliveScene::come(std::size_t first, std::size_t count) {
     request.heading_rad = walker.heading_rad = place.heading_rad;
   }
   if (auto done = simulation_->spawn(requests_, entities_); !done) return done;
-  if (auto slept = relevance_->manage_asleep(entities_); !slept) return tl::unexpected(slept.error());
+  if (auto slept = simulation_->lod().manage_asleep(entities_); !slept) return tl::unexpected(slept.error());
   for (std::size_t i = 0; i < count; ++i) {
     const auto slot = static_cast<std::uint32_t>(first + i);
     walkers_[slot].entity = entities_[i];
@@ -176,17 +179,17 @@ Result<std::size_t> AliveScene::decide(const Viewpoint& camera) {
   });
   for (std::size_t i = 0; i < now.size(); ++i) due_[next_due_[i]].push_back(now[i]);
   now.clear();
-  if (auto done = simulation_->change_walks(changes_); !done) return tl::unexpected(done.error());
+  if (auto done = simulation_->change_gait(changes_); !done) return tl::unexpected(done.error());
   camera_ = camera;
-  SceneNeeds needs = relevance_->scene();
+  SceneNeeds needs = simulation_->lod().scene();
   needs.camera = camera_;
-  if (auto done = relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
+  if (auto done = simulation_->lod().set_scene(needs); !done) return tl::unexpected(done.error());
   return changes_.size();
 }
 
 std::vector<CrowdCamera::Drawn> AliveScene::seen() const {
   std::vector<CrowdCamera::Drawn> people;
-  simulation().each([&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
+  each(simulation().world(), [&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
       if (tiers.view[lane] != static_cast<std::uint32_t>(View::seen)) continue;
       const Entity who = rows.entity[lane];
@@ -210,11 +213,11 @@ Result<std::vector<std::byte>> AliveScene::save() const {
     host.put_all(std::span<const std::uint32_t>(slots));
   }
   host.put(camera_);
-  return pack_shard(*simulation_, relevance_.get(), host.bytes());
+  return pack_shard(*simulation_, host.bytes());
 }
 
 Result<void> AliveScene::restore(std::span<const std::byte> saved) {
-  const auto host = unpack_shard(saved, *simulation_, relevance_.get());
+  const auto host = unpack_shard(saved, *simulation_);
   if (!host) return tl::unexpected(host.error());
   PlainReader reader(*host);
   std::uint64_t count = 0;
@@ -242,18 +245,14 @@ Result<void> AliveScene::restore(std::span<const std::byte> saved) {
   due_ = std::move(due);
   camera_ = camera;
   for (std::uint32_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);
-  SceneNeeds needs = relevance_->scene();
+  SceneNeeds needs = simulation_->lod().scene();
   needs.camera = camera_;
-  return relevance_->set_scene(needs);
-}
-
-RelevanceReport AliveScene::choose() {
-  return relevance_->update();
+  return simulation_->lod().set_scene(needs);
 }
 
 AliveScene::Count AliveScene::count() const {
   Count count;
-  simulation().each([&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
+  each(simulation().world(), [&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
     count.awake += rows.live;
     for (std::uint32_t lane = 0; lane < rows.live; ++lane)
       count.seen += tiers.view[lane] == static_cast<std::uint32_t>(View::seen) ? 1 : 0;

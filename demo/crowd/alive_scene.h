@@ -37,7 +37,7 @@ class AliveScene {
   /// The parts of a tick: what people do next and where the camera is; who wakes, who falls asleep, which methods; the
   /// simulation. Returns how many were asked for something.
   Result<std::size_t> decide(const Viewpoint& camera);
-  RelevanceReport choose();
+  LodReport choose();
   void tick() { simulation_->tick(); }
 
   const Simulation& simulation() const { return *simulation_; }
@@ -84,7 +84,6 @@ class AliveScene {
   MeteredMemory memory_;
   Threads threads_;  // the simulation's, and the host's own
   std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<Relevance> relevance_;
   Viewpoint camera_;
   std::vector<Walker> walkers_;
   std::vector<std::uint32_t> slot_of_;                // by entity index

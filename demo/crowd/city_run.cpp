@@ -8,9 +8,11 @@
 #include <limits>
 #include <optional>
 
+#include <mobil/muscle_library.h>
 #include <mobil/png.h>
 #include <mobil/schedule.h>
 #include <mobil/shard_bytes.h>
+#include <mobil/step_report.h>
 #include <mobil/systems/capture/camera.h>
 #include <mobil/systems/cluster/ranks.h>
 #include "demo/bake/baked_file.h"
@@ -180,8 +182,8 @@ Result<void> prepare(const CrowdOptions& options, Ranks& ranks, Simulation& libr
     }
   }
   if (auto done = ranks.agree(own); !done || ranks.count() == 1) return done;
-  const auto baked = ranks.share(ranks.first() ? library.bake() : std::vector<std::byte>{});
-  if (!ranks.first()) own = library.load_baked(baked);
+  const auto baked = ranks.share(ranks.first() ? library.muscle_library().bake() : std::vector<std::byte>{});
+  if (!ranks.first()) own = library.muscle_library().load(baked);
   if (!own)
     own = fail(
         fmt::format("rank {} cannot work with what the first rank has prepared ({}); run on processors of one kind",

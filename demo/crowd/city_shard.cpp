@@ -4,9 +4,12 @@
 
 #include <algorithm>
 
+#include <mobil/lod.h>
 #include <mobil/shard_bytes.h>
+#include <mobil/step_report.h>
 #include "demo/measure/machine.h"
 #include "demo/measure/measure.h"
+#include "demo/measure/phase_time.h"
 
 namespace mobil {
 namespace {
@@ -37,7 +40,9 @@ Result<Orders> read_orders(std::span<const std::byte> commands) {
   return orders;
 }
 
-void count(const RelevanceReport& report, CityCounts& counts) {
+void count(Simulation& simulation, CityCounts& counts) {
+  const LodReport& report = simulation.lod().report();
+  counts.relevance_s += phase_s(simulation, "level of detail");
   counts.switched += report.switched;
   counts.refused += report.refused;
   counts.woken += report.woken;
@@ -52,7 +57,10 @@ class CrowdShard : public CityShard {
 
   Simulation& simulation() override { return scene_->simulation(); }
   std::uint32_t ticks() const override { return std::as_const(*scene_).simulation().ticks(); }
-  void tick() override { scene_->tick(); }
+  void tick() override {
+    scene_->tick();
+    count(scene_->simulation(), counts_);
+  }
   std::uint64_t state_sum() const override { return std::as_const(*scene_).simulation().state_sum(); }
   Result<std::vector<std::byte>> save() const override { return scene_->save(); }
   Result<void> restore(std::span<const std::byte> saved) override { return scene_->restore(saved); }
@@ -68,10 +76,7 @@ class CrowdShard : public CityShard {
     const double start = wall_now_s();
     const auto decided = scene_->decide(*orders);
     if (!decided) return tl::unexpected(decided.error());
-    const double ready = wall_now_s();
-    count(scene_->choose_methods(), counts_);
-    counts_.host_s += ready - start;
-    counts_.relevance_s += wall_now_s() - ready;
+    counts_.host_s += wall_now_s() - start;
     counts_.spawned += decided->spawned;
     counts_.despawned += decided->despawned;
     counts_.turned += decided->turned;
@@ -106,7 +111,11 @@ class AliveShard : public CityShard {
   Simulation& simulation() override { return scene_->simulation(); }
   std::uint32_t ticks() const override { return std::as_const(*scene_).simulation().ticks(); }
   Result<void> populate() override { return scene_->populate(); }
-  void tick() override { scene_->tick(); }
+  void tick() override {
+    scene_->tick();
+    count(scene_->simulation(), counts_);
+    if (refusal_.empty()) refusal_ = scene_->simulation().lod().report().refusal;
+  }
   std::uint64_t state_sum() const override { return std::as_const(*scene_).simulation().state_sum(); }
   Result<std::vector<std::byte>> save() const override { return scene_->save(); }
   Result<void> restore(std::span<const std::byte> saved) override { return scene_->restore(saved); }
@@ -117,12 +126,8 @@ class AliveShard : public CityShard {
     const double start = wall_now_s();
     const auto asked = scene_->decide(*orders);
     if (!asked) return tl::unexpected(asked.error());
-    const double ready = wall_now_s();
-    const RelevanceReport report = scene_->choose();
-    if (report.refused > 0) return fail(report.refusal);
-    count(report, counts_);
-    counts_.host_s += ready - start;
-    counts_.relevance_s += wall_now_s() - ready;
+    if (!refusal_.empty()) return fail(refusal_);
+    counts_.host_s += wall_now_s() - start;
     counts_.asked += *asked;
     return {};
   }
@@ -137,6 +142,7 @@ class AliveShard : public CityShard {
  private:
   std::unique_ptr<AliveScene> scene_;
   CityCounts& counts_;
+  std::string refusal_;  // of the last tick
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 // The scenes of `mobil crowd` as shards of a crowd on several ranks, and the report of all ranks.
 
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/systems/cluster/shard.h>
 #include "demo/crowd/crowd_picture.h"
 #include "demo/crowd/crowd_run.h"

@@ -44,7 +44,6 @@ Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
   for (std::size_t i = 0; i < pictures; ++i) {
     for (int tick = 0; i > 0 && tick < ticks_a_picture; ++tick) {
       if (auto done = scene.decide(); !done) return tl::unexpected(done.error());
-      scene.choose_methods();
       scene.tick();
     }
     if (auto done = camera->take(scene, image); !done) return done;
@@ -196,8 +195,8 @@ Subcommand city_command() {
 }
 
 std::vector<Subcommand> crowd_commands() {
-  return {walk_command(&real_figure), crowd_command(), city_command(),     town_command(),
-          view_command(),             bake_command(),  schedule_command(), anatomy_command()};
+  return {walk_command(&real_figure), crowd_command(),  city_command(), town_command(), view_command(), bake_command(),
+          schedule_command(),         anatomy_command()};
 }
 
 }  // namespace mobil

@@ -16,6 +16,7 @@
 #include <mobil/renderer.h>
 #include <mobil/shard_bytes.h>
 #include <mobil/skin_writer.h>
+#include <mobil/systems/muscles/human.h>
 #include <mobil/usd_writer.h>
 #include "demo/program/commands.h"
 #include "demo/walk/drawn_skin.h"
@@ -319,7 +320,6 @@ Result<CrowdRecording> record_crowd(CrowdScene& scene, double seconds, const Cro
   for (std::size_t f = 0; f < frames; ++f) {
     for (long tick = 0; f > 0 && tick < ticks_a_frame; ++tick) {
       if (auto done = scene.decide(); !done) return tl::unexpected(done.error());
-      scene.choose_methods();
       scene.tick();
     }
     if (auto done = record_poses(scene, recording); !done) return tl::unexpected(done.error());

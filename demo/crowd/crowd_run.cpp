@@ -7,10 +7,14 @@
 #include <fstream>
 
 #include <mobil/components/fade.h>
+#include <mobil/engine/world.h>
+#include <mobil/lod.h>
 #include <mobil/schedule.h>
+#include <mobil/step_report.h>
 #include "demo/crowd/heap_count.h"
 #include "demo/measure/machine.h"
 #include "demo/measure/measure.h"
+#include "demo/measure/phase_time.h"
 
 namespace mobil {
 namespace {
@@ -35,16 +39,15 @@ Result<void> measured_tick(CrowdScene& scene, CrowdRun& run) {
   const double cpu_start = process_cpu_now_s(), start = wall_now_s();
   const auto decisions = scene.decide();
   const double decided = wall_now_s();
-  const RelevanceReport chosen = scene.choose_methods();
-  const double ready = wall_now_s();
   scene.tick();
   const double end = wall_now_s();
   tick.cpu_ms = 1e3 * (process_cpu_now_s() - cpu_start);
   const std::size_t allocations = stop_heap_count();
   if (!decisions) return tl::unexpected(decisions.error());
+  const LodReport& chosen = scene.simulation().lod().report();
   tick.wall_ms = 1e3 * (end - start);
   tick.host_ms = 1e3 * (decided - start);
-  tick.relevance_ms = 1e3 * (ready - decided);
+  tick.relevance_ms = 1e3 * phase_s(scene.simulation(), "level of detail");
   tick.steady = !decisions->structural() && chosen.switched + chosen.compacted + chosen.expanded == 0 &&
                 fading(scene.simulation().world()) == fading_before;
   if (tick.steady) {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include <mobil/systems/relevance/accuracy_table.h>
+#include <mobil/systems/accuracy/accuracy_table.h>
 #include "demo/crowd/crowd_options.h"
 #include "demo/program/json.h"
 

@@ -5,7 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include <mobil/avoidance.h>
+#include <mobil/lod.h>
 #include <mobil/shard_bytes.h>
+#include <mobil/step_report.h>
 #include <mobil/systems/cluster/shard.h>
 #include "demo/bake/baked_file.h"
 
@@ -28,7 +31,6 @@ CrowdScene::CrowdScene(const CrowdRequest& request) : request_(request) {
   simulation_ = std::make_unique<Simulation>(
       SimulationOptions{.threads = request.threads, .memory = &memory_, .library_of = request.library});
   muscles_ = first_muscles();
-  if (request.effects.avoidance) avoidance_ = std::make_unique<Avoidance>(*simulation_);
 }
 
 /// What most of those far away need, so that nobody begins with another.
@@ -38,7 +40,7 @@ LegMuscles CrowdScene::first_muscles() const {
   choice.line_motion = request_.effects.line_motion;
   if (request_.effects.activation) choice.activation = ExcitationSource::phase;
   const RungLadder ladder(accuracy_table());
-  const float limit_m = static_cast<float>(request_.tolerance_m) / RelevanceOptions{}.margin;
+  const float limit_m = static_cast<float>(request_.tolerance_m) / LodOptions{}.margin;
   std::array<std::size_t, rung_count> wanted{};
   for (std::uint32_t m = 0; m < muscle_group_count; ++m) {
     const RungCase of = {m, RungLadder::speed_step(1.35F, 1.72F), choice.inertia, request_.all_seen,
@@ -70,25 +72,26 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make_empty(const CrowdRequest& r
     if (auto done = load_baked_option(*scene->simulation_, request.baked); !done) return tl::unexpected(done.error());
   }
   if (request.effects.muscles) {
-    RelevanceOptions options;
+    LodOptions& options = scene->choosing_.emplace();
     options.switches = 8;  // near ones change every second: spread over it
     // Who needs otherwise says so once a second: some hundreds looked at each tick are soon enough.
     options.stagger = static_cast<std::uint32_t>(std::clamp<std::size_t>(request.humans / request.shards / 500, 8, 60));
     options.leg_muscles = scene->muscles_;
     if (!request.budget_s) options.machine_factor = 1;
-    scene->relevance_ = std::make_unique<Relevance>(*scene->simulation_, options);
+    Lod lod = scene->simulation_->lod();
+    if (auto done = lod.set_options(options); !done) return tl::unexpected(done.error());
     SceneNeeds needs;
     needs.tolerance_m = static_cast<float>(request.tolerance_m);
     needs.looked_at = request.all_seen;
     needs.compact_unseen = true;
     if (request.budget_s) needs.budget_s = *request.budget_s / request.shards;
-    if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
+    if (auto done = lod.set_scene(needs); !done) return tl::unexpected(done.error());
     const float near_m[] = {static_cast<float>(request.near_tolerance_m)};
     const auto preparing = [&](std::size_t done, std::size_t of) {
       if (progress) progress("preparing", done, of);
     };
     const auto tolerances_m = std::span(near_m).first(request.near > 0 ? 1 : 0);
-    if (auto done = prepare_and_keep(*scene->relevance_, *scene->simulation_, tolerances_m, preparing); !done)
+    if (auto done = prepare_and_keep(*scene->simulation_, tolerances_m, preparing); !done)
       return tl::unexpected(done.error());
   }
   return scene;
@@ -133,22 +136,27 @@ Result<void> CrowdScene::resize(std::size_t humans, const Progress& progress) {
 }
 
 Result<void> CrowdScene::settle(const Progress& progress, bool exchanges) {
-  constexpr int most_updates = 20000, updates_a_tick = 8, quiet_updates = 40;
+  constexpr int most_ticks = 2000, quiet_ticks = 4;
   const auto tick_once = [&]() -> Result<void> {
     if (auto done = exchanges ? decide() : decide({}); !done) return tl::unexpected(done.error());
     tick();
     return {};
   };
-  int settled = 0;
-  for (int i = 0; relevance_ && i < most_updates && settled < quiet_updates; ++i) {
-    const RelevanceReport report = choose_methods();
-    settled = report.switched + report.waiting == 0 ? settled + 1 : 0;
-    if (i % updates_a_tick != 0) continue;
-    if (auto done = tick_once(); !done) return done;
+  if (choosing_) {
+    LodOptions at_once = *choosing_;
+    at_once.stagger = 1;
+    at_once.switches = 1'000'000;
+    at_once.switching_s = 1;
+    if (auto done = simulation_->lod().set_options(at_once); !done) return done;
+    for (int i = 0, settled = 0; i < most_ticks && settled < quiet_ticks; ++i) {
+      if (auto done = tick_once(); !done) return done;
+      const LodReport& report = simulation_->lod().report();
+      settled = report.switched + report.waiting == 0 ? settled + 1 : 0;
+    }
+    if (auto done = simulation_->lod().set_options(*choosing_); !done) return done;
   }
   const auto ticks = static_cast<std::size_t>(settling_s / simulation_->tick_s());
   for (std::size_t i = 0; i < ticks; ++i) {
-    choose_methods();
     if (auto done = tick_once(); !done) return done;
     if (progress) progress("settling", i + 1, ticks);
   }
@@ -174,21 +182,21 @@ Result<void> CrowdScene::come(std::span<const std::uint32_t> slots) {
     request.z_m = walker.z_m;
     request.heading_rad = walker.heading_rad;
     if (request_.effects.muscles) request.muscles = muscles_;
-    if (relevance_ != nullptr) request.parts = relevance_parts();
+    if (choosing_) request.parts = managed_parts();
   }
   if (auto done = simulation_->spawn(requests_, entities_); !done) return done;
-  if (relevance_) {
-    if (auto done = relevance_->manage(entities_); !done) return done;
+  if (choosing_) {
+    if (auto done = simulation_->lod().manage(entities_); !done) return done;
   }
-  if (avoidance_) {
-    if (auto done = avoidance_->manage(entities_); !done) return done;
+  if (request_.effects.avoidance) {
+    if (auto done = simulation_->avoidance().manage(entities_); !done) return done;
   }
   for (std::size_t i = 0; i < slots.size(); ++i) {
     CrowdWalker& walker = walkers_[slots[i]];
     walker.entity = entities_[i];
     keep_slot(slots[i]);
     plan(slots[i]);
-    if (request_.effects.forces) simulation_->add_forces(walker.entity);
+    if (request_.effects.forces) simulation_->enable(walker.entity, Feature::forces);
   }
   return {};
 }
@@ -276,11 +284,11 @@ Result<std::vector<std::byte>> CrowdScene::save() const {
   host.put_all(std::span<const CrowdWalker>(walkers_));
   host.put(due_);
   host.put(std::uint64_t{request_.humans});
-  return pack_shard(*simulation_, relevance_.get(), host.bytes());
+  return pack_shard(*simulation_, host.bytes());
 }
 
 Result<void> CrowdScene::restore(std::span<const std::byte> saved) {
-  const auto host = unpack_shard(saved, *simulation_, relevance_.get());
+  const auto host = unpack_shard(saved, *simulation_);
   if (!host) return tl::unexpected(host.error());
   PlainReader reader(*host);
   std::uint64_t count = 0, humans = 0;
@@ -296,18 +304,13 @@ Result<void> CrowdScene::restore(std::span<const std::byte> saved) {
   return {};
 }
 
-RelevanceReport CrowdScene::choose_methods() {
-  return relevance_ ? relevance_->update() : RelevanceReport{};
-}
-
 void CrowdScene::tick() {
-  if (avoidance_) avoidance_->update();
   simulation_->tick();
 }
 
 std::array<std::size_t, rung_count + 1> CrowdScene::muscles_by_rung() const {
-  return relevance_ ? relevance_->muscles_by_rung(request_.effects.activation)
-                    : std::array<std::size_t, rung_count + 1>{};
+  return choosing_ ? simulation_->lod().muscles_by_rung(request_.effects.activation)
+                   : std::array<std::size_t, rung_count + 1>{};
 }
 
 }  // namespace mobil

@@ -15,7 +15,7 @@
 
 #include <mobil/avoidance.h>
 #include <mobil/engine/error.h>
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/simulation.h>
 #include "demo/scene/crowd_people.h"
 
@@ -118,11 +118,10 @@ class CrowdScene {
   /// go meanwhile, by the scene's own director.
   Result<void> settle(const Progress& progress = {}, bool exchanges = true);
 
-  /// The parts of a tick, in this order: who comes and goes by its own director's orders or by others', who turns;
-  /// which methods; the simulation.
+  /// The parts of a tick, in this order: who comes and goes by its own director's orders or by others', who turns; the
+  /// simulation, which chooses methods.
   Result<CrowdDecisions> decide();
   Result<CrowdDecisions> decide(const CrowdOrders& orders);
-  RelevanceReport choose_methods();
   void tick();
 
   const CrowdRequest& request() const { return request_; }
@@ -168,8 +167,7 @@ class CrowdScene {
   double side_m_ = 0;
   MeteredMemory memory_;
   std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<Relevance> relevance_;
-  std::unique_ptr<Avoidance> avoidance_;
+  std::optional<LodOptions> choosing_;  // with muscles
   LegMuscles muscles_;
   std::vector<CrowdWalker> walkers_;    // by place
   std::vector<SpawnRequest> requests_;  // kept for their memory

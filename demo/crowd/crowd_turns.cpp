@@ -4,6 +4,9 @@
 #include <numbers>
 #include <utility>
 
+#include <mobil/avoidance.h>
+#include <mobil/each.h>
+#include <mobil/lod.h>
 #include "demo/crowd/crowd_scene.h"
 
 namespace mobil {
@@ -37,11 +40,11 @@ void CrowdScene::forget_plan(std::size_t slot) {
 
 /// Who avoids others is asked through Avoidance, which asks for the steps.
 Result<void> CrowdScene::head_for(const CrowdWalker& walker, float heading_rad) {
-  if (!avoidance_) return simulation_->turn_to(walker.entity, heading_rad);
+  if (!request_.effects.avoidance) return simulation_->turn_to(walker.entity, heading_rad);
   const auto course = simulation_->get<Course>(walker.entity);
   if (!course) return fail(course.error().status);
   const WalkWish wish = {walker.entity, course->speed_m_s, heading_rad};
-  return avoidance_->want({&wish, 1});
+  return simulation_->avoidance().want({&wish, 1});
 }
 
 /// A speed that the body cannot walk at in its own style is left alone.
@@ -55,9 +58,9 @@ Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decision
       gait.speed_m_s = usual_m_s;
       if (auto done = simulation_->set_gait(walker.entity, gait); !done) return done;
     }
-    if (avoidance_) {
+    if (request_.effects.avoidance) {
       const WalkWish wish = {walker.entity, *gait.speed_m_s, walker.heading_rad};
-      if (auto done = avoidance_->want({&wish, 1}); !done) return done;
+      if (auto done = simulation_->avoidance().want({&wish, 1}); !done) return done;
     }
     walker.stopped = change.speed_m_s == 0;
     ++decisions.changed_speed;
@@ -80,7 +83,7 @@ Result<void> CrowdScene::look_round(CrowdDecisions& decisions) {
 /// Where their walking lines are, for who is compact has no pose: block by block, which takes a tenth of the time that
 /// asking for one after the other would.
 void CrowdScene::read_places() {
-  std::as_const(*simulation_).each([&](const Rows& rows, const GaitState<Lanes<float>>& state) {
+  each(simulation_->world(), [&](const Rows& rows, const GaitState<Lanes<float>>& state) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
       CrowdWalker& walker = walkers_[slot_of_[rows.entity[lane].index]];
       walker.x_m = state.line_x_m[lane];
@@ -113,7 +116,7 @@ Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
 
 /// Those nearest to the viewer, the present ones a little preferred.
 Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
-  if (!relevance_) return {};
+  if (!choosing_) return {};
   const std::size_t part =
       request_.near * (request_.shard + 1) / request_.shards - request_.near * request_.shard / request_.shards;
   const std::size_t near = std::min(part, walkers_.size());
@@ -127,7 +130,7 @@ Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
   entities_.clear();  // all who come near become whole together
   for (std::size_t k = 0; k < near; ++k)
     if (!walkers_[distance_[k].second].near) entities_.push_back(walkers_[distance_[k].second].entity);
-  if (auto done = simulation_->expand(entities_); !done) return done;
+  if (auto done = simulation_->set_state(entities_, PersonState::full); !done) return tl::unexpected(done.error());
   for (std::size_t k = 0; k < distance_.size(); ++k) {
     CrowdWalker& walker = walkers_[distance_[k].second];
     const bool is_near = k < near;
@@ -139,7 +142,7 @@ Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
       needs.tolerance_m = static_cast<float>(request_.near_tolerance_m);
       needs.looked_at = true;
     }
-    if (auto done = relevance_->manage(walker.entity, needs); !done) return done;
+    if (auto done = simulation_->lod().manage(walker.entity, needs); !done) return done;
   }
   return {};
 }

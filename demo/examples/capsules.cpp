@@ -46,7 +46,7 @@ int main() {
     requests[i].x_m = static_cast<float>(i);
   }
   std::vector<mobil::Entity> people(requests.size());
-  if (!simulation.spawn(requests, people) || !simulation.watch_steps(people)) return 2;
+  if (!simulation.spawn(requests, people) || !simulation.enable(people, mobil::Feature::step_events)) return 2;
 
   std::vector<mobil::Root> before(people.size()), after(people.size()), capsules(people.size());
   std::vector<mobil::PlaceRequest> placed;

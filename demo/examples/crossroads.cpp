@@ -23,7 +23,7 @@ constexpr double radius_m = 0.18, overlap_m = 0.06;  // of trunks: who comes nea
 
 int main() {
   mobil::Simulation simulation;
-  mobil::Avoidance avoidance(simulation);
+  mobil::Avoidance avoidance = simulation.avoidance();
   std::vector<mobil::SpawnRequest> requests;
   for (std::size_t i = 0; i < 2 * a_stream; ++i) {
     const bool along_x = i < a_stream;
@@ -49,7 +49,6 @@ int main() {
     const float along = -12 + 1.4F / 60 * static_cast<float>(tick);
     const mobil::Disc player = {{along, -along}, 0.25F, 1.4F, -1.4F};
     if (!avoidance.set_discs({&player, 1})) return 2;
-    avoidance.update();  // chooses for those whose next step begins
     simulation.tick();
     if (!simulation.roots(people, roots)) return 2;
     for (std::size_t i = 0; i < roots.size(); ++i)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <mobil/host_parts.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
 
@@ -56,7 +57,7 @@ int main() {
     }
     one = *spawned;
   }
-  simulation.add(walker[0], Fatigue<float>{});  // the other one never tires, and costs nothing
+  simulation.parts().add(walker[0], Fatigue<float>{});  // the other one never tires, and costs nothing
 
   for (int second = 0; second < 40; ++second) {
     for (int tick = 0; tick < 60; ++tick) simulation.tick();

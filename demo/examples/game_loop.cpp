@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
 

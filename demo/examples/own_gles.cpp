@@ -4,10 +4,12 @@
 
 #include "demo/examples/own_gles.h"
 
+#include <mobil/engine/world.h>
 #include <mobil/far_figure.h>
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 
 namespace {
 

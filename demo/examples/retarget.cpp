@@ -8,6 +8,7 @@
 #include <mobil/forces.h>
 #include <mobil/retarget.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
 
 namespace {
 
@@ -83,8 +84,8 @@ int main() {
   if (!person) return failed(person.error());
   const auto map = mobil::Retarget::make(simulation.human(*person)->body, bones, rest, unreal);
   if (!map) return failed(map.error());
-  if (const auto done = simulation.add_leg_muscles(*person); !done) return failed(done.error());
-  if (const auto done = simulation.add_forces(*person); !done) return failed(done.error());
+  if (const auto done = simulation.set_muscles(*person); !done) return failed(done.error());
+  if (const auto done = simulation.enable(*person, mobil::Feature::forces); !done) return failed(done.error());
   const mobil::Entity quadriceps = simulation.muscle(*person, mobil::Muscle::quadriceps, mobil::Side::right);
   float longest_m = 0, deepest_rad = 0, most_n = 0;
   for (int tick = 0; tick <= 240; ++tick) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include <mobil/host_parts.h>
 #include <mobil/simulation.h>
 #include <mobil/snapshot_file.h>
 
@@ -32,7 +33,7 @@ int main() {
   for (std::size_t i = 0; i < asked.size(); ++i) asked[i].x_m = static_cast<float>(i);
   for (mobil::Simulation* const peer : {&server, &client}) {
     if (!peer->spawn(asked, people)) return 2;  // the same handles on both
-    peer->add(people[3], Score<float>{7});
+    peer->parts().add(people[3], Score<float>{7});
   }
 
   mobil::Rollback window(late_ticks + 1);

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/schedule.h>
 #include <mobil/simulation.h>
 #include "demo/program/commands.h"
 

@@ -12,6 +12,7 @@
 #include <mobil/assets/files/output_file.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/png.h>
+#include <mobil/step_report.h>
 #include <mobil/video.h>
 #include "demo/crowd/crowd_picture.h"
 #include "demo/program/commands.h"

@@ -4,8 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
+#include <mobil/step_report.h>
+#include <mobil/terrain.h>
 #include "demo/measure/measure.h"
+#include "demo/measure/phase_time.h"
 #include "demo/scene/crowd_people.h"
 
 namespace mobil {
@@ -32,13 +36,12 @@ GroundPoint place_of(const Root& root) {
 TownScene::TownScene(TownPaths paths, const TownOptions& options)
     : paths_(std::move(paths)),
       simulation_(std::make_unique<Simulation>(SimulationOptions{.threads = options.threads})),
-      avoidance_(*simulation_),
-      terrain_(*simulation_,
-               [](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
-                 for (std::size_t i = 0; i < at.size(); ++i) out[i] = town_ground(at[i].x_m, at[i].z_m);
-               },
-               {.slows_down = true}),
-      seed_(options.seed) {}
+      seed_(options.seed) {
+  simulation_->terrain().set_options({.slows_down = true});
+  simulation_->terrain().set_heights([](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+    for (std::size_t i = 0; i < at.size(); ++i) out[i] = town_ground(at[i].x_m, at[i].z_m);
+  });
+}
 TownScene::TownScene(TownScene&&) noexcept = default;
 TownScene::~TownScene() = default;
 
@@ -86,9 +89,9 @@ Result<void> TownScene::people_come(const TownOptions& options) {
   people_.resize(options.humans);
   roots_.resize(options.humans);
   if (auto done = simulation_->spawn(requests, people_); !done) return done;
-  if (auto done = avoidance_.set_walls(town_walls()); !done) return done;
-  if (auto done = avoidance_.manage(people_); !done) return done;
-  if (auto done = terrain_.manage(people_); !done) return done;
+  if (auto done = simulation_->avoidance().set_walls(town_walls()); !done) return done;
+  if (auto done = simulation_->avoidance().manage(people_); !done) return done;
+  if (auto done = simulation_->terrain().manage(people_); !done) return done;
   if (auto done = simulation_->roots(people_, roots_); !done) return done;
   for (std::size_t i = 0; i < people_.size(); ++i) {
     pedestrians_[i].radius_m = simulation_->get<Course>(people_[i])->radius_m;
@@ -152,16 +155,13 @@ void TownScene::tick() {
     if ((now + turn) % ways_every == 0) find_way(i);
     if ((now + turn) % wishes_every == 0 || !pedestrians_[i].asked) follow_way(i);
   }
-  (void)avoidance_.want(wishes_);  // speeds and headings are in range
+  (void)simulation_->avoidance().want(wishes_);  // speeds and headings are in range
   const double begin_s = wall_now_s();
-  avoidance_.update();
-  const double avoided_s = wall_now_s();
-  report_.places_asked += terrain_.update().places;
-  const double grounded_s = wall_now_s();
   simulation_->tick();
-  report_.avoidance_s += avoided_s - begin_s;
-  report_.terrain_s += grounded_s - avoided_s;
-  report_.tick_s += wall_now_s() - grounded_s;
+  report_.tick_s += wall_now_s() - begin_s;
+  report_.places_asked += simulation_->terrain().report().places;
+  report_.avoidance_s += phase_s(*simulation_, "avoidance");
+  report_.terrain_s += phase_s(*simulation_, "ground");
   ++report_.ticks;
   measure();
 }

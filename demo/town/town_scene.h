@@ -65,8 +65,6 @@ class TownScene {
 
   TownPaths paths_;
   std::unique_ptr<Simulation> simulation_;
-  Avoidance avoidance_;
-  Terrain terrain_;
   std::uint64_t seed_;
   std::vector<Entity> people_;
   std::vector<Pedestrian> pedestrians_;

@@ -7,9 +7,11 @@
 
 #include <mobil/components/gait_style.h>
 #include <mobil/forces.h>
+#include <mobil/lod.h>
 #include <mobil/muscle_table.h>
-#include <mobil/systems/relevance/accuracy_table.h>
-#include <mobil/systems/relevance/ladder.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/accuracy/accuracy_table.h>
+#include <mobil/systems/accuracy/ladder.h>
 
 namespace mobil {
 namespace {
@@ -98,10 +100,10 @@ Result<Entity> ViewScene::spawned(const ViewChoice& choice) const {
   if (auto done = simulation_->spawn({&request, 1}, {&person, 1}); !done) return tl::unexpected(done.error());
   const auto rest = [&]() -> Result<void> {
     if (choice.forces || choice.activation == ExcitationSource::moments) {
-      if (auto done = simulation_->add_forces(person); !done) return done;
+      if (auto done = simulation_->enable(person, Feature::forces); !done) return done;
     }
     if (choice.activation != ExcitationSource::none) {
-      if (auto done = simulation_->change_leg_muscles(person, muscles_of(choice)); !done) return done;
+      if (auto done = simulation_->set_muscles(person, muscles_of(choice)); !done) return done;
     }
     return set_methods(person, choice);
   }();
@@ -133,20 +135,20 @@ Result<void> ViewScene::set_crowd(std::size_t people) {
     lane_m_.push_back(asked[i].x_m);
     drawn_.push_back({crowd_[i], crowd_number + i, false});
   }
-  if (relevance_) {
-    if (auto done = relevance_->manage(crowd_); !done) return done;
+  if (choosing_) {
+    if (auto done = simulation_->lod().manage(crowd_); !done) return done;
   }
   return {};
 }
 
 void ViewScene::stop_choosing() {
-  if (!relevance_) return;
+  if (!choosing_) return;
   for (const Entity entity : crowd_) {
-    (void)relevance_->release(entity);
-    (void)simulation_->remove_leg_muscles(entity);
+    (void)simulation_->lod().release(entity);
+    (void)simulation_->set_muscles(entity, std::nullopt);
   }
-  (void)relevance_->release(person_);
-  relevance_.reset();
+  (void)simulation_->lod().release(person_);
+  choosing_ = false;
   chosen_.reset();
 }
 
@@ -155,14 +157,13 @@ Result<void> ViewScene::set_choosing(const ViewChoice& choice) {
     stop_choosing();
     return set_methods(person_, choice);
   }
-  if (!relevance_) {
-    RelevanceOptions options;
+  if (!choosing_) {
+    LodOptions options;
     options.leg_muscles = muscles_of(choice);
-    auto made = Relevance::make(*simulation_, options);
-    if (!made) return tl::unexpected(made.error());
-    relevance_.emplace(std::move(*made));
-    if (auto done = relevance_->manage(person_); !done) return done;
-    if (auto done = relevance_->manage(crowd_); !done) return done;
+    if (auto done = simulation_->lod().set_options(options); !done) return done;
+    choosing_ = true;
+    if (auto done = simulation_->lod().manage(person_); !done) return done;
+    if (auto done = simulation_->lod().manage(crowd_); !done) return done;
   }
   return {};
 }
@@ -184,7 +185,7 @@ Result<void> ViewScene::set(const ViewChoice& choice) {
       if (auto done = simulation_->set_gait(person_, choice.gait); !done) return done;
     }
     if (choice.forces != choice_.forces && choice.activation != ExcitationSource::moments) {
-      auto done = choice.forces ? simulation_->add_forces(person_) : simulation_->remove_forces(person_);
+      auto done = simulation_->enable(person_, Feature::forces, choice.forces);
       if (!done) return done;
     }
   }
@@ -209,12 +210,13 @@ Result<void> ViewScene::look(const Camera& camera, int width, int height) {
                            street_m};
   needs.compact_unseen = true;
   if (choice_.budget_s > 0) needs.budget_s = choice_.budget_s;
-  return relevance_->set_scene(needs);
+  return simulation_->lod().set_scene(needs);
 }
 
 void ViewScene::tick(const Camera& camera, int width, int height) {
-  if (relevance_ && look(camera, width, height)) chosen_ = relevance_->update();
+  if (choosing_) (void)look(camera, width, height);
   simulation_->tick();
+  if (choosing_) chosen_ = simulation_->lod().report();
   sample();
   if (simulation_->ticks() % 60 == 0) keep_near();  // a compact person's pose is made when it is asked for
 }

@@ -12,7 +12,7 @@
 #include <mobil/components/gait.h>
 #include <mobil/components/leg_muscles.h>
 #include <mobil/engine/error.h>
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/capture/camera.h>
 #include "demo/crowd/crowd_picture.h"
@@ -71,7 +71,7 @@ class ViewScene {
   const ViewTrace& trace() const { return trace_; }
   const Simulation& simulation() const { return *simulation_; }
   /// What the last update of choosing did; nothing while nothing is chosen.
-  const std::optional<RelevanceReport>& chosen() const { return chosen_; }
+  const std::optional<LodReport>& chosen() const { return chosen_; }
 
  private:
   ViewScene() : simulation_(std::make_unique<Simulation>(SimulationOptions{.threads = 0})) {}
@@ -84,8 +84,8 @@ class ViewScene {
   void sample();
   void keep_near();
 
-  std::unique_ptr<Simulation> simulation_;  // stays where it is, for the Relevance
-  std::optional<Relevance> relevance_;
+  std::unique_ptr<Simulation> simulation_;
+  bool choosing_ = false;
   ViewChoice choice_;
   Entity person_{};
   std::uint64_t number_ = 0;  // of the person's figure
@@ -93,7 +93,7 @@ class ViewScene {
   std::vector<float> lane_m_;  // of each of the crowd
   std::vector<CrowdCamera::Drawn> drawn_;
   std::optional<std::uint64_t> gone_;
-  std::optional<RelevanceReport> chosen_;
+  std::optional<LodReport> chosen_;
   ViewTrace trace_;
 };
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <mobil/engine/geometry.h>
-#include <mobil/systems/skinning/follow_skin.h>
+#include <mobil/systems/surfaces/follow_skin.h>
 #include "demo/scene/scatter.h"
 
 namespace mobil {

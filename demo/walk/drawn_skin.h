@@ -10,11 +10,11 @@
 #include <vector>
 
 #include <mobil/assets/export/walk_recording.h>
-#include <mobil/assets/skin/body_skin.h>
-#include <mobil/assets/skin/own_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
+#include <mobil/assets/surfaces/own_skin.h>
 #include <mobil/components/pose.h>
 #include <mobil/systems/capture/scene.h>
-#include <mobil/systems/skinning/place_skin.h>
+#include <mobil/systems/surfaces/place_skin.h>
 
 namespace mobil {
 

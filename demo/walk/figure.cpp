@@ -2,7 +2,9 @@
 
 #include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/assets/surfaces/surface_binding.h>
-#include <mobil/systems/skin/rest_surfaces.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/rest_surfaces.h>
 
 namespace mobil {
 namespace {

@@ -8,6 +8,7 @@
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 #include <mobil/systems/surfaces/surface_contacts.h>
 
 namespace mobil {
@@ -18,7 +19,7 @@ struct Figure {
   std::vector<Vec3<float>> colours;  // linear; of each part
   std::optional<SurfaceContacts> contacts;
   std::vector<std::string> said;    // about the folder and its meshes, "FILE: …"
-  std::vector<SurfaceMesh> skins;   // of right legs, where the folder has some (mobil/assets/skin/own_skin.h)
+  std::vector<SurfaceMesh> skins;   // of right legs, where the folder has some (mobil/assets/surfaces/own_skin.h)
   std::vector<Vec3<float>> rest_m;  // then all vertices of the right leg's muscles at rest
 };
 

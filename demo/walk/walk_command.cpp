@@ -15,8 +15,13 @@
 #include <mobil/assets/files/output_file.h>
 #include <mobil/body_composition.h>
 #include <mobil/components/fat.h>
+#include <mobil/engine/world.h>
 #include <mobil/schedule.h>
 #include <mobil/systems/kinematics/shown_fat.h>
+#include <mobil/systems/limits/limit_watch.h>
+#include <mobil/systems/limits/style_limits.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/terrain.h>
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 #include "demo/walk/drawn_skin.h"
@@ -89,7 +94,7 @@ void add_muscle_rows(const Simulation& simulation, const Human& human, std::stri
 
 /// Says what of a style asked for cannot be walked, one line each.
 void tell_style_changes(const BodyRequest& body, const GaitRequest& asked, std::vector<StyleChange>& all) {
-  const auto changes = Simulation::style_changes(body, asked);
+  const auto changes = style_changes(body, asked);
   if (!changes) return;
   for (const StyleChange& change : *changes) fmt::print(stderr, "note: {}\n", described(change));
   all.insert(all.end(), changes->begin(), changes->end());
@@ -97,7 +102,7 @@ void tell_style_changes(const BodyRequest& body, const GaitRequest& asked, std::
 
 /// Notes what limits are not kept in this tick.
 void note_limits(const Simulation& simulation, Entity person, std::vector<LimitPassed>& passed) {
-  for (const BrokenLimit& broken : simulation.broken_limits(person)) {
+  for (const BrokenLimit& broken : broken_limits(simulation.world(), person)) {
     auto known = std::ranges::find(passed, broken.bound, [](const LimitPassed& limit) { return limit.furthest.bound; });
     if (known == passed.end()) known = passed.insert(known, {broken, simulation.time_s(), 0, 0});
     if (broken.value > known->furthest.value) known->furthest = broken;
@@ -159,7 +164,7 @@ Result<DrawnSkin> own_legs(const BodySkin& skin, const Body& body, const Figure&
 }
 
 Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
-                    const std::vector<ScriptedChange>& changes, Terrain* terrain) {
+                    const std::vector<ScriptedChange>& changes) {
   Walked walked{MotionTable(options.muscles.activation == ExcitationSource::moments),
                 MuscleTable(has_activation(options.muscles)),
                 {},
@@ -199,7 +204,6 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
       if (!done) return tl::unexpected(done.error());
     }
     const auto start = SteadyClock::now();
-    if (terrain != nullptr) terrain->update();
     simulation.tick();
     outcome.simulation_s += seconds_since(start);
     const std::uint32_t steps = simulation.get<GaitState>(human.entity)->steps;
@@ -288,27 +292,27 @@ Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
     if (!planned) return fail(fmt::format("--script {}", planned.error().message));
     changes = std::move(*planned);
   }
-  if (options.forces) simulation.add_forces(*entity);
-  if (options.fat) simulation.set_fat_wobble({&*entity, 1});
-  auto added = simulation.add_leg_muscles(*entity, options.muscles);
+  if (options.forces) simulation.enable(*entity, Feature::forces);
+  if (options.fat) simulation.enable({&*entity, 1}, Feature::fat);
+  auto added = simulation.set_muscles(*entity, options.muscles);
   if (!added) return added;
   const Human human = *simulation.human(*entity);
   set_edges(options.ground, human.body.request.height_m, human.gait.step_length_m);
-  const auto figure = options.anatomy ? read_figure(human, *options.anatomy, options.contact)
-                                      : make_figure(human, options.contact);
+  const auto figure =
+      options.anatomy ? read_figure(human, *options.anatomy, options.contact) : make_figure(human, options.contact);
   if (!figure) return tl::unexpected(figure.error());
   auto results = OutputFolder::make(options.out);
   if (!results) return tl::unexpected(results.error());
 
-  std::optional<Terrain> terrain;
   if (options.ground.kind != GroundKind::level) {
     const TerrainHeights heights = [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
       for (std::size_t i = 0; i < at.size(); ++i) out[i] = options.ground.at(at[i].x_m, at[i].z_m);
     };
-    terrain.emplace(simulation, heights, TerrainOptions{.slows_down = options.slow_down});
-    if (auto done = terrain->manage({&*entity, 1}); !done) return done;
+    simulation.terrain().set_heights(heights);
+    simulation.terrain().set_options({.slows_down = options.slow_down});
+    if (auto done = simulation.terrain().manage({&*entity, 1}); !done) return done;
   }
-  const auto walked = walk(simulation, human, *figure, options, changes, terrain ? &*terrain : nullptr);
+  const auto walked = walk(simulation, human, *figure, options, changes);
   auto done = walked ? write_results(*walked, simulation, human, *figure, options, start, *results)
                      : Result<void>(tl::unexpected(walked.error()));
   if (!done) show("");

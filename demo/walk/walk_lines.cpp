@@ -4,7 +4,10 @@
 #include <array>
 
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/muscles/human.h>
 #include <mobil/systems/surfaces/body_surfaces.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 
 namespace mobil {
 namespace {
@@ -61,7 +64,7 @@ std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Human& h
   std::vector<Vec3<float>> ends;
   for_each_muscle(simulation, human,
                   [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
-                    const NodalView moved = simulation.nodal_displacement(muscle);
+                    const NodalView moved = nodal_displacement(simulation.world(), muscle);
                     if (moved.first == nullptr) return;  // a line alone
                     const auto mesh = rest_mesh(human.body, plan.muscle, human.leg_muscles.cells);
                     if (!mesh) return;

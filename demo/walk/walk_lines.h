@@ -5,6 +5,7 @@
 
 #include <mobil/components/lanes.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
 
 namespace mobil {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-#include <mobil/systems/skinning/place_skin.h>
+#include <mobil/systems/surfaces/place_skin.h>
 #include "demo/walk/figure.h"
 #include "demo/walk/walk_options.h"
 

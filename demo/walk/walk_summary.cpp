@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <mobil/body_composition.h>
+#include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/muscles/human.h>
 #include <mobil/systems/muscles/muscle_step.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "demo/program/json.h"
 
 namespace mobil {
@@ -34,7 +38,7 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
       muscles.push_back({{"group", muscle_name(plan.muscle)},
                          {"side", side == Side::right ? "right" : "left"},
                          {"method", method_name[static_cast<std::size_t>(method)]},
-                         {"nodes", simulation.nodal_displacement(entity).nodes},
+                         {"nodes", nodal_displacement(simulation.world(), entity).nodes},
                          {"vectors", method == Method::reduced ? Json(own.method.reduced.vectors) : Json()},
                          {"rest_length_m", line->rest_length_m},
                          {"belly_length_m", plan.belly_length_m},

@@ -4,6 +4,9 @@
 #include <mobil/gltf_writer.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/limits/limit_watch.h>
+#include <mobil/systems/limits/style_limits.h>
+#include <mobil/systems/muscles/human.h>
 #include "demo/walk/walk_options.h"
 
 namespace mobil {

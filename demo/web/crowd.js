@@ -67,8 +67,8 @@ export class Crowd {
     // Who keeps clear starts from standing: of two who walk already, and meet at once, none could stop in time.
     this.people = world.spawn(this.asked.map((r) => (clear ? { ...r, speed_m_s: 0 } : r)));
     if (clear) {
-      world.avoid(this.people);
-      world.want(this.people, this.asked.map((r) => [r.speed_m_s, r.heading_rad]));
+      world.avoidance.manage(this.people);
+      world.avoidance.want(this.people, this.asked.map((r) => [r.speed_m_s, r.heading_rad]));
     }
     const { geometry, looks } = this.#geometry(figure, height_m);
     this.looks = looks;
@@ -119,7 +119,7 @@ export class Crowd {
     for (let k = 0; k < Math.min(some, this.people.count); ++k) {
       const i = this.next++ % this.people.count, person = this.people.slice(i);
       let cost = 0;
-      for (let muscle = 0; muscle < 4; ++muscle) cost += this.world.why(person, muscle).cost_us;
+      for (let muscle = 0; muscle < 4; ++muscle) cost += this.world.lod.why(person, muscle).cost_us;
       const hot = Math.min(1, Math.max(0, Math.log10(cost / 0.2) / Math.log10(25)));
       if (cost < 0.01) this.#colour(i, 0.3, 0.3, 0.3);
       else this.#colour(i, 0.05 + 0.9 * hot, 0.25 * (1 - Math.abs(2 * hot - 1)) + 0.05, 0.9 * (1 - hot) + 0.03);
@@ -150,7 +150,7 @@ export class Crowd {
     const asked = this.asked[i];
     if (asked.heading_rad === heading_rad) return;
     asked.heading_rad = heading_rad;
-    this.world.want(this.people.slice(i), [[asked.speed_m_s, heading_rad]]);
+    this.world.avoidance.want(this.people.slice(i), [[asked.speed_m_s, heading_rad]]);
   }
   pose(x, z) {
     const matrices = this.texture.image.data;

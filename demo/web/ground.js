@@ -89,7 +89,7 @@ export class Ground {
     this.stage = stage;
     stage.stand(this.mesh);
   }
-  /** What World.updateGround asks for. */
+  /** What Terrain.setHeights takes. */
   heights = (places, count) => {
     const answers = new Float32Array(4 * count);
     for (let i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
 // The page: one person of the reader's choosing, a crowd, and the library under both.
-import { MobilError, METHODS, canRun, constants as c, load } from 'mobil';
+import { FEATURES, METHODS, MobilError, STATES, canRun, constants as c, load } from 'mobil';
 import { attempt, choice, slider, toggle } from './controls.js';
 import { Crowd } from './crowd.js';
 import { Figure } from './figure.js';
@@ -67,7 +67,7 @@ class Page {
     // Muscles that follow moments want forces first.
     const person = world.spawn([{ ...begins, place: [scene.clear ? at.x : 0, 0, at.z] }], { ...muscles, activation: c.MOBIL_NO_ACTIVATION });
     try {
-      if (scene.forces || scene.pull === 2) world.setForces(person);
+      if (scene.forces || scene.pull === 2) world.enable(person, FEATURES.forces);
       if (scene.pull) world.setMuscles(person, muscles);
       this.#setMethods(person);
       const figure = new Figure(world, person, this.stage.scene);
@@ -82,10 +82,10 @@ class Page {
     }
     this.person = person;
     if (scene.clear) this.#keepClear();
-    if (this.ground) world.setOnGround(person);
+    if (this.ground) world.terrain.manage(person);
     this.trace.clear();
     this.#curves();
-    if (this.choosing) this.world.manage(this.person);
+    if (this.choosing) this.world.lod.manage(this.person);
   }
   /** Of the person's pelvis. */
   #place() {
@@ -95,14 +95,14 @@ class Page {
   walk() {
     this.world.changeWalk(this.person, request(this.scene, this.mobil.style, false));
     if (this.scene.clear) {  // managed anew: avoidance keeps the length of steps that it found
-      this.world.avoid(this.person, false);
+      this.world.avoidance.release(this.person);
       this.#keepClear();
     }
     this.#curves();
   }
   #curves() {
     const { scene } = this;
-    this.ways = groups.map((_, i) => this.mobil.ways(i, { speed_m_s: scene.speed / 3.6, height_m: scene.height, inertia: !!scene.inertia, pulling: scene.pull > 0 }));
+    this.ways = groups.map((_, i) => this.mobil.levels(i, { speed_m_s: scene.speed / 3.6, height_m: scene.height, inertia: !!scene.inertia, pulling: scene.pull > 0 }));
   }
   /** Of each group the name of the way that it has now. */
   #chosenWays() {
@@ -118,8 +118,8 @@ class Page {
     const made = scene.crowd > 0 ? new Crowd(world, scene.crowd, this.figure, scene.height, this.stage.scene, scene.clear, this.#place()) : undefined;
     this.crowd?.drop();
     this.crowd = made;
-    if (this.ground && this.crowd) world.setOnGround(this.crowd.people);
-    if (this.choosing && this.crowd) world.manage(this.crowd.people);
+    if (this.ground && this.crowd) world.terrain.manage(this.crowd.people);
+    if (this.choosing && this.crowd) world.lod.manage(this.crowd.people);
   }
   /** Everybody keeps clear of everybody, or all walk as they are told. */
   cleared() {
@@ -127,29 +127,28 @@ class Page {
     this.crowded();
   }
   #keepClear() {
-    if (!this.avoiding) this.world.startAvoidance();
-    this.avoiding = true;
-    this.world.avoid(this.person);
-    this.world.want(this.person, [[this.scene.speed / 3.6, 0]]);
+    this.world.avoidance.manage(this.person);
+    this.world.avoidance.want(this.person, [[this.scene.speed / 3.6, 0]]);
   }
   grounded() {
     const { world, scene } = this, everybody = [this.person, this.crowd?.people].filter(Boolean);
     if (this.ground) {
       this.ground.drop();
-      for (const people of everybody) world.setOnGround(people, false);
+      for (const people of everybody) world.terrain.release(people);
     }
     this.ground = scene.ground ? new Ground(groundNames[scene.ground], this.stage) : undefined;
-    world.setSlowing(!!scene.slow);
-    if (this.ground) for (const people of everybody) world.setOnGround(people);
+    world.terrain.setSlowing(!!scene.slow);
+    world.terrain.setHeights(this.ground?.heights ?? null);
+    if (this.ground) for (const people of everybody) world.terrain.manage(people);
   }
 
   /** Methods as the scene calls for, or as they are set. */
   chosen() {
     const { world, scene } = this, everybody = [this.person, this.crowd?.people].filter(Boolean);
     if (this.choosing) {
-      for (const people of everybody) world.letGo(people);
+      for (const people of everybody) world.lod.release(people);
       if (this.crowd) {
-        world.expand(this.crowd.people);
+        world.setState(this.crowd.people, STATES.full);
         world.setMuscles(this.crowd.people, null);
         this.crowd.clothes();
       }
@@ -158,32 +157,26 @@ class Page {
     }
     if (!scene.choose) return;
     const { activation, inertia } = this.#muscles();
-    world.startChoosing({}, { activation, inertia });
+    world.lod.setOptions({}, { activation, inertia });
     this.choosing = true;
     this.#lookAt();
-    for (const people of everybody) world.manage(people);
+    for (const people of everybody) world.lod.manage(people);
   }
   #lookAt() {
     const { scene } = this;
-    this.world.setScene({ tolerance_px: scene.tolerance, ...this.stage.viewpoint(), budget_s: scene.budget / 1000, compact_unseen: 1 });
+    this.world.lod.setScene({ tolerance_px: scene.tolerance, ...this.stage.viewpoint(), budget_s: scene.budget / 1000, compact_unseen: 1 });
   }
 
   // ---- Time
-  step(ticks) {
-    const { world } = this, began = performance.now();
-    for (let i = 0; i < ticks; ++i) {
-      if (this.choosing) this.did = world.choose();
-      this.#tick();
-      this.trace.sample(world, this.person);
-    }
-    if (ticks) this.told.tick = soft(this.told.tick, (performance.now() - began) / ticks);
-  }
-  #tick(ticks = 1, steers = !!this.scene.clear) {
-    for (let i = 0; i < ticks; ++i) {
-      if (steers) this.world.steer();
-      if (this.ground) this.world.updateGround(this.ground.heights);
-      this.world.tick();
-    }
+  step(ticks) { for (let i = 0; i < ticks; ++i) this.#ran(() => { this.world.tick(); return 1; }); }
+  advance(seconds) { this.#ran(() => this.world.advance(seconds).count); }
+  /** `ticks()` returns how many there were. */
+  #ran(ticks) {
+    const began = performance.now(), count = ticks();
+    if (!count) return;
+    if (this.choosing) this.did = this.world.lod.report;
+    this.trace.sample(this.world, this.person);
+    this.told.tick = soft(this.told.tick, (performance.now() - began) / count);
   }
   draw() {
     const began = performance.now();
@@ -217,18 +210,13 @@ class Page {
     element('told').textContent = `tick ${this.told.tick.toFixed(2)} ms, picture ${this.told.draw.toFixed(1)} ms, ${(1 + (this.crowd?.people.count ?? 0)).toLocaleString('en')} people, ${(this.mobil.library.memory.buffer.byteLength / 2 ** 20).toFixed(0)} MB${did}${this.mobil.fused ? '' : '; this browser does not fuse multiply-adds: bits differ from desktops’'}`;
   }
   run() {
-    let last = performance.now(), rest = 0, told = 0;
+    let last = performance.now(), told = 0;
     const frame = (now) => {
       requestAnimationFrame(frame);  // first, so that nothing thrown below stops the page
       const passed_s = (now - last) / 1000;
       last = now;
       try {
-        if (!this.paused) {
-          rest = Math.min(rest + passed_s * +element('pace').value, 0.1);
-          const ticks = Math.floor(rest / this.world.tick_s);
-          rest -= ticks * this.world.tick_s;
-          this.step(ticks);
-        }
+        if (!this.paused) this.advance(Math.min(passed_s * +element('pace').value, 0.1));
         this.draw();
         if (now - told > 90) {
           this.tell();
@@ -262,12 +250,12 @@ class Page {
       slider('style', { id: n.name, name, title: n.meaning, holder: scene.style, key: n.name, low: n.low, high: n.high, step, unit, usual: n.usual, act: walk });
     }
     choice('walk', { id: 'ground', name: 'ground', title: 'what everybody walks on', holder: scene, key: 'ground', options: groundNames, numbers: true, act: () => this.grounded() });
-    toggle('walk', { id: 'slow', name: 'slow down', title: 'on slopes and stairs', holder: scene, key: 'slow', act: () => this.world.setSlowing(!!scene.slow) });
+    toggle('walk', { id: 'slow', name: 'slow down', title: 'on slopes and stairs', holder: scene, key: 'slow', act: () => this.world.terrain.setSlowing(!!scene.slow) });
     groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'how it is simulated', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
     slider('muscles', { id: 'vectors', name: 'vectors', title: 'of reduced muscles', holder: scene, key: 'vectors', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'reduced' && this.setMethod(i)); } });
     choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: anew });
     toggle('muscles', { id: 'inertia', name: 'inertia', title: 'muscles feel gravity and how their bones move', holder: scene, key: 'inertia', act: anew });
-    toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.setForces(this.person, !!scene.forces || scene.pull === 2) });
+    toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.enable(this.person, FEATURES.forces, !!scene.forces || scene.pull === 2) });
     slider('crowd', { id: 'people', name: 'people', holder: scene, key: 'crowd', low: 0, high: 5000, step: 20, act: () => this.crowded() });
     toggle('crowd', { id: 'clear', name: 'keep clear', title: 'all go their ways, step by step where nobody else is', holder: scene, key: 'clear', act: () => this.cleared() });
     toggle('crowd', { id: 'choose', name: 'choose', title: 'each muscle by the cheapest method that this camera calls for', holder: scene, key: 'choose', act: () => this.chosen() });
@@ -311,13 +299,13 @@ class Page {
     } catch { /* the address bar has it */ }
   }
   /** One stride, as glTF. */
-  glb() { return strideAsGlb(this.world, this.person, this.figure, this.#stride(), (ticks) => this.#tick(ticks, false)); }
+  glb() { return strideAsGlb(this.world, this.person, this.figure, this.#stride(), (ticks) => this.world.tick(ticks)); }
   // How long the right leg's cycle lasts: until its phase is again what it is.
   #stride() {
     const before = this.world.save(), phase = () => this.world.read(c.MOBIL_FEET, this.person)[18];
     let turned = 0, last = phase(), ticks = 0;
     while (turned < 1 && ticks < 300) {
-      this.#tick(1, false);
+      this.world.tick();
       ++ticks;
       const now = phase();
       turned += (now - last + 1) % 1;

@@ -12,6 +12,7 @@
 #include <mobil/components/footing.h>
 #include <mobil/each.h>
 #include <mobil/engine/access.h>
+#include <mobil/engine/table_list.h>
 #include <mobil/rows.h>
 #include <mobil/systems/people/person.h>
 #include "assets/gait/slope_pace.h"
@@ -21,39 +22,51 @@
 #include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
 #include "systems/people/by_table.h"
-#include "systems/simulation_world.h"
+#include "systems/states/person_states.h"
 
 namespace mobil::inline v0_3 {
 
-struct Avoidance::Work {
-  ClaimBook book;
+/// What the host gave, and what choosing works in, which lies in the simulation's workspace.
+struct AvoidanceWork {
+  TableList tables{{type_id<Course<float>>(), type_id<Course<float>>()}};
+  AvoidanceOptions options;
   std::vector<BoxedWall> walls;
+  std::vector<Disc> discs;
+  AvoidanceReport report;
+  ClaimBook book;
   std::vector<Chosen> chosen;             // by striker
   std::vector<std::uint32_t> striker_of;  // by claim, of who goes off it
   std::vector<char> gives_way;            // by striker
 
   static constexpr std::uint32_t nobody = 0xFFFFFFFFU;
 
-  void give_way(const Jobs& jobs, std::uint32_t tick, float overlap_m);
+  void give_way(const Jobs& jobs, std::uint32_t tick);
+  void choose(const Frame& frame);
 };
 
-Avoidance::Avoidance(Simulation& simulation, const AvoidanceOptions& options)
-    : simulation_(simulation),
-      options_{.radius_h = std::clamp(options.radius_h, 0.02F, 0.5F),
-               .overlap_m = std::clamp(options.overlap_m, 0.0F, 0.2F),
-               .shoulders_h = std::clamp(options.shoulders_h, options_.radius_h, 0.5F)},
-      work_(std::make_unique<Work>()) {}
-Avoidance::~Avoidance() = default;
-Avoidance::Avoidance(Avoidance&&) noexcept = default;
+AvoidanceWork& Avoidance::work() const {
+  return frame_.workspace.get<AvoidanceWork>();
+}
+
+void Avoidance::set_options(const AvoidanceOptions& options) {
+  AvoidanceOptions& to = work().options;
+  to.radius_h = std::clamp(options.radius_h, 0.02F, 0.5F);
+  to.overlap_m = std::clamp(options.overlap_m, 0.0F, 0.2F);
+  to.shoulders_h = std::clamp(options.shoulders_h, to.radius_h, 0.5F);
+}
+
+const AvoidanceReport& Avoidance::report() const {
+  return work().report;
+}
 
 /// What somebody begins with: they go on as they were asked to, on level ground; who is managed already as they wish,
 /// their shoulders as they are.
-Course<float> Avoidance::first_course(const World& world, Entity human) const {
+static Course<float> first_course(const World& world, const AvoidanceOptions& options, Entity human) {
   const float height = world.get<BodySize>(human)->height_m;
   const auto before = world.get<Course>(human);
   Course<float> course = before.value_or(Course<float>{});
-  course.radius_m = options_.radius_h * height;
-  course.shoulders_m = options_.shoulders_h * height;
+  course.radius_m = options.radius_h * height;
+  course.shoulders_m = options.shoulders_h * height;
   if (before) return course;
   const Gait<float> gait = *world.get<Gait>(human);
   const LevelWalk asked = level_walk(gait, world.get<Footing>(human).value_or(Footing<float>{}));
@@ -72,19 +85,20 @@ Result<void> Avoidance::manage(Entity human) {
 }
 
 Result<void> Avoidance::manage(std::span<const Entity> people) {
-  World& world = world_of(simulation_);
-  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  World& world = frame_.world;
+  const Jobs& jobs = frame_.jobs;
   if (!world.alive_once(people) || !std::ranges::all_of(people, [&](Entity human) { return is_person(world, human); }))
     return fail("Avoidance: that person is not there (a stale handle), or is named twice", Status::stale_entity);
   std::vector<Entity> asleep;
   for (const Entity human : people) {
     if (is_posed(world, human))
       return fail("Avoidance: this person's host animates the skeleton; hand them over as discs", Status::missing);
-    if (simulation_.is_asleep(human)) asleep.push_back(human);
+    if (is_asleep(world, human)) asleep.push_back(human);
   }
+  const AvoidanceOptions& options = work().options;
   World::Attempt attempt(world, jobs);
   if (!asleep.empty()) {
-    if (auto done = simulation_.wake(asleep); !done) return done;
+    if (auto done = wake(frame_, asleep); !done) return done;
   }
   std::vector<Entity> begin, again;
   for (const Entity human : people) (world.has<Course>(human) ? again : begin).push_back(human);
@@ -92,10 +106,10 @@ Result<void> Avoidance::manage(std::span<const Entity> people) {
   by_table(world, begin, [&](std::span<const Entity> together) {
     course.resize((together.size() + lane_count - 1) / lane_count);
     for (std::size_t i = 0; i < together.size(); ++i)
-      put_row(first_course(world, together[i]), course[i / lane_count], i % lane_count);
+      put_row(first_course(world, options, together[i]), course[i / lane_count], i % lane_count);
     world.remake_many(together, std::array{PartValue{component_part<Course>(), course.data()}}, {}, jobs);
   });
-  for (const Entity human : again) world.set(human, first_course(world, human));
+  for (const Entity human : again) world.set(human, first_course(world, options, human));
   attempt.keep();
   return {};
 }
@@ -137,8 +151,8 @@ Result<void> Avoidance::release(Entity human) {
 }
 
 Result<void> Avoidance::release(std::span<const Entity> people) {
-  World& world = world_of(simulation_);
-  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  World& world = frame_.world;
+  const Jobs& jobs = frame_.jobs;
   if (!world.alive_once(people))
     return fail("Avoidance: a person is not there (a stale handle), or is named twice", Status::stale_entity);
   for (const Entity human : people)
@@ -155,7 +169,7 @@ Result<void> Avoidance::release(std::span<const Entity> people) {
 }
 
 Result<void> Avoidance::want(std::span<const WalkWish> wishes) {
-  World& world = world_of(simulation_);
+  World& world = frame_.world;
   for (const auto& [human, speed, heading] : wishes) {
     if (!world.alive(human)) return fail("Avoidance: a person is not there (a stale handle)", Status::stale_entity);
     if (!world.has<Course>(human))
@@ -182,8 +196,9 @@ Result<void> Avoidance::set_walls(std::span<const Wall> walls) {
         return fail(fmt::format("Avoidance: a wall's end at ({}, {}) m is not within 1000 km", at.x_m, at.z_m));
     }
   }
-  work_->walls.clear();
-  for (const Wall& wall : walls) work_->walls.push_back({wall, box_of(wall.from, wall.to, 0)});
+  std::vector<BoxedWall>& to = work().walls;
+  to.clear();
+  for (const Wall& wall : walls) to.push_back({wall, box_of(wall.from, wall.to, 0)});
   return {};
 }
 
@@ -195,7 +210,7 @@ Result<void> Avoidance::set_discs(std::span<const Disc> discs) {
           fmt::format("Avoidance: a disc at ({}, {}) m, radius {} m, is not finite, positive and within 1000 km",
                       disc.at.x_m, disc.at.z_m, disc.radius_m));
   }
-  discs_.assign(discs.begin(), discs.end());
+  work().discs.assign(discs.begin(), discs.end());
   return {};
 }
 
@@ -205,7 +220,7 @@ static float length_m(const GroundBox& way) {
 
 /// Of two who strike in one tick and whose new ways meet, the one with the lower draw goes; the other keeps to the
 /// claim, which the first has kept clear of.
-void Avoidance::Work::give_way(const Jobs& jobs, std::uint32_t tick, float overlap_m) {
+void AvoidanceWork::give_way(const Jobs& jobs, std::uint32_t tick) {
   const std::vector<Striker>& strikers = book.strikers();
   striker_of.assign(book.claims(), nobody);
   for (std::size_t i = 0; i < strikers.size(); ++i)
@@ -227,41 +242,38 @@ void Avoidance::Work::give_way(const Jobs& jobs, std::uint32_t tick, float overl
       const Claim& mine = book.claim(claim);
       const float reach_m = 0.5F * length_m(way) + longest_m + mine.radius_m + book.broadest_m();
       const GroundPoint middle = {0.5F * (way.low_x_m + way.high_x_m), 0.5F * (way.low_z_m + way.high_z_m)};
-      book.near(middle.x_m, middle.z_m, reach_m, [&](const Nearby& near) {
+      book.near(middle.x_m, middle.z_m, mine.ground_m, reach_m, [&](const Nearby& near) {
         const std::uint32_t other = near.claim, rival = striker_of[other];
         if (rival == nobody || other == claim || !goes_first(other, claim)) return;
         const Claim& theirs = book.claim(other);
-        const float apart = mine.radius_m + theirs.radius_m - overlap_m;
+        const float apart = mine.radius_m + theirs.radius_m - options.overlap_m;
         if (meet(chosen[i], chosen[rival], apart)) gives_way[i] = 1;
       });
     }
   });
 }
 
-AvoidanceReport Avoidance::update() {
-  World& world = world_of(simulation_);
-  const Jobs& jobs = SimulationWorld::jobs(simulation_);
-  Work& work = *work_;
-  const std::uint32_t tick = simulation_.ticks();
-  work.book.refresh(world, jobs, tick, static_cast<float>(simulation_.tick_s()), options_.shoulders_h);
-  const std::vector<Striker>& strikers = work.book.strikers();
-  const Surroundings around = {work.book, work.walls, discs_, options_.overlap_m};
-  work.chosen.resize(strikers.size());
-  in_parallel(jobs, strikers.size(), [&](std::size_t begin, std::size_t end) {
+void AvoidanceWork::choose(const Frame& frame) {
+  const std::uint32_t tick = frame.tick.index;
+  book.refresh(frame.world, frame.jobs, tick, frame.tick.dt_s, options.shoulders_h);
+  const std::vector<Striker>& strikers = book.strikers();
+  const Surroundings around = {book, walls, discs, options.overlap_m};
+  chosen.resize(strikers.size());
+  in_parallel(frame.jobs, strikers.size(), [&](std::size_t begin, std::size_t end) {
     const FlushDenormals flush;  // as in a tick
-    for (std::size_t i = begin; i < end; ++i) choose_step(around, strikers[i], work.chosen[i]);
+    for (std::size_t i = begin; i < end; ++i) choose_step(around, strikers[i], chosen[i]);
   });
-  work.give_way(jobs, tick, options_.overlap_m);
-  narrow_shoulders(work.book, jobs, tick);
+  give_way(frame.jobs, tick);
+  narrow_shoulders(book, frame.jobs, tick);
 
-  AvoidanceReport report{.people = work.book.people()};
+  report.people = book.people();
   for (std::size_t i = 0; i < strikers.size(); ++i) {
-    const Chosen& own = work.chosen[i];
+    const Chosen& own = chosen[i];
     if (own.under_way) continue;
     auto& [table, block, lane, claim] = strikers[i];
     Gait<Lanes<float>>& gaits = TableColumn<Gait>(*table).at(*table, block);
     Course<Lanes<float>>& courses = TableColumn<Course>(*table).at(*table, block);
-    const bool yields = work.gives_way[i] != 0, aside = !yields && own.kind == TrialKind::aside;
+    const bool yields = gives_way[i] != 0, aside = !yields && own.kind == TrialKind::aside;
     const bool wants = courses.speed_m_s[lane] > 0;
     const Gait<float> before = row_of(gaits, lane);
     Gait<float> asked = yields ? own.as_claimed : own.gait;
@@ -281,7 +293,17 @@ AvoidanceReport Avoidance::update() {
     report.kept_claim += wants && own.trial == claimed;
     report.waiting += waits;
   }
-  return report;
+}
+
+Phase steps_chosen() {
+  return {"avoidance", [](const Frame& frame) {
+            AvoidanceWork& work = frame.workspace.get<AvoidanceWork>();
+            if (work.tables.any_rows(frame.world)) work.choose(frame);
+          }};
+}
+
+void begin_avoidance_report(const Frame& frame) {
+  frame.workspace.get<AvoidanceWork>().report = {};
 }
 
 }  // namespace mobil::inline v0_3

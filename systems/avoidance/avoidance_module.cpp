@@ -36,8 +36,7 @@ bool is_sound_course(const Course<float>& course) {
 }
 
 Result<void> check_course(const SavedWorld& saved, std::uint32_t table) {
-  if (!every_row<Course>(saved, table, is_sound_course))
-    return damaged("where somebody wants to go");
+  if (!every_row<Course>(saved, table, is_sound_course)) return damaged("where somebody wants to go");
   return {};
 }
 
@@ -51,6 +50,7 @@ Module avoidance_module() {
               [](ScheduleBuilder& systems) {
                 systems.add("shoulders", &ease_walkers).add("turned shoulders", &turn_walkers).after("kinematics");
               },
+          .before = {steps_chosen()},
           .check_rows = &check_course};
 }
 

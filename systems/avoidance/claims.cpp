@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <mobil/components/avoidance.h>
+#include <mobil/components/footing.h>
 #include <mobil/each.h>
 #include <mobil/engine/access.h>
 #include "systems/gait/gait.h"
@@ -84,6 +85,7 @@ void ClaimBook::remake(BlockOfClaims& at, float shoulders_h) {
   const auto& plan = TableColumn<StepPlan>(table).at(table, at.block);
   const auto& state = TableColumn<GaitState>(table).at(table, at.block);
   const TableColumn<Course> courses(table);
+  const TableColumn<Footing> ground(table);
   const ClockUnits units = clock_units(tick_s_);
   const Entity* const entities = table.entities(at.block);
   std::uint32_t changed = 0;
@@ -96,6 +98,7 @@ void ClaimBook::remake(BlockOfClaims& at, float shoulders_h) {
     claim.shoulders_m = courses ? courses.at(table, at.block).shoulders_m[l] : shoulders_h * size.height_m[l];
     claim.radius_m = courses ? courses.at(table, at.block).radius_m[l] : claim.shoulders_m;
     claim.yields = static_cast<bool>(courses);
+    claim.ground_m = ground ? ground.at(table, at.block).height_m[index(FootholdOf::stance)][l] : 0;
     if (courses && units.of(state.time_s[l]) + units.per_tick >= units.step(plan.duration_s[l])) at.striking |= 1U << l;
     // Of who avoids nobody the claim leads straight on from its first instant: it is made anew at each, so that it
     // follows from the world and not from when somebody looked.
@@ -141,7 +144,8 @@ void ClaimBook::sort() {
     broadest_m_ = std::max({broadest_m_, claim.radius_m, claim.shoulders_m});
     longest_m_ = std::max({longest_m_, 0.5F * (box.high_x_m - box.low_x_m), 0.5F * (box.high_z_m - box.low_z_m)});
     unsorted_.push_back({cell(0.5F * (box.low_x_m + box.high_x_m)), cell(0.5F * (box.low_z_m + box.high_z_m)), number,
-                         claim.who.index, box, claim.x_m[now], claim.z_m[now], claim.faces_x, claim.faces_z});
+                         claim.who.index, box, claim.x_m[now], claim.z_m[now], claim.faces_x, claim.faces_z,
+                         claim.ground_m});
     ++starts_[bucket(unsorted_.back().cell_x, unsorted_.back().cell_z) + 2];
   }
   for (std::size_t b = 2; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];

@@ -56,7 +56,8 @@ struct Claim {
   Source source;
   GroundBox box;
   float faces_x, faces_z, x_m_s, z_m_s, radius_m, shoulders_m;
-  bool yields;  // avoids others too
+  float ground_m;  // height of the ground under the stance foot
+  bool yields;     // avoids others too
   std::array<float, kept> x_m, z_m;
 
   std::size_t at(std::uint32_t instant) const {
@@ -66,12 +67,12 @@ struct Claim {
 };
 
 /// What is looked at first of who is near: of a claim, where they are at the book's instant and which way they face.
-/// Forty-eight bytes, in the order of the ground, where a claim has half a kilobyte.
+/// Fifty-two bytes, in the order of the ground, where a claim has half a kilobyte.
 struct Nearby {
   std::int32_t cell_x, cell_z;
   std::uint32_t claim, who;  // who: the entity's index
   GroundBox box;
-  float x_m, z_m, faces_x, faces_z;
+  float x_m, z_m, faces_x, faces_z, ground_m;
 };
 
 /// A walker whose next step begins in the tick to come.
@@ -108,10 +109,14 @@ class ClaimBook {
   std::span<const BlockOfClaims> blocks() const { return blocks_; }
   std::uint32_t claim_in(const BlockOfClaims& at, std::size_t lane) const { return seen_[at.first + lane]; }
 
-  /// `f(const Nearby&)` for all whose claims come within `reach_m` of a place, and some more. From any thread.
+  /// `f(const Nearby&)` for all whose claims come within `reach_m` of a place, and some more, but for those who walk
+  /// another_floor_m higher or lower than `ground_m`: on a bridge, below it, on other floors. From any thread.
   template <class F>
-  void near(float x_m, float z_m, float reach_m, const F& f) const {
+  void near(float x_m, float z_m, float ground_m, float reach_m, const F& of_all) const {
     if (seen_.empty()) return;
+    const auto f = [&](const Nearby& one) {
+      if (std::fabs(one.ground_m - ground_m) <= another_floor_m) of_all(one);
+    };
     const float reach = reach_m + longest_m_;
     const std::int32_t low_x = cell(x_m - reach), high_x = cell(x_m + reach);
     const std::int32_t low_z = cell(z_m - reach), high_z = cell(z_m + reach);
@@ -131,7 +136,7 @@ class ClaimBook {
   }
 
  private:
-  static constexpr float cell_m = 1.5F;
+  static constexpr float cell_m = 1.5F, another_floor_m = 1.5F;
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
   /// Of any number, also of NaN: a snapshot may have put anybody anywhere.

@@ -1,7 +1,8 @@
 #include "systems/c/c_call.h"
 
+#include <unordered_set>
+
 #include <mobil/muscle_table.h>
-#include "systems/simulation_world.h"
 
 namespace mobil::inline v0_3::c {
 namespace {
@@ -241,14 +242,14 @@ mobil_needs usual() {
 }
 
 template <>
-mobil_choosing usual() {
-  const RelevanceOptions as;
-  return {sizeof(mobil_choosing), as.slack, as.switches, as.switching_s, as.stagger, as.margin, 0};
+mobil_lod_options usual() {
+  const LodOptions as;
+  return {sizeof(mobil_lod_options), as.slack, as.switches, as.switching_s, as.stagger, as.margin, 0};
 }
 
 template <>
-mobil_chosen usual() {
-  mobil_chosen chosen{};
+mobil_lod_counts usual() {
+  mobil_lod_counts chosen{};
   chosen.size = sizeof chosen;
   chosen.factor = 1;
   chosen.machine = 1;
@@ -290,15 +291,19 @@ mobil_leg_mesh usual() {
 }
 
 template <>
-mobil_avoidance usual() {
+mobil_avoidance_options usual() {
   const AvoidanceOptions as;
-  return {sizeof(mobil_avoidance), as.radius_h, as.overlap_m, as.shoulders_h};
+  return {sizeof(mobil_avoidance_options), as.radius_h, as.overlap_m, as.shoulders_h};
 }
 template <>
-mobil_steered usual() {
-  mobil_steered steered{};
+mobil_avoidance_counts usual() {
+  mobil_avoidance_counts steered{};
   steered.size = sizeof steered;
   return steered;
+}
+template <>
+mobil_terrain_counts usual() {
+  return {sizeof(mobil_terrain_counts), 0, 0, 0, 0};
 }
 template <>
 mobil_limits usual() {
@@ -316,13 +321,24 @@ mobil_limits usual() {
 
 }  // namespace mobil::inline v0_3::c
 
-const mobil::Jobs& mobil_sim::jobs_of() const {
-  return mobil::SimulationWorld::jobs(*simulation);
-}
-
 int mobil_sim::name_people(const mobil_id* ids, std::size_t count) {
   if (ids == nullptr && count > 0) return line.refuse_null("ids");
   people.clear();
   for (std::size_t i = 0; i < count; ++i) people.push_back(mobil::c::entity_of(ids[i]));
+  return MOBIL_OK;
+}
+
+int mobil_sim::check_people() {
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    if (!world().is_person(people[i]))
+      return line.refuse(mobil::Error{{}, mobil::Status::stale_entity}, mobil::c::person_number(i));
+  }
+  return MOBIL_OK;
+}
+
+int mobil_sim::people_once() {
+  if (const int code = check_people()) return code;
+  std::unordered_set<std::uint32_t> named;
+  std::erase_if(people, [&](mobil::Entity person) { return !named.insert(person.index).second; });
   return MOBIL_OK;
 }

@@ -14,21 +14,23 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include <mobil/avoidance.h>
+#include <mobil/engine/world.h>
+#include <mobil/lod.h>
 #include <mobil/mobil.h>
 #include <mobil/pose_writer.h>
-#include <mobil/relevance.h>
 #include <mobil/simulation.h>
 #include <mobil/skin_tables.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
 #include <mobil/terrain.h>
-#include "systems/people/pose_axes.h"
+#include "systems/poses/pose_axes.h"
 
 namespace mobil::inline v0_3::c {
 
@@ -114,9 +116,9 @@ mobil_scene usual();
 template <>
 mobil_needs usual();
 template <>
-mobil_choosing usual();
+mobil_lod_options usual();
 template <>
-mobil_chosen usual();
+mobil_lod_counts usual();
 template <>
 mobil_surface_choice usual();
 template <>
@@ -128,9 +130,11 @@ mobil_skin_target usual();
 template <>
 mobil_leg_mesh usual();
 template <>
-mobil_avoidance usual();
+mobil_avoidance_options usual();
 template <>
-mobil_steered usual();
+mobil_avoidance_counts usual();
+template <>
+mobil_terrain_counts usual();
 
 /// Sizes that a struct may say it has.
 constexpr bool is_struct_size(std::size_t size) {
@@ -241,6 +245,12 @@ int muscle_set(Line& line, unsigned int bits, MuscleSet& out);
 int muscle_number(Line& line, int muscle, Muscle& out);
 int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& out);
 
+/// MOBIL_OK, or why not.
+template <class T>
+int code_of(Line& line, const Result<T>& done) {
+  return done ? int{MOBIL_OK} : line.refuse(done.error());
+}
+
 }  // namespace mobil::inline v0_3::c
 
 /// What a mobil_sim* points to.
@@ -248,10 +258,9 @@ struct mobil_sim {
   explicit mobil_sim(const mobil_memory& host) : memory(host) {}
 
   mobil::c::HostMemory memory;  // goes after everything that lives in it
+  std::optional<mobil::Threads> threads;
+  mobil::Jobs jobs;  // the host's, or those of `threads`
   std::optional<mobil::Simulation> simulation;
-  std::optional<mobil::Relevance> relevance;
-  std::optional<mobil::Avoidance> avoidance;
-  std::optional<mobil::Terrain> terrain;
   mobil::c::HostAxes axes;
   std::optional<mobil::PoseWriter> poses;
   std::optional<mobil::SurfaceWriter> surfaces;
@@ -259,19 +268,31 @@ struct mobil_sim {
   mobil::SkinTables skin_tables;
   mobil::SkinWriter skin_writer;
   mobil::c::Line line;
+  mobil_heights ground = nullptr;  // of terrain, and what it is called with
+  void* ground_user = nullptr;
   // What calls work in.
   std::vector<mobil::Entity> people;
   std::vector<float> row;
   std::vector<mobil::Root> roots;
   std::vector<mobil::TerrainHeight> heights;
+  std::vector<float> ground_row;
+  std::vector<mobil_id> ground_of;
 
   mobil::Simulation& world() { return *simulation; }
-  const mobil::Jobs& jobs_of() const;
   /// `people` become those named.
   int name_people(const mobil_id* ids, std::size_t count);
+  /// Each of `people` is one.
+  int check_people();
+  /// Each of them is one, and is named once from now on.
+  int people_once();
 };
 
 namespace mobil::inline v0_3::c {
+
+/// A function of the host's ended a tick.
+struct Stopped : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// Runs a call, f(sim), which returns its code.
 template <class F>
@@ -283,6 +304,8 @@ int call(const mobil_sim* asked, const char* name, F f) noexcept {
     return f(*sim);
   } catch (const std::bad_alloc&) {
     return sim->line.refuse(MOBIL_MEMORY, status_text(Status::no_memory));
+  } catch (const Stopped& host) {
+    return sim->line.refuse(MOBIL_REFUSED, host.what());
   } catch (const std::exception& error) {
     return sim->line.refuse(MOBIL_INTERNAL, error.what());
   }

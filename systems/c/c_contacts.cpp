@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include <mobil/systems/skin/rest_surfaces.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/rest_surfaces.h>
 #include "systems/c/c_surfaces.h"
 
 struct mobil_contacts {
@@ -80,7 +81,7 @@ int mobil_keep_apart(mobil_sim* sim, const mobil_contacts* contacts, const mobil
     std::vector<Written> written(count);
     for (std::size_t i = 0; i < count; ++i)
       if (const int code = written_of(s, *contacts, row_at(targets, i, stride, 0), written[i])) return code;
-    in_parallel(s.jobs_of(), count, [&](std::size_t begin, std::size_t end) {
+    in_parallel(s.jobs, count, [&](std::size_t begin, std::size_t end) {
       ContactWork work;
       for (std::size_t i = begin; i < end; ++i) {
         Written& one = written[i];

@@ -1,13 +1,8 @@
 // Leg muscles: chosen, changed, excited, prepared.
 
-#include <mobil/anthropometry.h>
+#include <mobil/muscle_library.h>
 #include <mobil/muscle_table.h>
-#include <mobil/systems/people/person.h>
 #include "systems/c/c_call.h"
-#include "systems/muscles/belly_library.h"
-#include "systems/muscles/leg_moments.h"
-#include "systems/muscles/leg_muscles.h"
-#include "systems/simulation_world.h"
 
 namespace mobil::inline v0_3::c {
 namespace {
@@ -32,47 +27,6 @@ int method_from(Line& line, const mobil_method* given, MuscleMethod& to) {
   mobil_method known;
   if (const int code = read_struct(line, given, "method", known)) return code;
   return method_of(line, known, to);
-}
-
-/// What `mobil_set_muscles` is refused for is found before anybody is changed.
-Result<void> check_muscles(mobil_sim& sim, Entity person, const LegMuscles& choice) {
-  Simulation& simulation = sim.world();
-  return check_leg_muscles(simulation.world(), SimulationWorld::library(simulation), simulation.tick_s(), person,
-                           choice);
-}
-
-/// The same of a method of one muscle that is there.
-Result<void> check_method(mobil_sim& sim, Entity person, Muscle muscle, const MuscleMethod& method) {
-  auto choice = choice_of(sim.world().world(), person);
-  if (!choice || !choice->muscles[static_cast<std::size_t>(muscle)])
-    return fail(fmt::format("this person has no {}; mobil_set_muscles gives muscles", muscle_name(muscle)),
-                Status::missing);
-  choice->muscles = MuscleSet(1UL << static_cast<unsigned long>(muscle));
-  choice->method = method.method;
-  choice->reduced = method.reduced;
-  return check_muscles(sim, person, *choice);
-}
-
-/// Asks `check(i)` of each person named. Who sleeps or is compact is awake and whole for it, and stays so where nobody
-/// is refused; else nobody has changed.
-template <class Check>
-int check_whole(mobil_sim& sim, Check check) {
-  Simulation& simulation = sim.world();
-  for (std::size_t i = 0; i < sim.people.size(); ++i)
-    if (!simulation.is_person(sim.people[i])) return sim.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
-  World::Attempt attempt(world_of(simulation), sim.jobs_of());
-  if (const auto done = SimulationWorld::make_muscles_whole(simulation, sim.people); !done)
-    return sim.line.refuse(done.error());
-  for (std::size_t i = 0; i < sim.people.size(); ++i)
-    if (const Result<void> ok = check(i); !ok) return sim.line.refuse(ok.error(), person_number(i));
-  attempt.keep();
-  return MOBIL_OK;
-}
-
-Result<void> set_muscles(Simulation& simulation, Entity person, const LegMuscles* choice) {
-  const bool there = !simulation.muscles(person).empty();
-  if (choice == nullptr) return there ? simulation.remove_leg_muscles(person) : Result<void>{};
-  return there ? simulation.change_leg_muscles(person, *choice) : simulation.add_leg_muscles(person, *choice);
 }
 
 }  // namespace
@@ -123,14 +77,14 @@ int mobil_prepare(mobil_sim* sim, const mobil_muscles* muscles) {
     if (const int code = read_struct(s.line, muscles, "muscles", known)) return code;
     LegMuscles choice;
     if (const int code = leg_muscles(s.line, known, choice)) return code;
-    const auto done = s.world().prepare(choice);
+    const auto done = s.world().muscle_library().prepare(choice);
     return done ? int{MOBIL_OK} : s.line.refuse(done.error());
   });
 }
 
 int mobil_bake(mobil_sim* sim, void* out, size_t room, size_t* bytes) {
   return call(sim, "mobil_bake", [&](mobil_sim& s) {
-    const std::vector<std::byte> baked = s.world().bake();
+    const std::vector<std::byte> baked = s.world().muscle_library().bake();
     if (bytes != nullptr) *bytes = baked.size();
     if (out == nullptr && bytes != nullptr) return int{MOBIL_OK};
     if (out == nullptr) return s.line.refuse_null("out");
@@ -144,7 +98,7 @@ int mobil_bake(mobil_sim* sim, void* out, size_t room, size_t* bytes) {
 int mobil_load_baked(mobil_sim* sim, const void* baked, size_t bytes) {
   return call(sim, "mobil_load_baked", [&](mobil_sim& s) {
     if (baked == nullptr) return s.line.refuse_null("baked");
-    const auto done = s.world().load_baked({static_cast<const std::byte*>(baked), bytes});
+    const auto done = s.world().muscle_library().load({static_cast<const std::byte*>(baked), bytes});
     return done ? int{MOBIL_OK} : s.line.refuse(done.error());
   });
 }
@@ -152,21 +106,14 @@ int mobil_load_baked(mobil_sim* sim, const void* baked, size_t bytes) {
 int mobil_set_muscles(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_muscles* muscles) {
   return call(sim, "mobil_set_muscles", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
-    LegMuscles choice;
+    std::optional<LegMuscles> choice;
     if (muscles != nullptr) {
       mobil_muscles known;
       if (const int code = read_struct(s.line, muscles, "muscles", known)) return code;
-      if (const int code = leg_muscles(s.line, known, choice)) return code;
+      if (const int code = leg_muscles(s.line, known, choice.emplace())) return code;
     }
-    const auto check = [&](std::size_t i) {
-      return muscles == nullptr ? Result<void>{} : check_muscles(s, s.people[i], choice);
-    };
-    if (const int code = check_whole(s, check)) return code;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto done = set_muscles(s.world(), s.people[i], muscles == nullptr ? nullptr : &choice);
-      if (!done) return s.line.refuse(done.error(), person_number(i));
-    }
-    return int{MOBIL_OK};
+    if (const int code = s.people_once()) return code;
+    return code_of(s.line, s.world().set_muscles(s.people, choice));
   });
 }
 
@@ -177,13 +124,8 @@ int mobil_set_method(mobil_sim* sim, const mobil_id* ids, size_t count, int musc
     if (const int code = muscle_number(s.line, muscle, of)) return code;
     MuscleMethod to;
     if (const int code = method_from(s.line, method, to)) return code;
-    const auto check = [&](std::size_t i) { return check_method(s, s.people[i], of, to); };
-    if (const int code = check_whole(s, check)) return code;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto done = s.world().set_method(s.people[i], of, to);
-      if (!done) return s.line.refuse(done.error(), person_number(i));
-    }
-    return int{MOBIL_OK};
+    if (const int code = s.people_once()) return code;
+    return code_of(s.line, s.world().set_method(s.people, of, to));
   });
 }
 
@@ -217,22 +159,8 @@ int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int 
     if (const int code = muscle_number(s.line, muscle, of)) return code;
     Side on{};
     if (const int code = one_of(s.line, side, Side::left, "side", on)) return code;
-    const auto check = [&](std::size_t i) -> Result<void> {
-      const Entity one = s.world().muscle(s.people[i], of, on);
-      const auto source = s.world().get<ExcitationSource>(one);
-      if (!source || *source != static_cast<std::uint64_t>(ExcitationSource::host))
-        return fail(
-            fmt::format("this person has no {} of MOBIL_BY_HOST; mobil_set_muscles makes it so", muscle_name(of)),
-            Status::missing);
-      if (const float e = *row_at(excitation, i, apart, sizeof(float)); !std::isfinite(e))
-        return fail(fmt::format("an excitation of {}; choose 0.01 to 1", e));
-      return {};
-    };
-    if (const int code = check_whole(s, check)) return code;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto done = s.world().set_excitation(s.people[i], of, on, *row_at(excitation, i, apart, sizeof(float)));
-      if (!done) return s.line.refuse(done.error(), person_number(i));
-    }
-    return int{MOBIL_OK};
+    s.row.clear();
+    for (std::size_t i = 0; i < count; ++i) s.row.push_back(*row_at(excitation, i, apart, sizeof(float)));
+    return code_of(s.line, s.world().set_excitation(s.people, of, on, s.row));
   });
 }

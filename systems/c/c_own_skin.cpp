@@ -4,12 +4,13 @@
 
 #include <vector>
 
-#include <mobil/assets/skin/own_skin.h>
+#include <mobil/assets/surfaces/own_skin.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/systems/muscles/human.h>
 #include <mobil/systems/people/person.h>
-#include <mobil/systems/skin/rest_surfaces.h>
-#include <mobil/systems/skinning/follow_skin.h>
-#include <mobil/systems/skinning/place_skin.h>
+#include <mobil/systems/surfaces/follow_skin.h>
+#include <mobil/systems/surfaces/place_skin.h>
+#include <mobil/systems/surfaces/rest_surfaces.h>
 #include "assets/surfaces/surface_mesh.h"
 #include "systems/c/c_skin.h"
 #include "systems/c/c_surfaces.h"
@@ -164,9 +165,9 @@ int mobil_write_own_skin(mobil_sim* sim, const mobil_own_skin* skin, const mobil
       requests[i].positions = one.beneath.positions();
       requests[i].normals = one.beneath.normals();
     }
-    if (const auto done = s.skin_writer.write(s.world().world(), requests, s.jobs_of()); !done)
+    if (const auto done = s.skin_writer.write(s.world().world(), requests, s.jobs); !done)
       return s.line.refuse(done.error());
-    in_parallel(s.jobs_of(), count, [&](std::size_t begin, std::size_t end) {
+    in_parallel(s.jobs, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         Following& one = following[i];
         follow_skin(skin->own, one.beneath.position, one.beneath.normal, one.own.position, one.own.normal);

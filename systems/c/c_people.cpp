@@ -1,19 +1,21 @@
 // People: who they are, how they walk, where they are, and how much of them there is.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <mobil/components/avoidance.h>
 #include <mobil/components/compact.h>
 #include <mobil/components/footing.h>
-#include <mobil/components/relevance.h>
+#include <mobil/components/lod.h>
 #include <mobil/components/sleep.h>
 #include <mobil/forces.h>
 #include <mobil/systems/people/person.h>
+#include <mobil/systems/people/step_watch.h>
 #include "systems/c/c_call.h"
-#include "systems/muscles/sleep.h"
-#include "systems/people/by_table.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
+#include "systems/states/sleep.h"
 
 namespace {
 
@@ -78,7 +80,7 @@ int spawn_posed(mobil_sim& sim, std::span<const SpawnRequest> asked, const LegMu
       const auto person = world.spawn_posed(asked[i].body);
       if (person) sim.people.push_back(*person);
       auto done = person ? Result<void>{} : Result<void>(tl::unexpected(person.error()));
-      if (done && muscles != nullptr) done = world.add_leg_muscles(*person, *muscles);
+      if (done && muscles != nullptr) done = world.set_muscles(*person, *muscles);
       if (done) continue;
       undo();
       return sim.line.refuse(done.error(), person_number(i));
@@ -116,7 +118,7 @@ int change_all(mobil_sim& sim, std::span<const WalkChange> changes) {
     const auto possible = changed_gait(world.world(), change.human, change.gait.value_or(GaitChange{}));
     if (!possible) return sim.line.refuse(possible.error(), person_number(i));
   }
-  const auto done = world.change_walks(changes);
+  const auto done = world.change_gait(changes);
   return done ? int{MOBIL_OK} : sim.line.refuse(done.error());
 }
 
@@ -131,20 +133,8 @@ Pose<float> pose_from(const HostAxes& axes, const float* given) {
   return pose;
 }
 
-/// A call that takes people and says how many it changed.
-template <class F>
-int change_state(mobil_sim* sim, const char* name, const mobil_id* ids, std::size_t count, std::size_t* changed, F f) {
-  return call(sim, name, [&](mobil_sim& s) {
-    if (const int code = s.name_people(ids, count)) return code;
-    const Result<std::size_t> done = f(s.world(), s.people);
-    if (!done) return s.line.refuse(done.error());
-    if (changed != nullptr) *changed = *done;
-    return int{MOBIL_OK};
-  });
-}
-Result<std::size_t> all_of(Result<void> done, std::size_t count) {
-  return done.map([&] { return count; });
-}
+// In the order of PersonState.
+constexpr std::array<int, 4> state_numbers = {MOBIL_FULL, MOBIL_COMPACT, MOBIL_ASLEEP, MOBIL_POSED};
 
 }  // namespace
 
@@ -189,8 +179,9 @@ int mobil_spawn(mobil_sim* sim, const mobil_person* people, size_t stride, size_
 }
 
 int mobil_despawn(mobil_sim* sim, const mobil_id* ids, size_t count) {
-  return change_state(sim, "mobil_despawn", ids, count, nullptr, [](Simulation& world, std::span<const Entity> people) {
-    return all_of(world.despawn(people), people.size());
+  return call(sim, "mobil_despawn", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    return code_of(s.line, s.world().despawn(s.people));
   });
 }
 
@@ -256,22 +247,53 @@ int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out) {
   });
 }
 
-int mobil_state(mobil_sim* sim, mobil_id id, int* bits) {
-  return call(sim, "mobil_state", [&](mobil_sim& s) {
+int mobil_has(mobil_sim* sim, mobil_id id, int* bits) {
+  return call(sim, "mobil_has", [&](mobil_sim& s) {
     if (bits == nullptr) return s.line.refuse_null("bits");
-    const Simulation& world = s.world();
+    const World& world = s.world().world();
     const Entity person = entity_of(id);
-    if (!world.is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
-    *bits = (is_posed(world.world(), person) ? MOBIL_POSED : 0) | (world.is_asleep(person) ? MOBIL_ASLEEP : 0) |
-            (world.is_compact(person) ? MOBIL_COMPACT : 0) |
-            (has_any_muscles(world.world(), person) ? MOBIL_HAS_MUSCLES : 0) |
-            (has_forces(world.world(), person) ? MOBIL_HAS_FORCES : 0) |
-            (is_managed(world.world(), person) ? MOBIL_MANAGED : 0) |
-            (is_watched(world.world(), person) ? MOBIL_WATCHED : 0) |
-            (world.world().has<Course>(person) ? MOBIL_AVOIDS : 0) |
-            (world.world().has<Footing>(person) ? MOBIL_ON_GROUND : 0) |
-            (has_fat(world.world(), person) ? MOBIL_HAS_FAT : 0);
+    if (!s.world().is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
+    *bits = (has_any_muscles(world, person) ? MOBIL_HAS_MUSCLES : 0) |
+            (has_forces(world, person) ? MOBIL_HAS_FORCES : 0) | (is_managed(world, person) ? MOBIL_MANAGED : 0) |
+            (is_watched(world, person) ? MOBIL_WATCHED : 0) | (world.has<Course>(person) ? MOBIL_AVOIDS : 0) |
+            (world.has<Footing>(person) ? MOBIL_ON_GROUND : 0) | (has_fat(world, person) ? MOBIL_HAS_FAT : 0);
     return int{MOBIL_OK};
+  });
+}
+
+int mobil_get_state(mobil_sim* sim, mobil_id id, int* state) {
+  return call(sim, "mobil_get_state", [&](mobil_sim& s) {
+    if (state == nullptr) return s.line.refuse_null("state");
+    const auto is = s.world().state(entity_of(id));
+    if (!is) return s.line.refuse(Error{{}, Status::stale_entity});
+    *state = state_numbers[static_cast<std::size_t>(*is)];
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_set_state(mobil_sim* sim, const mobil_id* ids, size_t count, int state, float within_m, size_t* changed) {
+  return call(sim, "mobil_set_state", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    const auto to = std::ranges::find(state_numbers, state);
+    if (to == state_numbers.end())
+      return s.line.refuse(MOBIL_REFUSED,
+                           fmt::format("state {}; choose MOBIL_FULL, MOBIL_COMPACT or MOBIL_ASLEEP", state));
+    const auto done = s.world().set_state(s.people, static_cast<PersonState>(to - state_numbers.begin()), within_m);
+    if (!done) return s.line.refuse(done.error());
+    if (changed != nullptr) *changed = *done;
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_enable(mobil_sim* sim, const mobil_id* ids, size_t count, int feature, int on) {
+  return call(sim, "mobil_enable", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    Feature what{};
+    if (const int code = one_of(s.line, feature, Feature::forces, "feature", what)) return code;
+    const auto done = s.world().enable(s.people, what, on != 0);
+    if (!done && done.error().status == Status::missing)
+      return s.line.refuse(MOBIL_MISSING, "one of them is posed and takes no steps; leave them out");
+    return code_of(s.line, done);
   });
 }
 
@@ -342,43 +364,5 @@ int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const flo
       }
     }
     return int{MOBIL_OK};
-  });
-}
-
-int mobil_sleep(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed) {
-  return change_state(sim, "mobil_sleep", ids, count, changed,
-                      [](Simulation& world, std::span<const Entity> people) { return world.sleep(people); });
-}
-int mobil_wake(mobil_sim* sim, const mobil_id* ids, size_t count, float within_m) {
-  return change_state(sim, "mobil_wake", ids, count, nullptr, [&](Simulation& world, std::span<const Entity> people) {
-    return all_of(world.wake(people, within_m), people.size());
-  });
-}
-int mobil_compact(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed) {
-  return change_state(sim, "mobil_compact", ids, count, changed,
-                      [](Simulation& world, std::span<const Entity> people) { return world.compact(people); });
-}
-int mobil_expand(mobil_sim* sim, const mobil_id* ids, size_t count) {
-  return change_state(sim, "mobil_expand", ids, count, nullptr, [](Simulation& world, std::span<const Entity> people) {
-    return all_of(world.expand(people), people.size());
-  });
-}
-
-int mobil_set_fat_wobble(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
-  return call(sim, "mobil_set_fat_wobble", [&](mobil_sim& s) {
-    if (const int code = s.name_people(ids, count)) return code;
-    const auto done = s.world().set_fat_wobble(s.people, on != 0);
-    return done ? MOBIL_OK : s.line.refuse(done.error());
-  });
-}
-
-int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
-  return call(sim, "mobil_set_forces", [&](mobil_sim& s) {
-    if (const int code = s.name_people(ids, count)) return code;
-    for (std::size_t i = 0; i < count; ++i)
-      if (!s.world().is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
-    drop_repeated(s.people);
-    const auto done = s.world().set_forces(s.people, on != 0);
-    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
   });
 }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include <mobil/systems/people/limit_watch.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/limits/limit_watch.h>
 #include <mobil/systems/people/person.h>
 #include "systems/c/c_call.h"
 
@@ -93,16 +94,6 @@ int mobil_place_many(mobil_sim* sim, const mobil_id* ids, size_t count, const fl
   });
 }
 
-int mobil_watch(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
-  return call(sim, "mobil_watch", [&](mobil_sim& s) {
-    if (const int code = s.name_people(ids, count)) return code;
-    const auto done = s.world().watch_steps(s.people, on != 0);
-    if (!done && done.error().status == Status::missing)
-      return s.line.refuse(MOBIL_MISSING, "one of them is posed and takes no steps; leave them out");
-    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
-  });
-}
-
 int mobil_events(mobil_sim* sim, mobil_event* out, size_t room, size_t* count) {
   return call(sim, "mobil_events", [&](mobil_sim& s) {
     const std::span<const StepEvent> events = s.world().events();
@@ -130,7 +121,7 @@ int mobil_broken_limits(mobil_sim* sim, mobil_id id, char* text, size_t room, si
     const Entity person = entity_of(id);
     if (!s.world().is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
     std::string lines;
-    for (const BrokenLimit& broken : s.world().broken_limits(person)) lines += described(broken) + '\n';
+    for (const BrokenLimit& broken : broken_limits(s.world().world(), person)) lines += described(broken) + '\n';
     if (length != nullptr) *length = lines.size();
     if (text == nullptr && length != nullptr) return int{MOBIL_OK};
     if (text == nullptr) return s.line.refuse_null("text");

@@ -5,6 +5,7 @@
 #include <mobil/components/activation.h>
 #include <mobil/forces.h>
 #include <mobil/muscle_table.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "systems/c/c_call.h"
 
 namespace {
@@ -127,7 +128,7 @@ int read_rows(mobil_sim& s, const RowKind& kind, std::size_t count, float* out, 
 int read_nodes(mobil_sim& s, std::size_t count, float* out, std::size_t stride) {
   std::size_t floats = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const NodalView nodes = s.world().nodal_displacement(s.people[i]);
+    const NodalView nodes = nodal_displacement(s.world().world(), s.people[i]);
     if (nodes.first == nullptr)
       return s.line.refuse(MOBIL_MISSING, fmt::format("person {}: this muscle has no control points", i));
     if (i == 0) {
@@ -219,8 +220,7 @@ int mobil_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_p
     const std::size_t person = (number - 1) * (segment_stride == 0 ? one : segment_stride) + one;
     const std::size_t apart = stride == 0 ? person : stride;
     const std::span bytes(static_cast<std::byte*>(out), (count - 1) * apart + person);
-    const auto done =
-        s.poses->write(s.world().world(), s.people, ahead_s, as, {bytes, apart, segment_stride}, s.jobs_of());
+    const auto done = s.poses->write(s.world().world(), s.people, ahead_s, as, {bytes, apart, segment_stride}, s.jobs);
     return done ? int{MOBIL_OK} : s.line.refuse(done.error());
   });
 }
@@ -249,7 +249,7 @@ int mobil_muscle_row_floats(mobil_sim* sim, int what, mobil_id id, int muscle, i
       floats = muscle_row_kinds[static_cast<std::size_t>(what)].floats;
       return int{MOBIL_OK};
     }
-    const NodalView nodes = s.world().nodal_displacement(s.people[0]);
+    const NodalView nodes = nodal_displacement(s.world().world(), s.people[0]);
     if (nodes.first == nullptr) return s.line.refuse(MOBIL_MISSING, "this muscle has no control points");
     floats = static_cast<int>(3 * nodes.nodes);
     return int{MOBIL_OK};

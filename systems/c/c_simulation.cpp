@@ -36,14 +36,15 @@ int make(mobil_sim& sim, const mobil_options* given) {
   SimulationOptions as;
   as.tick_s = options.tick_s;
   as.max_frame_s = options.max_frame_s;
-  as.threads = options.threads;
   if (options.jobs.parallel_for != nullptr)
-    as.jobs = Jobs{options.jobs.user, options.jobs.parallel_for, std::max<std::size_t>(1, options.jobs.threads)};
+    sim.jobs = {options.jobs.user, options.jobs.parallel_for, std::max<std::size_t>(1, options.jobs.threads)};
+  else
+    sim.jobs = sim.threads.emplace(options.threads).jobs();
+  as.jobs = sim.jobs;
   if (options.memory.allocate != nullptr) as.memory = &sim.memory;
   auto made = Simulation::make(as);
   if (!made) return sim.line.refuse(made.error());
   sim.simulation.emplace(std::move(*made));
-  sim.terrain.emplace(*sim.simulation);
   sim.poses.emplace(as.memory);
   sim.surfaces.emplace(as.memory);
   return MOBIL_OK;
@@ -85,10 +86,10 @@ int mobil_defaults(int which, void* filled, size_t size) {
       return fill<mobil_scene>(filled, size);
     case MOBIL_NEEDS:
       return fill<mobil_needs>(filled, size);
-    case MOBIL_CHOOSING:
-      return fill<mobil_choosing>(filled, size);
-    case MOBIL_CHOSEN:
-      return fill<mobil_chosen>(filled, size);
+    case MOBIL_LOD_OPTIONS:
+      return fill<mobil_lod_options>(filled, size);
+    case MOBIL_LOD_COUNTS:
+      return fill<mobil_lod_counts>(filled, size);
     case MOBIL_SURFACE_CHOICE:
       return fill<mobil_surface_choice>(filled, size);
     case MOBIL_SURFACE_TARGET:
@@ -99,10 +100,12 @@ int mobil_defaults(int which, void* filled, size_t size) {
       return fill<mobil_skin_target>(filled, size);
     case MOBIL_LEG_MESH:
       return fill<mobil_leg_mesh>(filled, size);
-    case MOBIL_AVOIDANCE:
-      return fill<mobil_avoidance>(filled, size);
-    case MOBIL_STEERED:
-      return fill<mobil_steered>(filled, size);
+    case MOBIL_AVOIDANCE_OPTIONS:
+      return fill<mobil_avoidance_options>(filled, size);
+    case MOBIL_AVOIDANCE_COUNTS:
+      return fill<mobil_avoidance_counts>(filled, size);
+    case MOBIL_TERRAIN_COUNTS:
+      return fill<mobil_terrain_counts>(filled, size);
     default:
       return MOBIL_REFUSED;
   }
@@ -188,6 +191,21 @@ int mobil_cost(mobil_sim* sim, int system, mobil_system* out) {
     const System& one = schedule.systems()[at];
     const Timing& timing = schedule.timings()[at];
     *out = {one.name.c_str(), one.module.c_str(), timing.last_seconds, static_cast<double>(timing.last_rows)};
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_phase_cost(mobil_sim* sim, int phase, mobil_phase* out) {
+  return call(sim, "mobil_phase_cost", [&](mobil_sim& s) {
+    const std::span before = std::as_const(s.world().schedule()).before(), after = s.world().schedule().after();
+    if (out == nullptr) return s.line.refuse_null("out");
+    const auto at = static_cast<std::size_t>(phase);
+    const std::size_t count = before.size() + after.size();
+    if (phase < 0 || at >= count)
+      return s.line.refuse(MOBIL_MISSING, fmt::format("phase {}; there are {}", phase, count));
+    const bool is_after = at >= before.size();
+    const TimedPhase& one = is_after ? after[at - before.size()] : before[at];
+    *out = {one.phase.name.c_str(), one.module.c_str(), is_after ? 1 : 0, one.last_seconds};
     return int{MOBIL_OK};
   });
 }

@@ -116,10 +116,10 @@ int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t st
       if (const int code = read_struct(s.line, row_at(targets, i, stride, 0), "targets", as)) return code;
       if (const int code = request_of(s, as, posed[i], requests[i])) return code;
     }
-    const auto done = s.skin_writer.write(s.world().world(), requests, s.jobs_of());
+    const auto done = s.skin_writer.write(s.world().world(), requests, s.jobs);
     if (!done) return s.line.refuse(done.error());
     if (s.axes.ours()) return int{MOBIL_OK};
-    in_parallel(s.jobs_of(), count, [&](std::size_t begin, std::size_t end) {
+    in_parallel(s.jobs, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const SkinRequest& request = requests[i];
         const std::size_t vertices = request.shape.skin->rest.size();

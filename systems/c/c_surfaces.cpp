@@ -1,6 +1,7 @@
 // Bones and muscles as triangles in the host's buffers.
 
 #include "systems/c/c_surfaces.h"
+#include <mobil/systems/muscles/human.h>
 
 namespace {
 
@@ -132,10 +133,10 @@ int mobil_write_surfaces(mobil_sim* sim, const mobil_surface_target* targets, si
       if (const int code = read_struct(s.line, row_at(targets, i, stride, 0), "targets", all[i].as)) return code;
       if (const int code = request_of(s, all[i], requests[i])) return code;
     }
-    const auto done = s.surfaces->write(s.world().world(), requests, s.jobs_of());
+    const auto done = s.surfaces->write(s.world().world(), requests, s.jobs);
     if (!done) return s.line.refuse(done.error());
     if (s.axes.ours()) return int{MOBIL_OK};
-    for (const SurfaceRequest& request : requests) turn_all(s.axes, s.jobs_of(), request);
+    for (const SurfaceRequest& request : requests) turn_all(s.axes, s.jobs, request);
     return int{MOBIL_OK};
   });
 }

@@ -10,19 +10,11 @@
 #include <mobil/systems/people/person.h>
 #include "systems/c/c_call.h"
 #include "systems/people/by_table.h"
-#include "systems/simulation_world.h"
 
 namespace {
 
 using namespace mobil;
 using namespace mobil::c;
-
-int avoidance_of(mobil_sim& sim, Avoidance*& out) {
-  if (!sim.avoidance)
-    return sim.line.refuse(MOBIL_MISSING, "nobody avoids anybody yet; mobil_start_avoidance begins that");
-  out = &*sim.avoidance;
-  return MOBIL_OK;
-}
 
 /// Before anybody is changed: that all of them can be.
 int check_avoiders(mobil_sim& sim, bool on) {
@@ -30,21 +22,22 @@ int check_avoiders(mobil_sim& sim, bool on) {
     const Entity person = sim.people[i];
     if (!sim.world().is_person(person)) return sim.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
     if (on && is_posed(sim.world().world(), person))
-      return sim.line.refuse(MOBIL_MISSING,
-                             fmt::format("person {} is posed by the host; hand them over by mobil_set_discs", i));
+      return sim.line.refuse(
+          MOBIL_MISSING, fmt::format("person {} is posed by the host; hand them over by mobil_avoidance_set_discs", i));
     if (!on && !sim.world().world().has<Course>(person))
-      return sim.line.refuse(MOBIL_MISSING, fmt::format("person {} avoids nobody; mobil_avoid begins that", i));
+      return sim.line.refuse(MOBIL_MISSING,
+                             fmt::format("person {} avoids nobody; mobil_avoidance_manage begins that", i));
   }
   return MOBIL_OK;
 }
 
 /// All of them, or none. Who avoids others already keeps their wish.
-int set_avoiding(mobil_sim& sim, Avoidance& avoidance, bool on) {
+int set_avoiding(mobil_sim& sim, bool on) {
   std::vector<Entity> changes;
   for (const Entity person : sim.people)
     if (sim.world().world().has<Course>(person) != on) changes.push_back(person);
   drop_repeated(changes);
-  const auto done = on ? avoidance.manage(changes) : avoidance.release(changes);
+  const auto done = on ? sim.world().avoidance().manage(changes) : sim.world().avoidance().release(changes);
   return done ? int{MOBIL_OK} : sim.line.refuse(done.error());
 }
 
@@ -62,37 +55,49 @@ TerrainHeight height_from(const HostAxes& axes, const float* theirs) {
   return {height_m, -n.x / n.y, -n.z / n.y};
 }
 
+/// The answers of the host's function.
+void ask_host(mobil_sim& sim, std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+  std::vector<float>& places = sim.row;
+  std::vector<float>& ground = sim.ground_row;
+  std::vector<mobil_id>& who = sim.ground_of;
+  places.resize(3 * at.size());
+  ground.assign(4 * at.size(), 0);
+  who.resize(at.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    sim.axes.place_to({at[i].x_m, 0, at[i].z_m}, &places[3 * i]);
+    who[i] = id_of(at[i].human);
+  }
+  if (const int code = sim.ground(sim.ground_user, places.data(), who.data(), at.size(), ground.data()); code != 0)
+    throw Stopped(fmt::format("the function of mobil_terrain_set_heights returned {}", code));
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = height_from(sim.axes, &ground[4 * i]);
+}
+
 }  // namespace
 
-int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options) {
-  return call(sim, "mobil_start_avoidance", [&](mobil_sim& s) {
-    auto known = usual<mobil_avoidance>();
+int mobil_avoidance_set_options(mobil_sim* sim, const mobil_avoidance_options* options) {
+  return call(sim, "mobil_avoidance_set_options", [&](mobil_sim& s) {
+    auto known = usual<mobil_avoidance_options>();
     if (options != nullptr) {
       if (const int code = read_struct(s.line, options, "options", known)) return code;
     }
     if (!std::isfinite(known.radius_h) || !std::isfinite(known.overlap_m) || !std::isfinite(known.shoulders_h))
       return s.line.refuse(MOBIL_REFUSED,
                            "radius_h, overlap_m or shoulders_h is not finite; mobil_defaults gives the usual ones");
-    Avoidance made(s.world(), {known.radius_h, known.overlap_m, known.shoulders_h});
-    s.avoidance.emplace(std::move(made));
+    s.world().avoidance().set_options({known.radius_h, known.overlap_m, known.shoulders_h});
     return int{MOBIL_OK};
   });
 }
 
-int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
-  return call(sim, "mobil_avoid", [&](mobil_sim& s) {
-    Avoidance* avoidance = nullptr;
-    if (const int code = avoidance_of(s, avoidance)) return code;
+int mobil_avoidance_manage(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
+  return call(sim, "mobil_avoidance_manage", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
     if (const int code = check_avoiders(s, on != 0)) return code;
-    return set_avoiding(s, *avoidance, on != 0);
+    return set_avoiding(s, on != 0);
   });
 }
 
-int mobil_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes, size_t stride) {
-  return call(sim, "mobil_want", [&](mobil_sim& s) {
-    Avoidance* avoidance = nullptr;
-    if (const int code = avoidance_of(s, avoidance)) return code;
+int mobil_avoidance_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes, size_t stride) {
+  return call(sim, "mobil_avoidance_want", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
     if (const int code = row_stride(s.line, wishes, count, 2, "wishes", stride)) return code;
     std::vector<WalkWish> to(count);
@@ -100,30 +105,24 @@ int mobil_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* w
       const float* const row = row_at(wishes, i, stride, 0);
       to[i] = {s.people[i], row[0], row[1]};
     }
-    const auto done = avoidance->want(to);
-    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+    return code_of(s.line, s.world().avoidance().want(to));
   });
 }
 
-int mobil_set_walls(mobil_sim* sim, const float* walls, size_t stride, size_t count) {
-  return call(sim, "mobil_set_walls", [&](mobil_sim& s) {
-    Avoidance* avoidance = nullptr;
-    if (const int code = avoidance_of(s, avoidance)) return code;
+int mobil_avoidance_set_walls(mobil_sim* sim, const float* walls, size_t stride, size_t count) {
+  return call(sim, "mobil_avoidance_set_walls", [&](mobil_sim& s) {
     if (const int code = row_stride(s.line, walls, count, 6, "walls", stride)) return code;
     std::vector<Wall> to(count);
     for (std::size_t i = 0; i < count; ++i) {
       const float* const row = row_at(walls, i, stride, 0);
       to[i] = {ground_point(s.axes, row), ground_point(s.axes, row + 3)};
     }
-    const auto done = avoidance->set_walls(to);
-    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+    return code_of(s.line, s.world().avoidance().set_walls(to));
   });
 }
 
-int mobil_set_discs(mobil_sim* sim, const float* discs, size_t stride, size_t count) {
-  return call(sim, "mobil_set_discs", [&](mobil_sim& s) {
-    Avoidance* avoidance = nullptr;
-    if (const int code = avoidance_of(s, avoidance)) return code;
+int mobil_avoidance_set_discs(mobil_sim* sim, const float* discs, size_t stride, size_t count) {
+  return call(sim, "mobil_avoidance_set_discs", [&](mobil_sim& s) {
     if (const int code = row_stride(s.line, discs, count, 7, "discs", stride)) return code;
     std::vector<Disc> to(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -131,43 +130,47 @@ int mobil_set_discs(mobil_sim* sim, const float* discs, size_t stride, size_t co
       const Vec3<float> velocity = s.axes.place_from(row + 3);
       to[i] = {ground_point(s.axes, row), row[6] / s.axes.units_per_m, velocity.x, velocity.z};
     }
-    const auto done = avoidance->set_discs(to);
-    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+    return code_of(s.line, s.world().avoidance().set_discs(to));
   });
 }
 
-int mobil_steer(mobil_sim* sim, mobil_steered* out) {
-  return call(sim, "mobil_steer", [&](mobil_sim& s) {
-    Avoidance* avoidance = nullptr;
-    if (const int code = avoidance_of(s, avoidance)) return code;
-    if (out != nullptr) {  // before anything is done
-      if (const int code = write_struct(s.line, usual<mobil_steered>(), out, "out")) return code;
-    }
-    const AvoidanceReport did = avoidance->update();
-    if (out == nullptr) return int{MOBIL_OK};
-    const mobil_steered to = {sizeof to, did.people, did.chose, did.kept_claim, did.gave_way, did.waiting};
+int mobil_avoidance_report(mobil_sim* sim, mobil_avoidance_counts* out) {
+  return call(sim, "mobil_avoidance_report", [&](mobil_sim& s) {
+    const AvoidanceReport& did = s.world().avoidance().report();
+    const mobil_avoidance_counts to = {sizeof to, did.people, did.chose, did.kept_claim, did.gave_way, did.waiting};
     return write_struct(s.line, to, out, "out");
   });
 }
 
-int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
-  return call(sim, "mobil_set_on_ground", [&](mobil_sim& s) {
-    if (const int code = s.name_people(ids, count)) return code;
-    const auto done = on != 0 ? s.terrain->manage(s.people) : s.terrain->release(s.people);
-    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
-  });
-}
-
-int mobil_set_slowing(mobil_sim* sim, int on) {
-  return call(sim, "mobil_set_slowing", [&](mobil_sim& s) {
-    s.terrain->set_options({.slows_down = on != 0});
+int mobil_terrain_set_heights(mobil_sim* sim, mobil_heights heights, void* user) {
+  return call(sim, "mobil_terrain_set_heights", [&](mobil_sim& s) {
+    s.ground = heights;
+    s.ground_user = user;
+    TerrainHeights asks;
+    if (heights != nullptr)
+      asks = [&s](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) { ask_host(s, at, out); };
+    s.world().terrain().set_heights(std::move(asks));
     return int{MOBIL_OK};
   });
 }
 
-int mobil_ask_ground(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count) {
-  return call(sim, "mobil_ask_ground", [&](mobil_sim& s) {
-    const std::span<const TerrainQuery> asked = s.terrain->ask();
+int mobil_terrain_manage(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
+  return call(sim, "mobil_terrain_manage", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    return code_of(s.line, on != 0 ? s.world().terrain().manage(s.people) : s.world().terrain().release(s.people));
+  });
+}
+
+int mobil_terrain_set_slowing(mobil_sim* sim, int on) {
+  return call(sim, "mobil_terrain_set_slowing", [&](mobil_sim& s) {
+    s.world().terrain().set_options({.slows_down = on != 0});
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_terrain_ask(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count) {
+  return call(sim, "mobil_terrain_ask", [&](mobil_sim& s) {
+    const std::span<const TerrainQuery> asked = s.world().terrain().ask();
     if (count != nullptr) *count = asked.size();
     if (places == nullptr && count != nullptr) return int{MOBIL_OK};
     if (const int code = row_stride(s.line, places, asked.size(), 3, "places", stride)) return code;
@@ -182,15 +185,23 @@ int mobil_ask_ground(mobil_sim* sim, float* places, size_t stride, mobil_id* who
   });
 }
 
-int mobil_answer_ground(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable) {
-  return call(sim, "mobil_answer_ground", [&](mobil_sim& s) {
+int mobil_terrain_answer(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable) {
+  return call(sim, "mobil_terrain_answer", [&](mobil_sim& s) {
     if (const int code = row_stride(s.line, ground, count, 4, "ground", stride)) return code;
     std::vector<TerrainHeight>& heights = s.heights;
     heights.resize(count);
     for (std::size_t i = 0; i < count; ++i) heights[i] = height_from(s.axes, row_at(ground, i, stride, 0));
-    const auto done = s.terrain->answer(heights);
+    const auto done = s.world().terrain().answer(heights);
     if (!done) return s.line.refuse(done.error());
-    if (unusable != nullptr) *unusable = done->unusable;
+    if (unusable != nullptr) *unusable = *done;
     return int{MOBIL_OK};
+  });
+}
+
+int mobil_terrain_report(mobil_sim* sim, mobil_terrain_counts* out) {
+  return call(sim, "mobil_terrain_report", [&](mobil_sim& s) {
+    const TerrainReport& did = s.world().terrain().report();
+    const mobil_terrain_counts to = {sizeof to, did.people, did.asked, did.places, did.unusable};
+    return write_struct(s.line, to, out, "out");
   });
 }

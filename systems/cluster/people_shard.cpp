@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <mobil/lod.h>
 #include <mobil/shard_bytes.h>
 #include "engine/row_hash.h"
 
@@ -16,8 +17,8 @@ struct Numbered {
 };
 
 /// Decisions must follow from state alone.
-RelevanceOptions choosing(const LegMuscles& muscles) {
-  RelevanceOptions options;
+LodOptions choosing(const LegMuscles& muscles) {
+  LodOptions options;
   options.machine_factor = 1;
   options.leg_muscles = muscles;
   return options;
@@ -57,8 +58,9 @@ PersonCommand look(const Viewpoint& camera, float tolerance_px, float asleep_bey
 PeopleShard::PeopleShard(std::uint32_t shard, const PeopleShardOptions& options)
     : shard_(shard), options_(options), simulation_(options.simulation) {
   if (!options.muscles) return;
-  relevance_.emplace(simulation_, choosing(*options.muscles));
-  if (auto done = relevance_->set_scene(options.scene); !done) throw std::invalid_argument(done.error().message);
+  if (auto done = simulation_.lod().set_options(choosing(*options.muscles)); !done)
+    throw std::invalid_argument(done.error().message);
+  if (auto done = simulation_.lod().set_scene(options.scene); !done) throw std::invalid_argument(done.error().message);
 }
 
 Entity PeopleShard::find(std::uint64_t number) const {
@@ -75,7 +77,6 @@ Result<void> PeopleShard::apply(std::span<const std::byte> commands) {
     const bool counts = command.wish != Wish::look || shard_ == 0;  // all shards are asked to look: one tells
     refused_ += obey(command) || !counts ? 0 : 1;
   }
-  if (relevance_) relevance_->update();
   return {};
 }
 
@@ -119,10 +120,10 @@ bool PeopleShard::obey_come(const PersonCommand& command) {
   request.z_m = value[9];
   request.heading_rad = value[10];
   request.muscles = options_.muscles;
-  if (relevance_) request.parts = relevance_parts();
+  if (options_.muscles) request.parts = managed_parts();
   Entity entity;
   if (!simulation_.spawn({&request, 1}, {&entity, 1})) return false;
-  if (relevance_ && !relevance_->manage(entity)) {
+  if (options_.muscles && !simulation_.lod().manage(entity)) {
     simulation_.despawn(entity);
     return false;
   }
@@ -131,7 +132,7 @@ bool PeopleShard::obey_come(const PersonCommand& command) {
 }
 
 bool PeopleShard::obey_look(const PersonCommand& command) {
-  if (!relevance_) return false;
+  if (!options_.muscles) return false;
   const auto& value = command.value;
   SceneNeeds needs = options_.scene;
   needs.camera = Viewpoint{.position_m = {value[0], value[1], value[2]},
@@ -142,7 +143,7 @@ bool PeopleShard::obey_look(const PersonCommand& command) {
                            .reach_m = value[9]};
   needs.tolerance_px = value[10];
   needs.asleep_beyond_m = value[11] != 0 ? std::optional(value[11]) : std::nullopt;
-  if (!relevance_->set_scene(needs)) return false;
+  if (!simulation_.lod().set_scene(needs)) return false;
   looked_ = command;
   return true;
 }
@@ -181,11 +182,11 @@ Result<std::vector<std::byte>> PeopleShard::save() const {
   host.put(looked_.value_or(PersonCommand{}));
   host.put(std::uint64_t{people_.size()});
   for (const auto& [number, entity] : people_) host.put(Numbered{number, entity});
-  return pack_shard(simulation_, relevance_ ? &*relevance_ : nullptr, host.bytes());
+  return pack_shard(simulation_, host.bytes());
 }
 
 Result<void> PeopleShard::restore(std::span<const std::byte> saved) {
-  const auto host = unpack_shard(saved, simulation_, relevance_ ? &*relevance_ : nullptr);
+  const auto host = unpack_shard(saved, simulation_);
   if (!host) return tl::unexpected(host.error());
   PlainReader reader(*host);
   std::uint32_t shard = 0;

@@ -38,7 +38,7 @@ Module module() {
   return {.name = "deformation, finite strain",
           .parts = {key_part(TagValue<FiniteSteps>{})},
           .systems = [](ScheduleBuilder& systems) {
-            systems.add("deformation, finite strain", &deform).after("deformation, static");
+            systems.add("deformation, finite strain", &deform).one_of("bellies");
           }};
 }
 

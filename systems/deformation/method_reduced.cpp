@@ -113,11 +113,11 @@ Module reduced_module() {
           .systems = [](ScheduleBuilder& systems) {
             systems.add("deformation, reduced", &move)
                 .add("control points", &place)
-                .after("deformation, finite strain")
+                .one_of("bellies")
                 .add("control points, static", &place_still)
-                .after("control points")
+                .one_of("bellies")
                 .add("reports", &report)
-                .after("deformation, finite strain");
+                .one_of("bellies");
           }};
 }
 

@@ -22,9 +22,7 @@ void settle(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<S
 Module static_module() {
   return {.name = "deformation, static",
           .parts = {key_part(TagValue<StaticSteps>{})},
-          .systems = [](ScheduleBuilder& systems) {
-            systems.add("deformation, static", &settle).after("deformation, solved");
-          }};
+          .systems = [](ScheduleBuilder& systems) { systems.add("deformation, static", &settle).one_of("bellies"); }};
 }
 
 void static_parts(const MuscleKind& kind, std::vector<KeyPart>& parts) {

@@ -64,13 +64,13 @@ Beginning begin(const NextBelly& next, bool moves) {
 Module explicit_module() {
   return {.name = "deformation, explicit",
           .parts = {key_part(TagValue<Substeps>{}), key_part(FieldWidth<NodalVelocity>{})},
-          .systems = [](ScheduleBuilder& systems) { systems.add("deformation", &deform); }};
+          .systems = [](ScheduleBuilder& systems) { systems.add("deformation", &deform).one_of("bellies"); }};
 }
 
 Module implicit_module() {
   return {.name = "deformation, implicit",
           .parts = {key_part(TagValue<SolvedSteps>{}), key_part(Shared<BellySolver>{})},
-          .systems = [](ScheduleBuilder& systems) { systems.add("deformation, solved", &solve).after("deformation"); }};
+          .systems = [](ScheduleBuilder& systems) { systems.add("deformation, solved", &solve).one_of("bellies"); }};
 }
 
 }  // namespace of_stepped

@@ -9,7 +9,7 @@ import { constants as c, structs } from './interface.js';
 import { Library, MobilError, canFuse, canRun } from './library.js';
 import { World } from './world.js';
 
-export { AXES, CONSTITUTIONS, METHODS, People, World } from './world.js';
+export { AXES, CONSTITUTIONS, FEATURES, METHODS, People, STATES, World } from './world.js';
 export { Surfaces } from './surfaces.js';
 export { MobilError, canFuse, canRun };
 export const constants = c;
@@ -36,13 +36,15 @@ class Mobil {
       return listed((i) => (x.mobil_style(i, at) === 0 ? library.object('mobil_style_number', at, ['name', 'unit', 'meaning']) : null));
     });
   }
-  /** Ways to deform a muscle, among which is chosen, as measured: {name, method, vectors, moving, error_m, cost_us}. */
-  ways(muscle, { speed_m_s = 1.4, height_m = 1.8, inertia = false, pulling = false } = {}) {
+  /** Levels of detail of a muscle, among which is chosen, as measured: {name, method, vectors, moving, error_m, cost_us}. */
+  levels(muscle, { speed_m_s = 1.4, height_m = 1.8, inertia = false, pulling = false } = {}) {
     return this.library.within((take) => {
-      const at = take(structs.mobil_way_figures.size);
-      return listed((i) => (this.library.x.mobil_way(i, muscle, speed_m_s, height_m, inertia ? 1 : 0, pulling ? 1 : 0, at) === 0 ? this.library.object('mobil_way_figures', at, ['name']) : null));
+      const at = take(structs.mobil_level.size);
+      return listed((i) => (this.library.x.mobil_lod_level(i, muscle, speed_m_s, height_m, inertia ? 1 : 0, pulling ? 1 : 0, at) === 0 ? this.library.object('mobil_level', at, ['name']) : null));
     });
   }
+  /** Deprecated, goes in 0.5: levels. */
+  ways(...all) { return this.levels(...all); }
   /** `options`: fields of mobil_options. */
   world(options = {}) { return new World(this.library, options); }
 }

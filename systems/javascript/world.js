@@ -1,11 +1,14 @@
-// People, their walks and muscles, choosing, time and reading: mobil.h as a class. Arrays that come out are views into
+// People, their walks and muscles, time and reading: mobil.h as a class. Arrays that come out are views into
 // the library's memory, good until the next call: copy what you keep (`.slice()`).
 import { constants as c, structs } from './interface.js';
 import { MobilError } from './library.js';
+import { Avoidance, Lod, Terrain } from './subjects.js';
 import { Surfaces } from './surfaces.js';
 
 export const METHODS = { static: c.MOBIL_STATIC, ecd: c.MOBIL_ECD, icd: c.MOBIL_ICD, caa: c.MOBIL_CAA, reduced: c.MOBIL_REDUCED, none: c.MOBIL_NONE, finite: c.MOBIL_FINITE };
 export const AXES = { yUp: c.MOBIL_AXES_Y_UP, unity: c.MOBIL_AXES_UNITY, unreal: c.MOBIL_AXES_UNREAL, godot: c.MOBIL_AXES_GODOT, zUp: c.MOBIL_AXES_Z_UP };
+export const STATES = { full: c.MOBIL_FULL, compact: c.MOBIL_COMPACT, asleep: c.MOBIL_ASLEEP, posed: c.MOBIL_POSED };
+export const FEATURES = { stepEvents: c.MOBIL_STEP_EVENTS, fat: c.MOBIL_FAT, forces: c.MOBIL_FORCES };
 export const CONSTITUTIONS = ['thin', 'average', 'athletic', 'heavy'];
 const given = { speed_m_s: c.MOBIL_SPEED, step_length_m: c.MOBIL_STEP_LENGTH, step_frequency_hz: c.MOBIL_STEP_FREQUENCY, heading_rad: c.MOBIL_HEADING };
 const idBytes = structs.mobil_id.size;
@@ -71,8 +74,18 @@ export class World {
       this.at = library.u32[out >> 2];
     });
     this.tick_s = library.x.mobil_tick_s(this.at);
+    const inside = {
+      library, call: (...all) => this.#call(...all), struct: (...all) => this.#struct(...all), table: (...all) => this.#table(...all), passed: (...all) => this.#passed(...all),
+    };
+    this.lod = new Lod(inside);
+    this.avoidance = new Avoidance(inside);
+    this.terrain = new Terrain(inside);
   }
-  destroy() { this.library.x.mobil_destroy(this.at); this.at = 0; }
+  destroy() {
+    this.library.x.mobil_destroy(this.at);
+    this.at = 0;
+    this.terrain.drop();
+  }
 
   /** Throws what the library refused. */
   must(code) {
@@ -176,22 +189,22 @@ export class World {
       return walk;
     });
   }
-  /** Their steps are watched from the next tick on, or no more: events() tells what happens in them. */
-  watch(people, on = true) { this.#call('watch', people.ids, people.count, on ? 1 : 0); }
-  setForces(people, on = true) { this.#call('set_forces', people.ids, people.count, on ? 1 : 0); }
-  /** Fat that wobbles under the skin, or not: for peers that show skin, which this module has not. */
-  setFatWobble(people, on = true) { this.#call('set_fat_wobble', people.ids, people.count, on ? 1 : 0); }
-
-  /** Who is not looked at costs less so (mobil.h says what of them is kept); how many are so now. */
-  sleep(people) { return this.#changed('sleep', people); }
-  compact(people) { return this.#changed('compact', people); }
-  wake(people, within_m = 0.005) { this.#call('wake', people.ids, people.count, within_m); }
-  expand(people) { this.#call('expand', people.ids, people.count); }
-  #changed(name, people) {
+  /** They have a feature of FEATURES from the next tick on, or no more: events() tells of the steps of who has step
+   *  events; fat is for peers that show skin, which this module has not. */
+  enable(people, feature, on = true) { this.#call('enable', people.ids, people.count, feature, on ? 1 : 0); }
+  /** People become of a state of STATES who may (mobil.h says what of them is kept); how many are so now. */
+  setState(people, state, within_m = 0.005) {
     return this.library.within((take) => {
       const changed = take(4);
-      this.#call(name, people.ids, people.count, changed);
+      this.#call('set_state', people.ids, people.count, state, within_m, changed);
       return this.library.u32[changed >> 2];
+    });
+  }
+  state(person) {
+    return this.library.within((take) => {
+      const at = take(4);
+      this.#call('get_state', ...this.#passed(take, person.handle()), at);
+      return this.library.u32[at >> 2];
     });
   }
 
@@ -227,33 +240,6 @@ export class World {
     });
   }
 
-  // ---- Choosing methods by what a scene calls for
-  /** Fields of mobil_choosing; `muscles` as of spawn. */
-  startChoosing(options = {}, muscles = null) {
-    this.library.within((take) => this.#call('start_choosing', this.#struct(take, 'mobil_choosing', 'MOBIL_CHOOSING', options), this.#muscles(take, muscles)));
-  }
-  /** Fields of mobil_scene. */
-  setScene(scene) { this.library.within((take) => this.#call('set_scene', this.#struct(take, 'mobil_scene', 'MOBIL_SCENE', scene))); }
-  manage(people, needs = {}) {
-    this.library.within((take) => this.#call('manage', people.ids, people.count, this.#struct(take, 'mobil_needs', 'MOBIL_NEEDS', needs)));
-  }
-  letGo(people) { this.#call('release', people.ids, people.count); }
-  /** Before a tick, or less often; what it did. */
-  choose() {
-    return this.library.within((take) => {
-      const at = this.#struct(take, 'mobil_chosen', 'MOBIL_CHOSEN');
-      this.#call('choose', at);
-      return this.library.object('mobil_chosen', at);
-    });
-  }
-  /** Why a muscle has its method, its predicted error and its cost. */
-  why(person, muscle) {
-    return this.library.within((take) => {
-      const line = take(256), error = take(4), cost = take(8);
-      this.#call('why', ...this.#passed(take, person.handle()), muscle, line, 256, error, cost);
-      return { why: this.library.text(line), error_m: this.library.f32[error >> 2], cost_us: this.library.data.getFloat64(cost, true) };
-    });
-  }
   /** What a muscle has now: fields of mobil_method. */
   method(person, muscle) {
     return this.library.within((take) => {
@@ -269,60 +255,24 @@ export class World {
     return [at];
   }
 
-  // ---- Others, walls and ground
-  /** Fields of mobil_avoidance. */
-  startAvoidance(options = {}) { this.library.within((take) => this.#call('start_avoidance', this.#struct(take, 'mobil_avoidance', 'MOBIL_AVOIDANCE', options))); }
-  /** They keep out of each other's way from now on, or no more. */
-  avoid(people, on = true) { this.#call('avoid', people.ids, people.count, on ? 1 : 0); }
-  /** Where they want to go: an array of [speed in m/s, heading in rad], one a person. */
-  want(people, wishes) {
-    if (wishes.length !== people.count) throw new MobilError(`${wishes.length} wishes for ${people.count} people; give one each`, c.MOBIL_REFUSED);
-    this.library.within((take) => this.#call('want', people.ids, people.count, this.#table(take, wishes, 2, 'wishes'), 0));
-  }
-  /** Instead of those before: arrays of six numbers, two places. */
-  setWalls(walls) { this.library.within((take) => this.#call('set_walls', this.#table(take, walls, 6, 'walls'), 0, walls.length)); }
-  /** Instead of those before: arrays of seven numbers, place, velocity, radius. */
-  setDiscs(discs) { this.library.within((take) => this.#call('set_discs', this.#table(take, discs, 7, 'discs'), 0, discs.length)); }
-  /** Before each tick: fields of mobil_steered. */
-  steer() {
-    return this.library.within((take) => {
-      const at = this.#struct(take, 'mobil_steered', 'MOBIL_STEERED');
-      this.#call('steer', at);
-      return this.library.object('mobil_steered', at);
-    });
-  }
-  setOnGround(people, on = true) { this.#call('set_on_ground', people.ids, people.count, on ? 1 : 0); }
-  /** On that ground people slow down on slopes and stairs, or no more. */
-  setSlowing(on = true) { this.#call('set_slowing', on ? 1 : 0); }
-  /** Before each tick: `heights(places, count)` is given three numbers a place, and returns four: the height, and the
-   *  normal (0 0 0: level). */
-  updateGround(heights) {
-    this.library.within((take) => {
-      const count = take(4);
-      this.#call('ask_ground', 0, 0, 0, 0, count);
-      const places = this.library.u32[count >> 2], at = take(12 * places);
-      if (places > 0) this.#call('ask_ground', at, 0, 0, places, count);
-      const answers = places > 0 ? heights(this.#floats(at, 3 * places).slice(), places) : [];
-      if (answers.length !== 4 * places) throw new MobilError(`${answers.length} numbers for ${places} places; give four each`, c.MOBIL_REFUSED);
-      const ground = this.#put(take, answers);
-      this.#call('answer_ground', ground, 0, places, 0);
-    });
-  }
-
   // ---- Time
-  tick(ticks = 1) { this.#call('tick', ticks); }
+  tick(ticks = 1) {
+    this.#call('tick', ticks);
+    this.terrain.finish();
+  }
   /** As many ticks as the time fed so far makes: {count, alpha, dropped_s}. */
   advance(seconds) {
     return this.library.within((take) => {
       const at = take(structs.mobil_ticks.size);
       this.#call('advance', seconds, at);
+      this.terrain.finish();
       return this.library.object('mobil_ticks', at);
     });
   }
   get time_s() { return this.library.x.mobil_time_s(this.at); }
 
   // ---- Reading
-  /** What happened in all ticks of the last tick() or advance() in the steps of who is watched: fields of mobil_event. */
+  /** What happened in all ticks of the last tick() or advance() in the steps of who has step events: fields of mobil_event. */
   events() {
     return this.library.within((take) => {
       const count = take(4), { size, fields } = structs.mobil_event;
@@ -408,3 +358,30 @@ export class World {
     });
   }
 }
+
+/** Deprecated, goes in 0.5: by name the call that takes its place. */
+const old = {
+  setForces: (w, people, on = true) => w.enable(people, FEATURES.forces, on),
+  setFatWobble: (w, people, on = true) => w.enable(people, FEATURES.fat, on),
+  watch: (w, people, on = true) => w.enable(people, FEATURES.stepEvents, on),
+  sleep: (w, people) => w.setState(people, STATES.asleep),
+  compact: (w, people) => w.setState(people, STATES.compact),
+  wake: (w, people, within_m) => w.setState(people, STATES.full, within_m),
+  expand: (w, people) => w.setState(people, STATES.full),
+  startChoosing: (w, ...all) => w.lod.setOptions(...all),
+  setScene: (w, scene) => w.lod.setScene(scene),
+  manage: (w, ...all) => w.lod.manage(...all),
+  letGo: (w, people) => w.lod.release(people),
+  choose: (w) => w.lod.report,
+  why: (w, ...all) => w.lod.why(...all),
+  startAvoidance: (w, options) => w.avoidance.setOptions(options),
+  avoid: (w, people, on = true) => (on ? w.avoidance.manage(people) : w.avoidance.release(people)),
+  want: (w, ...all) => w.avoidance.want(...all),
+  setWalls: (w, walls) => w.avoidance.setWalls(walls),
+  setDiscs: (w, discs) => w.avoidance.setDiscs(discs),
+  steer: (w) => w.avoidance.report,
+  setOnGround: (w, people, on = true) => (on ? w.terrain.manage(people) : w.terrain.release(people)),
+  setSlowing: (w, on) => w.terrain.setSlowing(on),
+  updateGround: (w, heights) => w.terrain.setHeights(heights),
+};
+for (const [name, call] of Object.entries(old)) World.prototype[name] = function deprecated(...all) { return call(this, ...all); };

@@ -20,7 +20,7 @@ inline constexpr float fat_hz = 10, fat_hz_thickness_m = 0.010F, fat_damping = 0
 inline constexpr float fat_fastest_m_s = 30;
 
 /// A region is carried by a point between the origins of two segments, `part` of the way, and its fat is so thick in a
-/// man of 75 kg and 1.75 m: our choice, legs as mobil/assets/skin/leg_grid.h has them.
+/// man of 75 kg and 1.75 m: our choice, legs as mobil/assets/surfaces/leg_grid.h has them.
 struct FatPoint {
   Segment from, to;
   float part, thickness_m;

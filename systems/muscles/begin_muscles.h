@@ -13,7 +13,7 @@
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/people/spawn.h>
-#include "systems/muscles/belly_library.h"
+#include "systems/bellies/belly_library.h"
 #include "systems/muscles/muscle_size.h"
 
 namespace mobil::inline v0_3 {

@@ -59,11 +59,10 @@ Module module() {
   return {.name = "finite shape", .parts = {key_part(Shared<FiniteShape>{})}, .systems = [](ScheduleBuilder& systems) {
             systems.add("finite shape", &show)
                 .add("finite shape, reduced", &show_in_place)
-                .after("reports")
-                .after("control points, static")
+                .after("bellies")
                 .add("finite shape, volume", &report)
                 .after("fade")
-                .after("reports");
+                .after("bellies");
           }};
 }
 

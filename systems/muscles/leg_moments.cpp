@@ -89,7 +89,7 @@ Module leg_moments_module() {
 
 Result<void> check_leg_moments(const World& world, Entity person, const LegMuscles& choice) {
   if (!follows_moments(choice) || has_forces(world, person)) return {};
-  return fail("activation by moments needs the moments at the joints; call add_forces first", Status::missing);
+  return fail("activation by moments needs the moments at the joints; enable Feature::forces first", Status::missing);
 }
 
 void set_leg_moments(World& world, Entity person, const Body& body, const LegMuscles& choice) {

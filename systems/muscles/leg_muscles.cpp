@@ -9,13 +9,13 @@
 #include <mobil/components/fade.h>
 #include <mobil/each.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/forces.h>
 #include <mobil/systems/people/person.h>
 #include "engine/exact_math.h"
-#include "systems/muscles/choice_words.h"
+#include "systems/bellies/choice_words.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
-#include "systems/people/waking.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -85,8 +85,8 @@ tl::expected<void, NotMade> check_choices(std::span<const SpawnRequest> people, 
   for (std::size_t i = 0; i < people.size(); ++i) {
     if (people[i].muscles && follows_moments(*people[i].muscles))
       return tl::unexpected(
-          NotMade{i, Error{"activation by moments is of who has forces: spawn without muscles, then add_forces and "
-                           "add_leg_muscles",
+          NotMade{i, Error{"activation by moments needs forces: spawn without muscles, then enable Feature::forces "
+                           "and call set_muscles",
                            Status::missing}});
     if (!people[i].muscles || (i > 0 && people[i - 1].muscles == people[i].muscles)) continue;
     if (auto ok = check_choice(*people[i].muscles, tick_s); !ok) return tl::unexpected(NotMade{i, ok.error()});
@@ -341,8 +341,7 @@ Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, 
   const OwnMuscle own{muscle,
                       {muscle_of(world, person, muscle, Side::right), muscle_of(world, person, muscle, Side::left)}};
   const Entity one = world.alive(own.entity[Side::right]) ? own.entity[Side::right] : own.entity[Side::left];
-  if (!world.alive(one))
-    return fail("this person has no such muscle; choose one of those in add_leg_muscles", Status::missing);
+  if (!world.alive(one)) return fail("this person has no such muscle; choose it in set_muscles", Status::missing);
   if (same_method(muscle_method(world, one), method)) return {};
   LegMuscles choice = *world.shared<LegMuscles>(one);
   choice.method = method.method;
@@ -354,18 +353,22 @@ Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, 
   return {};
 }
 
-Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side side, float excitation) {
+Result<void> check_excitation(const World& world, Entity person, Muscle muscle, Side side, float excitation) {
   if (!is_person(world, person)) return not_there();
   const Entity one = muscle_of(world, person, muscle, side);
-  if (!world.alive(one))
-    return fail("this person has no such muscle; choose one of those in add_leg_muscles", Status::missing);
+  if (!world.alive(one)) return fail("this person has no such muscle; choose it in set_muscles", Status::missing);
   const std::string name(muscle_name(muscle));
   const auto source = static_cast<std::uint64_t>(ExcitationSource::host);
   if (world.get<ExcitationSource>(one) != source)
-    return fail(name + ": the host does not excite it; choose ExcitationSource::host in add_leg_muscles",
-                Status::missing);
+    return fail(name + ": the host does not excite it; choose ExcitationSource::host in set_muscles", Status::missing);
   if (!std::isfinite(excitation))
     return fail(name + ": the excitation is not a number; give one from 0 to 1", Status::not_valid);
+  return {};
+}
+
+Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side side, float excitation) {
+  if (auto ok = check_excitation(world, person, muscle, side, excitation); !ok) return ok;
+  const Entity one = muscle_of(world, person, muscle, side);
   Activation<float> row = *world.get<Activation>(one);
   row.excitation = std::clamp(excitation, least_activation, most_activation);
   world.set(one, row);
@@ -396,21 +399,6 @@ void move_muscles(World& world, Entity person, const Placing& way) {
       world.set(muscle, *history);
     }
   });
-}
-
-void place_people(World& world, const SleepTime& time, std::span<const PlaceRequest> places,
-                  std::vector<Placing>& ways) {
-  ways.clear();
-  for (const PlaceRequest& to : places)
-    ways.push_back(is_asleep(world, to.person) ? way_of_sleeper(world, time, to) : Placing{});
-  for (std::size_t i = 0; i < places.size(); ++i) {  // from here on no memory is taken
-    const Entity person = places[i].person;
-    if (is_asleep(world, person)) {
-      place_sleeper(world, person, time, ways[i]);
-    } else {
-      move_muscles(world, person, place_walker(world, places[i]));
-    }
-  }
 }
 
 void shift_muscles(World& world, float x_m, float z_m) {

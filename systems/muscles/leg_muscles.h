@@ -11,19 +11,22 @@
 #include <mobil/components/leg_muscles.h>
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
+#include <mobil/engine/module.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/people/person.h>
 #include <mobil/systems/people/sleepers.h>
 #include <mobil/systems/people/spawn.h>
-#include "systems/muscles/belly_library.h"
+#include "systems/bellies/belly_library.h"
 #include "systems/muscles/change_muscles.h"
 
 namespace mobil::inline v0_3 {
 
-/// What changes of muscles need throughout a simulation: templates and bases, and the length of a tick.
+/// What changes of muscles need throughout a simulation: templates and bases, the length of a tick, and what muscles
+/// that begin are run ahead by (WarmingRoom).
 struct MuscleMeans {
   std::shared_ptr<BellyLibrary> library;
   double tick_s = 0;
+  std::span<const Module> modules{};  // the library's own
 };
 
 /// What is needed to make and change muscles.
@@ -66,13 +69,12 @@ Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double
                                const LegMuscles& choice);
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
 Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person);
+Result<void> check_excitation(const World& world, Entity person, Muscle muscle, Side side, float excitation);
 Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side side, float excitation);
 Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method);
 
-/// Walkers, named once each, are put elsewhere at once, with their muscles, as if the world had been moved under them.
-/// All places are good (check_place). `ways`: memory to work in.
-void place_people(World& world, const SleepTime& time, std::span<const PlaceRequest> places,
-                  std::vector<Placing>& ways);
+/// Places of a person's muscles, and what they remember of places, go along a way through the world.
+void move_muscles(World& world, Entity person, const Placing& way);
 /// A person's muscles forget where their frames were, so that no inertia is felt of a jump.
 void forget_motion(World& world, Entity person);
 /// Places of all muscles, and what they remember of places, less (x, 0, z).

@@ -9,9 +9,9 @@
 #include <mobil/schedule.h>
 #include "engine/fetch_ahead.h"
 #include "engine/snapshot.h"
+#include "systems/bellies/choice_words.h"
 #include "systems/deformation/fade.h"
 #include "systems/lines/line_of_action.h"
-#include "systems/muscles/choice_words.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/owner_legs.h"
@@ -145,7 +145,7 @@ Module fade_module() {
       .name = "fade",
       .parts = {component_part<Fade>(), key_part(FieldWidth<FadeStart>{}), key_part(FieldWidth<ShownDisplacement>{})},
       .systems = [](ScheduleBuilder& systems) { systems.add("fade", &fade).after("finite shape"); },
-      .after = {{"faded muscles", [](Frame& frame) {
+      .after = {{"faded muscles", [](const Frame& frame) {
                    end_fades(frame.world, frame.tick.dt_s, frame.workspace.get<MuscleWork>());
                  }}}};
 }

@@ -9,8 +9,8 @@
 
 #include <mobil/engine/module.h>
 #include <mobil/engine/world.h>
+#include "systems/bellies/belly_library.h"
 #include "systems/deformation/method.h"
-#include "systems/muscles/belly_library.h"
 
 namespace mobil::inline v0_3 {
 

@@ -12,7 +12,7 @@
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
 #include <mobil/forces.h>
-#include <mobil/systems/people/limit_watch.h>
+#include <mobil/systems/limits/limit_watch.h>
 #include "engine/snapshot.h"
 #include "systems/activation/excitation.h"
 #include "systems/forces/forces.h"

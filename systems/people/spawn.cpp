@@ -12,8 +12,8 @@
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
 #include <mobil/rows.h>
+#include <mobil/systems/limits/style_limits.h>
 #include <mobil/systems/people/person.h>
-#include <mobil/systems/people/style_limits.h>
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/pose_measures.h"
@@ -142,6 +142,19 @@ Result<Entity> spawn_posed(World& world, const BodyRequest& request) {
   move_mass_along_limbs(broadcast(size), broadcast(request.limbs), broadcast(pose), centre);
   return world.create(size, physique(request), request.limbs, pose, joint_angles(pose),
                       sole_points(size.height_m, pose), first_lane(centre), Publishes<LegPost>{});
+}
+
+void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleWork& work) {
+  const auto before = asked_body(world, person);
+  if (before && !same_walk(before->gait, gait)) keep_walk_limits(jobs, {&before->size, 1}, {&gait, 1}, work);
+}
+
+Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& asked) {
+  const auto made = make_body(body);
+  if (!made) return tl::unexpected(made.error());
+  auto gait = resolve_gait(*made, asked);
+  if (!gait) return tl::unexpected(gait.error());
+  return keep_walk_limits(body_size(body), *gait);
 }
 
 }  // namespace mobil::inline v0_3

@@ -14,8 +14,8 @@
 #include <mobil/schedule.h>
 #include <mobil/systems/people/person.h>
 #include <mobil/systems/people/sleepers.h>
-#include "systems/gait/gait.h"
 #include "engine/snapshot.h"
+#include "systems/gait/gait.h"
 #include "systems/gait/step_events.h"
 #include "systems/people/by_table.h"
 
@@ -62,21 +62,20 @@ Vec3<float> ground_of(const StepEvents::One& one, const Footing<Lanes<float>>& f
 }  // namespace
 
 Module step_watch_module() {
-  return {.name = "step events",
-          .parts = {key_part(Publishes<StepEvents>{}), key_part(TagValue<SleepsWatched>{})},
-          .systems =
-              [](ScheduleBuilder& systems) {
-                systems.add("steps ahead", &watch_ahead).add("step events", &watch_behind).after("steps ahead");
-              },
-          .before = {{"memory of step events",
-                      [](Frame& frame) {
-                        frame.workspace.get<StepLog>().prepare(frame.world, frame.tick.dt_s);
-                      }}},
-          .after = {{"step events",
-                     [](Frame& frame) {
-                       frame.workspace.get<StepLog>().take(frame.world, frame.tick.index, frame.tick.dt_s);
-                     }}},
-          .check_key = &check_watch_key};
+  return {
+      .name = "step events",
+      .parts = {key_part(Publishes<StepEvents>{}), key_part(TagValue<SleepsWatched>{})},
+      .systems =
+          [](ScheduleBuilder& systems) {
+            systems.add("steps ahead", &watch_ahead).add("step events", &watch_behind).after("steps ahead");
+          },
+      .before = {{"memory of step events",
+                  [](const Frame& frame) { frame.workspace.get<StepLog>().prepare(frame.world, frame.tick.dt_s); }}},
+      .after = {{"step events",
+                 [](const Frame& frame) {
+                   frame.workspace.get<StepLog>().take(frame.world, frame.tick.index, frame.tick.dt_s);
+                 }}},
+      .check_key = &check_watch_key};
 }
 
 bool is_watched(const World& world, Entity person) {
@@ -108,7 +107,8 @@ void StepLog::prepare(const World& world, float tick_s) {
   }
   std::size_t watched = 0;
   for (const std::uint32_t t : tables_) watched += world.tables()[t].row_count();
-  const std::size_t usual = watched * most_events(most_ticks_, tick_s), needed = events_.size() + watched * StepEvents::most;
+  const std::size_t usual = watched * most_events(most_ticks_, tick_s),
+                    needed = events_.size() + watched * StepEvents::most;
   if (events_.capacity() < usual) events_.reserve(usual);
   if (events_.capacity() < needed) events_.reserve(std::max(needed, 2 * events_.capacity()));
 }

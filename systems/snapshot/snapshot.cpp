@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include <mobil/schedule.h>
 #include "engine/snapshot.h"
 #include "systems/snapshot/snapshot_check.h"
 
@@ -22,9 +23,22 @@ struct SavedFront {
   Records<SavedModule> modules;
   Records<SavedResource> resources;
   Records<SavedPartName> parts;
+  Records<SavedGlobal> globals;
+  std::span<const std::byte> global_bytes;
 };
 
-bool has_rows(const Module& module, const World& world) {
+/// Calls f(part, value) with each global of the modules that is not at its first value.
+template <class F>
+void each_changed_global(std::span<const Module> modules, const World& world, F&& f) {
+  for (const Module& module : modules)
+    for (const GlobalPart& part : module.globals)
+      if (world.globals().changed(part.id)) f(part, world.globals().find(part.id));
+}
+
+bool has_state(const Module& module, const World& world) {
+  bool changed = false;
+  each_changed_global({&module, 1}, world, [&](const GlobalPart&, std::span<const std::byte>) { changed = true; });
+  if (changed) return true;
   for (const Table& table : world.tables()) {
     if (table.row_count() == 0) continue;
     for (const KeyPart& part : module.parts) {
@@ -67,7 +81,11 @@ void each_unnamed(const SnapshotScene& scene, const SnapshotWork& work, F&& f) {
 FrontHeader count(const SnapshotScene& scene, SnapshotWork& work) {
   std::vector<std::uint8_t>& used = work.used;
   FrontHeader header{};
-  for (const Module& module : scene.modules) header.modules += has_rows(module, scene.world) ? 1 : 0;
+  for (const Module& module : scene.modules) header.modules += has_state(module, scene.world) ? 1 : 0;
+  each_changed_global(scene.modules, scene.world, [&](const GlobalPart&, std::span<const std::byte> value) {
+    ++header.globals;
+    header.global_bytes += static_cast<std::uint32_t>(value.size());
+  });
   used.assign(scene.world.resource_count(), 0);
   for (const Table& table : scene.world.tables()) {
     if (table.row_count() == 0) continue;
@@ -113,7 +131,7 @@ void make_left_out(const RestoreScene& scene) {
 SnapshotLayout layout_of(const SnapshotScene& scene, const FrontHeader& header) {
   SnapshotLayout layout = WorldSnapshot::layout(scene.world, left_out_by(scene.modules));
   layout.front = sizeof(FrontHeader) + header.modules * sizeof(SavedModule) + header.resources * sizeof(SavedResource) +
-                 header.parts * sizeof(SavedPartName);
+                 header.parts * sizeof(SavedPartName) + header.globals * sizeof(SavedGlobal) + header.global_bytes;
   return layout;
 }
 
@@ -124,9 +142,10 @@ Result<SavedFront> read_front(std::span<const std::byte> bytes) {
     front.modules = reader.take_many<SavedModule>(front.header.modules);
     front.resources = reader.take_many<SavedResource>(front.header.resources);
     front.parts = reader.take_many<SavedPartName>(front.header.parts);
+    front.globals = reader.take_many<SavedGlobal>(front.header.globals);
+    front.global_bytes = reader.take_bytes(front.header.global_bytes);
   }
-  if (!reader.whole())
-    return damaged("the sizes of its lists");
+  if (!reader.whole()) return damaged("the sizes of its lists");
   return front;
 }
 
@@ -145,6 +164,48 @@ Result<void> check_parts(const SavedFront& front, const SavedWorld& saved, const
                     std::string_view(part.name, strnlen(part.name, sizeof part.name))));
   }
   return {};
+}
+
+/// Where a saved global's value is among the bytes of all; nothing where it was at its first value.
+std::span<const std::byte> saved_global(const SavedFront& front, std::uint64_t id) {
+  std::span<const std::byte> left = front.global_bytes;
+  for (std::size_t i = 0; i < front.globals.size(); ++i) {
+    const SavedGlobal one = front.globals[i];
+    if (one.id == id) return left.first(static_cast<std::size_t>(one.bytes));
+    left = left.subspan(static_cast<std::size_t>(one.bytes));
+  }
+  return {};
+}
+
+/// Every saved global is a module's, as large as here, and sound.
+Result<void> check_globals(const SavedFront& front, std::span<const Module> modules) {
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < front.globals.size(); ++i) {
+    const SavedGlobal one = front.globals[i];
+    const GlobalPart* known = nullptr;
+    for (const Module& module : modules)
+      for (const GlobalPart& part : module.globals)
+        if (part.id == one.id) known = &part;
+    if (known == nullptr || known->first.size() != one.bytes || one.bytes > front.global_bytes.size() - bytes)
+      return damaged("a value that no module has");
+    bytes += one.bytes;
+  }
+  if (bytes != front.global_bytes.size()) return damaged("the sizes of its lists");
+  for (const Module& module : modules)
+    for (const GlobalPart& part : module.globals) {
+      const auto value = saved_global(front, part.id);
+      if (!value.empty() && part.is_sound != nullptr && !part.is_sound(value.data()))
+        return damaged("the value of " + std::string(plain_name(part.name)));
+    }
+  return {};
+}
+
+void restore_globals(const SavedFront& front, const RestoreScene& scene) noexcept {
+  for (const Module& module : scene.modules)
+    for (const GlobalPart& part : module.globals) {
+      const auto value = saved_global(front, part.id);
+      std::ranges::copy(value.empty() ? part.first : value, scene.world.globals().find(part.id).begin());
+    }
 }
 
 Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
@@ -177,6 +238,7 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
   }
   if (auto ok = check_modules(front->modules, *world, scene.modules); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_parts(*front, *world, scene); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_globals(*front, scene.modules); !ok) return tl::unexpected(ok.error());
   if (limits.numbers) {
     if (auto ok = check_numbers(*world, scene.modules, scene.jobs); !ok) return tl::unexpected(ok.error());
   }
@@ -210,6 +272,7 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
       !ok)
     return tl::unexpected(ok.error());
   work.world.commit(scene.world, *world, scene.jobs);  // nothing fails from here on
+  restore_globals(*front, scene);
   make_left_out(scene);
   return SnapshotTime{header.tick_units, header.remainder_units, header.tick};
 }
@@ -234,7 +297,7 @@ Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime
   ByteWriter writer(&out[layout.front_at()]);
   writer.put(header);
   for (const Module& module : scene.modules) {
-    if (has_rows(module, scene.world)) writer.put(pack(module));
+    if (has_state(module, scene.world)) writer.put(pack(module));
   }
   for (std::uint32_t number = 0; number < work.used.size(); ++number) {
     if (work.used[number] == 0) continue;
@@ -249,6 +312,12 @@ Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime
     SavedPartName saved{part.id, {}};
     part.name.copy(saved.name, sizeof(saved.name));
     writer.put(saved);
+  });
+  each_changed_global(scene.modules, scene.world, [&](const GlobalPart& part, std::span<const std::byte> value) {
+    writer.put(SavedGlobal{part.id, value.size()});
+  });
+  each_changed_global(scene.modules, scene.world, [&](const GlobalPart&, std::span<const std::byte> value) {
+    writer.put(value.data(), value.size());
   });
   WorldSnapshot::save(scene.world, layout, out.first(layout.bytes()), scene.jobs, left_out_by(scene.modules));
   return layout.bytes();

@@ -13,7 +13,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/systems/snapshot/restore_limits.h>
 #include "engine/snapshot.h"
-#include "systems/muscles/belly_library.h"
+#include "systems/bellies/belly_library.h"
 #include "systems/snapshot/snapshot_records.h"
 #include "systems/snapshot/snapshot_resources.h"
 

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <cstring>
 
-#include "systems/muscles/choice_words.h"
+#include "systems/bellies/choice_words.h"
 
 namespace mobil::inline v0_3 {
 
 struct FrontHeader {
   std::int64_t tick_units, remainder_units;
-  std::uint32_t tick, resources, modules, parts;
+  std::uint32_t tick, resources, modules, parts, globals, global_bytes;
 };
 
 /// A part that rows have and no module names: for messages.
@@ -23,6 +23,11 @@ struct SavedPartName {
 struct SavedModule {
   char name[60];  // its beginning, zeros behind
   std::uint32_t version;
+};
+
+/// A global that is not at its first value; its bytes lie behind the list, one after the other.
+struct SavedGlobal {
+  std::uint64_t id, bytes;
 };
 
 /// `named`: a module's, by names.

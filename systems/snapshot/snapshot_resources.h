@@ -9,7 +9,7 @@
 #include <mobil/engine/error.h>
 #include <mobil/engine/module.h>
 #include <mobil/engine/world.h>
-#include "systems/muscles/belly_library.h"
+#include "systems/bellies/belly_library.h"
 #include "systems/snapshot/snapshot_records.h"
 
 namespace mobil::inline v0_3 {

@@ -9,7 +9,7 @@
 #include <mobil/components/body.h>
 #include <mobil/components/fat.h>
 #include <mobil/components/pose.h>
-#include <mobil/systems/skinning/place_skin.h>
+#include <mobil/systems/surfaces/place_skin.h>
 #include "systems/kinematics/fat_motion.h"
 
 namespace mobil::inline v0_3 {

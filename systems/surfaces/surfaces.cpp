@@ -9,9 +9,9 @@
 
 #include <mobil/components/activation.h>
 #include <mobil/components/pose.h>
-#include <mobil/systems/skinning/write_vertices.h>
 #include <mobil/systems/surfaces/nodal_view.h>
-#include "systems/skinning/place_vertices.h"
+#include <mobil/systems/surfaces/write_vertices.h>
+#include "systems/surfaces/place_vertices.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/world.h>
+#include <mobil/systems/limits/style_limits.h>
 #include <mobil/systems/people/person.h>
-#include <mobil/systems/people/style_limits.h>
 #include "assets/gait/slope_pace.h"
 
 namespace mobil::inline v0_3 {
@@ -36,7 +36,7 @@ struct Slowing {
 /// all, instead of each one's own; then nobody is left out.
 void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people, Slowing& to,
                  std::optional<float> steepness = {});
-/// Records, after `Simulation::change_walks(to.changes)`, what these walkers were asked to do on level ground.
+/// Records, after `change_walks(frame, to.changes)`, what these walkers were asked to do on level ground.
 void keep_slowed(World& world, const Slowing& to);
 
 }  // namespace mobil::inline v0_3

@@ -12,6 +12,7 @@
 #include <mobil/components/avoidance.h>
 #include <mobil/components/pose.h>
 #include <mobil/each.h>
+#include <mobil/engine/table_list.h>
 #include <mobil/rows.h>
 #include <mobil/systems/people/person.h>
 #include "engine/exact_math.h"
@@ -19,7 +20,7 @@
 #include "systems/muscles/leg_muscles.h"
 #include "systems/people/by_table.h"
 #include "systems/people/fat_wobble.h"
-#include "systems/simulation_world.h"
+#include "systems/states/person_states.h"
 #include "systems/terrain/ground_profile.h"
 #include "systems/terrain/slowing.h"
 #include "systems/terrain/sole_fit.h"
@@ -49,9 +50,10 @@ bool make_usable(TerrainHeight& answer) {
 
 }  // namespace
 
-/// Whose ground is asked for, in which step, and with which query their places begin: three along the sole of each foot
-/// that stands, where all footholds are asked for; those of the next one; then those on the way to it.
-struct Terrain::Work {
+/// What the host gave, and what asking works in, which lies in the simulation's workspace. `asking`: whose ground is
+/// asked for, in which step, and with which query their places begin: three along the sole of each foot that stands,
+/// where all footholds are asked for; those of the next one; then those on the way to it.
+struct TerrainWork {
   struct Asking {
     Entity human;
     std::uint32_t steps, stance_side;
@@ -60,22 +62,25 @@ struct Terrain::Work {
     std::size_t first;
     bool all;
   };
+  TableList tables{{type_id<Footing<float>>(), type_id<Footing<float>>()}};
+  TerrainHeights heights;
+  TerrainOptions options;
   std::vector<Asking> asking;
   std::vector<TerrainQuery> queries;
   std::vector<TerrainHeight> answers;
   std::vector<Entity> people;  // whose speed may have to change
   Slowing slowing;
-  TerrainReport report;
+  TerrainReport report;  // since the host last called the simulation to tick
 
-  void collect(const World& world);
+  void collect(World& world);
   void collect_block(const Table& table, std::uint32_t block);
   void ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
                  std::span<const float> ahead_m);
-  void put_answers(Simulation& simulation, const TerrainOptions& options);
+  std::size_t put_answers(const Frame& frame);
   std::size_t put_answers(World& world, const Asking& one, bool slows_down);
   static void stand_up(World& world, Entity human);
   void find_changed(const World& world);
-  Result<void> slow_down(Simulation& simulation, std::span<const Entity> some, std::optional<float> steepness = {});
+  Result<void> slow_down(const Frame& frame, std::span<const Entity> some, std::optional<float> steepness = {});
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
     TerrainHeight plane;
@@ -85,14 +90,14 @@ struct Terrain::Work {
   std::size_t mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m);
 };
 
-void Terrain::Work::ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
-                              std::span<const float> ahead_m) {
+void TerrainWork::ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
+                            std::span<const float> ahead_m) {
   const float x = at.x_m[which][lane], z = at.z_m[which][lane], heading = at.heading_rad[which][lane];
   const float s = exact::sin(heading), c = exact::cos(heading);
   for (const float ahead : ahead_m) queries.push_back({x + ahead * s, z + ahead * c, human});
 }
 
-void Terrain::Work::collect_block(const Table& table, std::uint32_t block) {
+void TerrainWork::collect_block(const Table& table, std::uint32_t block) {
   const auto& size = TableColumn<BodySize>(table).at(table, block);
   const auto& state = TableColumn<GaitState>(table).at(table, block);
   const auto& footing = TableColumn<Footing>(table).at(table, block);
@@ -126,24 +131,22 @@ void Terrain::Work::collect_block(const Table& table, std::uint32_t block) {
   }
 }
 
-void Terrain::Work::collect(const World& world) {
+void TerrainWork::collect(World& world) {
   asking.clear();
   queries.clear();
-  report = {};
-  for (const Table& table : world.tables()) {
-    if (!TableColumn<Footing>(table) || !TableColumn<GaitState>(table) || !TableColumn<StepPlan>(table)) continue;
-    for (std::size_t b = 0; b < table.block_count(); ++b) {
-      report.people += table.live(b);
-      collect_block(table, static_cast<std::uint32_t>(b));
+  report.people = 0;
+  for (const Table* const table : tables.find(world)) {
+    if (!TableColumn<GaitState>(*table) || !TableColumn<StepPlan>(*table)) continue;
+    for (std::size_t b = 0; b < table->block_count(); ++b) {
+      report.people += table->live(b);
+      collect_block(*table, static_cast<std::uint32_t>(b));
     }
   }
-  report.asked = asking.size();
-  report.places = queries.size();
   answers.assign(queries.size(), {});
 }
 
 /// The plane that a foot stands on: of the ground under its ankle, raised where heel or toes would be in the ground.
-TerrainHeight Terrain::Work::foothold(std::size_t first) const {
+TerrainHeight TerrainWork::foothold(std::size_t first) const {
   TerrainHeight plane = answers[first];
   const TerrainQuery& ankle = queries[first];
   float raised_m = 0;
@@ -156,7 +159,7 @@ TerrainHeight Terrain::Work::foothold(std::size_t first) const {
 }
 
 /// The next foothold, clear of edges where it can be.
-Terrain::Work::Landing Terrain::Work::fit_landing(std::size_t first, float height_m, float step_length_m) const {
+TerrainWork::Landing TerrainWork::fit_landing(std::size_t first, float height_m, float step_length_m) const {
   const TerrainQuery &heel = queries[first], &toes = queries[first + SoleGround::places - 1];
   const float sole_m = SoleGround::apart_h * height_m * static_cast<float>(SoleGround::places - 1);
   const float x = (toes.x_m - heel.x_m) / sole_m, z = (toes.z_m - heel.z_m) / sole_m;  // where the toes point
@@ -172,7 +175,7 @@ Terrain::Work::Landing Terrain::Work::fit_landing(std::size_t first, float heigh
 
 /// Unusable answers along a sole get the plane of the usable one nearest to the ankle, or level ground at `usual_m`.
 /// Returns how many there were.
-std::size_t Terrain::Work::mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m) {
+std::size_t TerrainWork::mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m) {
   std::size_t unusable = 0;
   const auto nearer = [&](std::size_t a, std::size_t b) {
     return std::max(a, ankle) - std::min(a, ankle) < std::max(b, ankle) - std::min(b, ankle);
@@ -197,7 +200,7 @@ std::size_t Terrain::Work::mend_answers(std::size_t first, std::size_t count, st
 
 /// Moves a person whose pose is not on this ground onto it at once: one who was placed, woke or is newly managed. No
 /// inertia is felt.
-void Terrain::Work::stand_up(World& world, Entity human) {
+void TerrainWork::stand_up(World& world, Entity human) {
   constexpr float more_than_a_step_m = 0.4F, fat_feels_m = 0.05F;
   const auto feet = world.get<Feet>(human);
   const auto state = world.get<GaitState>(human);
@@ -219,22 +222,27 @@ void Terrain::Work::stand_up(World& world, Entity human) {
   forget_motion(world, human);
 }
 
-void Terrain::Work::put_answers(Simulation& simulation, const TerrainOptions& options) {
-  World& world = world_of(simulation);
+/// Returns how many answers were unusable.
+std::size_t TerrainWork::put_answers(const Frame& frame) {
   people.clear();
+  std::size_t unusable = 0;
   {
     const FlushDenormals flush;  // as in a tick
-    for (const Asking& one : asking) report.unusable += put_answers(world, one, options.slows_down);
+    for (const Asking& one : asking) unusable += put_answers(frame.world, one, options.slows_down);
   }
+  report.asked += asking.size();
+  report.places += queries.size();
+  report.unusable += unusable;
   asking.clear();
   queries.clear();
-  if (options.slows_down) find_changed(world);
+  if (options.slows_down) find_changed(frame.world);
   drop_repeated(people);
-  if (!people.empty()) (void)slow_down(simulation, people);  // who cannot be asked now is asked again
+  if (!people.empty()) (void)slow_down(frame, people);  // who cannot be asked now is asked again
+  return unusable;
 }
 
 /// Adds the walkers on a slope of whom the host has asked something since they were looked at.
-void Terrain::Work::find_changed(const World& world) {
+void TerrainWork::find_changed(const World& world) {
   for (const Table& table : world.tables()) {
     const TableColumn<Footing> footings(table);
     const TableColumn<Gait> gaits(table);
@@ -250,20 +258,18 @@ void Terrain::Work::find_changed(const World& world) {
 }
 
 /// Changes the speed of these walkers to what suits the steepness of their ground, or one of all (find_slowed).
-Result<void> Terrain::Work::slow_down(Simulation& simulation, std::span<const Entity> some,
-                                      std::optional<float> steepness) {
-  World& world = world_of(simulation);
-  find_slowed(world, SimulationWorld::jobs(simulation), some, slowing, steepness);
+Result<void> TerrainWork::slow_down(const Frame& frame, std::span<const Entity> some, std::optional<float> steepness) {
+  find_slowed(frame.world, frame.jobs, some, slowing, steepness);
   if (slowing.changes.empty()) return {};
-  const auto done = simulation.change_walks(slowing.changes);
-  keep_slowed(world, slowing);
+  const auto done = change_walks(frame, slowing.changes);
+  keep_slowed(frame.world, slowing);
   if (!done) return tl::unexpected(done.error());
   return {};
 }
 
 /// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
 /// are.
-std::size_t Terrain::Work::put_answers(World& world, const Asking& one, bool slows_down) {
+std::size_t TerrainWork::put_answers(World& world, const Asking& one, bool slows_down) {
   const auto [table, row] = world.find(one.human);
   if (table == nullptr || !TableColumn<Footing>(*table) || !TableColumn<GaitState>(*table) ||
       !TableColumn<StepPlan>(*table))
@@ -331,10 +337,9 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one, bool slo
   return unusable;
 }
 
-Terrain::Terrain(Simulation& simulation, TerrainHeights heights, const TerrainOptions& options)
-    : simulation_(simulation), heights_(std::move(heights)), options_(options), work_(std::make_unique<Work>()) {}
-Terrain::~Terrain() = default;
-Terrain::Terrain(Terrain&&) noexcept = default;
+TerrainWork& Terrain::work() const {
+  return frame_.workspace.get<TerrainWork>();
+}
 
 namespace {
 
@@ -350,16 +355,16 @@ std::vector<Entity> those(const World& world, std::span<const Entity> people, bo
 }  // namespace
 
 Result<void> Terrain::manage(std::span<const Entity> people) {
-  World& world = world_of(simulation_);
-  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  World& world = frame_.world;
+  const Jobs& jobs = frame_.jobs;
   for (const Entity human : people) {
     if (!is_person(world, human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
-    if (!simulation_.is_asleep(human) && !world.has<Gait>(human))
+    if (!is_asleep(world, human) && !world.has<Gait>(human))
       return fail("Terrain: this person's host animates the skeleton; pose them on the ground", Status::missing);
   }
   const std::vector<Entity> changes = those(world, people, false);
   World::Attempt attempt(world, jobs);
-  if (auto done = SimulationWorld::make_whole(simulation_, changes); !done) return done;
+  if (auto done = make_whole(frame_, changes); !done) return done;
   by_table(world, changes, [&](std::span<const Entity> together) {
     world.remake_many(together, std::array{PartValue{component_part<Footing>(), nullptr}}, {}, jobs);
   });
@@ -368,8 +373,8 @@ Result<void> Terrain::manage(std::span<const Entity> people) {
 }
 
 Result<void> Terrain::release(std::span<const Entity> people) {
-  World& world = world_of(simulation_);
-  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  World& world = frame_.world;
+  const Jobs& jobs = frame_.jobs;
   for (const Entity human : people) {
     if (!world.alive(human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
     if (!world.has<Footing>(human)) return fail("Terrain: a person is not managed", Status::missing);
@@ -377,7 +382,7 @@ Result<void> Terrain::release(std::span<const Entity> people) {
   constexpr std::array part = {type_id<Footing<float>>()};
   const std::vector<Entity> changes = those(world, people, true);
   // Who is slowed goes back to the walk on level ground: first, so that where memory runs out they are slowed again.
-  if (auto done = work_->slow_down(simulation_, changes, 0); !done) return done;
+  if (auto done = work().slow_down(frame_, changes, 0); !done) return done;
   World::Attempt attempt(world, jobs);
   by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();
@@ -385,30 +390,46 @@ Result<void> Terrain::release(std::span<const Entity> people) {
   return {};
 }
 
-std::span<const TerrainQuery> Terrain::ask() {
-  work_->collect(world_of(simulation_));
-  return work_->queries;
+void Terrain::set_heights(TerrainHeights heights) {
+  work().heights = std::move(heights);
 }
 
-Result<TerrainReport> Terrain::answer(std::span<const TerrainHeight> heights) {
-  Work& work = *work_;
-  if (heights.size() != work.queries.size())
+void Terrain::set_options(const TerrainOptions& options) {
+  work().options = options;
+}
+
+const TerrainReport& Terrain::report() const {
+  return work().report;
+}
+
+std::span<const TerrainQuery> Terrain::ask() {
+  work().collect(frame_.world);
+  return work().queries;
+}
+
+Result<std::size_t> Terrain::answer(std::span<const TerrainHeight> heights) {
+  TerrainWork& of = work();
+  if (heights.size() != of.queries.size())
     return fail(
         fmt::format("Terrain: there are {} answers, and {} places were asked for; answer those of the last ask, once",
-                    heights.size(), work.queries.size()),
+                    heights.size(), of.queries.size()),
         Status::not_valid);
-  std::ranges::copy(heights, work.answers.begin());
-  work.put_answers(simulation_, options_);
-  return std::exchange(work.report, {});
+  std::ranges::copy(heights, of.answers.begin());
+  return of.put_answers(frame_);
 }
 
-TerrainReport Terrain::update() {
-  Work& work = *work_;
-  if (!heights_) return {};
-  work.collect(world_of(simulation_));
-  if (!work.asking.empty()) heights_(work.queries, work.answers);
-  work.put_answers(simulation_, options_);
-  return work.report;
+Phase ground_under_feet() {
+  return {"ground", [](const Frame& frame) {
+            TerrainWork& work = frame.workspace.get<TerrainWork>();
+            if (!work.heights || !work.tables.any_rows(frame.world)) return;
+            work.collect(frame.world);
+            if (!work.asking.empty()) work.heights(work.queries, work.answers);
+            work.put_answers(frame);
+          }};
+}
+
+void begin_terrain_report(const Frame& frame) {
+  frame.workspace.get<TerrainWork>().report = {};
 }
 
 }  // namespace mobil::inline v0_3

@@ -28,15 +28,18 @@ bool is_sound_footing(const Footing<float>& footing) {
 }
 
 Result<void> check_footing(const SavedWorld& saved, std::uint32_t table) {
-  if (!every_row<Footing>(saved, table, is_sound_footing))
-    return damaged("the ground under somebody");
+  if (!every_row<Footing>(saved, table, is_sound_footing)) return damaged("the ground under somebody");
   return {};
 }
 
 }  // namespace
 
 Module terrain_module() {
-  return {.name = "terrain", .version = 4, .parts = {component_part<Footing>()}, .check_rows = &check_footing};
+  return {.name = "terrain",
+          .version = 4,
+          .parts = {component_part<Footing>()},
+          .before = {ground_under_feet()},
+          .check_rows = &check_footing};
 }
 
 }  // namespace mobil::inline v0_3

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include <mobil/components/pose.h>
+#include <mobil/engine/world.h>
 #include <mobil/forces.h>
 #include <mobil/simulation.h>
 #include "systems/activation/moment_sharing.h"

@@ -13,8 +13,8 @@ inline Result<Entity> pulling_walker(Simulation& simulation, float speed_m_s) {
   choice.muscles = muscle_members();
   choice.line_motion = true;
   choice.activation = ExcitationSource::phase;
-  if (auto done = simulation.add_forces(*human); !done) return tl::unexpected(done.error());
-  if (auto done = simulation.add_leg_muscles(*human, choice); !done) return tl::unexpected(done.error());
+  if (auto done = simulation.enable(*human, Feature::forces); !done) return tl::unexpected(done.error());
+  if (auto done = simulation.set_muscles(*human, choice); !done) return tl::unexpected(done.error());
   return human;
 }
 

@@ -14,12 +14,12 @@
 #include "engine/row_hash.h"
 #include "systems/avoidance/claims.h"
 #include "systems/avoidance/trials.h"
-#include "systems/simulation_world.h"
 #include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/labels.h"
 #include "tests/simulation/reseal.h"
+#include "tests/world_of.h"
 
 MOBIL_TEST_LABELS("threads");
 
@@ -36,6 +36,14 @@ void tick_to_strike(Simulation& simulation, Entity one) {
 const Claim& claim_of(ClaimBook& book, Simulation& simulation) {
   book.refresh(world_of(simulation), {}, simulation.ticks(), tick_s, 0.128F);
   return book.claim(0);
+}
+
+/// The same of somebody who avoids others for that alone.
+Claim claim_while_avoiding(Avoiders& all, ClaimBook& book, Entity one) {
+  EXPECT_TRUE(all.avoidance.manage(one));
+  const Claim claim = claim_of(book, all.simulation);
+  EXPECT_TRUE(all.avoidance.release(one));
+  return claim;
 }
 
 /// How far roots are from a way at its instants.
@@ -57,13 +65,13 @@ RC_GTEST_PROP(Claim, IsWhereWhoStopsWillBe, ()) {
   const float turn = static_cast<float>(*rc::gen::inRange(-180, 180)) * pi / 180;
   Avoiders all;
   Simulation& simulation = all.simulation;
-  const Entity one = all.come(speed, 3.0F, -2.0F, 0.4F);
+  const Entity one = walker(simulation, speed, 3.0F, -2.0F, 0.4F);
   simulation.tick(60);
   RC_ASSERT(simulation.turn_to(one, turn).has_value());
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(0, 200)));
   tick_to_strike(simulation, one);
   ClaimBook book;
-  const Claim claim = claim_of(book, simulation);
+  const Claim claim = claim_while_avoiding(all, book, one);
   const auto state = *simulation.get<GaitState>(one);
   RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
   RC_ASSERT(simulation.turn_to(one, state.heading_rad + state.turn_rad).has_value());
@@ -96,18 +104,20 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   const float speed = stands ? 0.0F : static_cast<float>(*rc::gen::inRange(40, 150)) * 0.01F;
   Avoiders all;
   Simulation& simulation = all.simulation;
-  const Entity one = all.come(stands ? 1.2F : speed, 1.0F, 2.0F, -0.7F);
+  const Entity one = walker(simulation, stands ? 1.2F : speed, 1.0F, 2.0F, -0.7F);
   simulation.tick(90);
   RC_ASSERT(simulation.turn_to(one, static_cast<float>(*rc::gen::inRange(-150, 150)) * pi / 180).has_value());
   if (stands) RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(stands ? 500 : 0, stands ? 560 : 160)));
   ClaimBook book;
-  while (claim_of(book, simulation), book.strikers().empty()) simulation.tick();
+  while (claim_while_avoiding(all, book, one), book.strikers().empty()) simulation.tick();
   StrikePlace<Lanes<float>> footing;
   next_footing(broadcast(*simulation.get<BodySize>(one)), broadcast(*simulation.get<StepPlan>(one)),
                broadcast(*simulation.get<GaitState>(one)), footing);
   RC_PRE(row_of(footing, 0).speed_m_s > 0 || row_of(footing, 0).length_before_m == 0);
+  RC_ASSERT(all.avoidance.manage(one).has_value());
   Course<float> course = *simulation.get<Course>(one);
+  RC_ASSERT(all.avoidance.release(one).has_value());
   course.heading_rad += 0.3F;
   course.speed_m_s = 1.3F;
   const Trials trials = make_trials(row_of(footing, 0), course);
@@ -129,7 +139,7 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   }
   const std::uint32_t first = book.instant();
   simulation.tick();
-  const Claim& claim = claim_of(book, simulation);
+  const Claim claim = claim_while_avoiding(all, book, one);
   RC_ASSERT(claim.first >= first && claim.first <= first + 1);
   for (std::size_t s = claim.first - first; s < way_samples; ++s) {
     const double off = std::hypot(double{ways.x_m[s][l]} - double{claim.x_m[s + first - claim.first]},
@@ -201,9 +211,8 @@ TEST(Avoidance, ASteadyCrowdTakesNoMemory) {
   std::size_t requests = 0;
   for (int k = 0; k < 120; ++k) {
     const std::size_t before = heap_requests;
-    room.avoidance.update();
-    requests += heap_requests - before;
     room.simulation.tick();
+    requests += heap_requests - before;
   }
   EXPECT_EQ(requests, 0U);
 }
@@ -243,17 +252,16 @@ TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
   Avoidance& avoidance = all.avoidance;
   const Entity one = all.come(1.2F);
   all.run(300);
-  ASSERT_EQ(simulation.sleep({&one, 1}).value(), 1U);
+  ASSERT_EQ(simulation.set_state({&one, 1}, PersonState::asleep).value(), 1U);
   all.run(120);
   EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.2F, 1e-6F);
   EXPECT_FALSE(avoidance.want(std::array{WalkWish{one, 30, 0}})) << "nobody of that height walks so";
   ASSERT_TRUE(avoidance.want(std::array{WalkWish{one, 1.3F, 0}}));
-  ASSERT_TRUE(simulation.wake({&one, 1}));
+  ASSERT_TRUE(simulation.set_state({&one, 1}, PersonState::full));
   EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.3F, 1e-6F);
   ASSERT_TRUE(avoidance.release(one));
   EXPECT_FALSE(simulation.get<Course>(one));
   const double before = root_of(simulation, one).z_m;
-  avoidance.update();
   simulation.tick(60);
   EXPECT_NEAR(root_of(simulation, one).z_m - before, 1.2, 0.1);
 }
@@ -352,7 +360,7 @@ TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
     }
     if (!reseal_snapshot(bytes) || !room.simulation.restore(bytes)) continue;
     ++taken;
-    for (int t = 0; t < 4; ++t) room.avoidance.update(), room.simulation.tick();
+    for (int t = 0; t < 4; ++t) room.simulation.tick();
   }
   EXPECT_GT(taken, 20U);
   ASSERT_TRUE(room.simulation.restore(good));
@@ -376,7 +384,7 @@ TEST(Avoidance, AHeadingThatIsNoneHarmsNobodyElse) {
 
 TEST(Avoidance, SaysWhatIsWrong) {
   Simulation simulation;
-  Avoidance avoidance(simulation);
+  Avoidance avoidance = simulation.avoidance();
   const Entity one = walker(simulation, 1), posed = simulation.spawn_posed({}).value();
   const auto line = [](const Result<void>& result) { return result ? std::string() : result.error().message; };
   EXPECT_NE(line(avoidance.manage(posed)).find("discs"), std::string::npos);

@@ -16,7 +16,7 @@ namespace mobil {
 /// People in a closed room, each with places to go to one after the other.
 struct Room {
   explicit Room(int threads, std::size_t many = 40, float side = 8)
-      : people(many), side_m(side), simulation({.threads = threads}), avoidance(simulation) {
+      : people(many), side_m(side), simulation({.threads = threads}), avoidance(simulation.avoidance()) {
     for (std::size_t i = 0; i < people; ++i) {
       const std::size_t across = (people + 5) / 6;
       const float x = side_m * ((static_cast<float>(i % across) + 0.5F) / static_cast<float>(across) - 0.5F);
@@ -45,8 +45,8 @@ struct Room {
       }
       EXPECT_TRUE(avoidance.want(wishes));
     }
-    report = avoidance.update();
     simulation.tick();
+    report = avoidance.report();
   }
 
   std::size_t people;

@@ -18,6 +18,7 @@
 #include "systems/kinematics/shoulders.h"
 #include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"
+#include "tests/interfaces.h"
 
 namespace mobil {
 namespace {
@@ -173,12 +174,11 @@ TEST(Shoulders, TrunksOfAFullRoomOverlapByLessThanFiveCentimetres) {
 
 TEST(Shoulders, WhoKeepsThemClearTurnsNone) {
   Simulation simulation;
-  Avoidance avoidance(simulation, {.radius_h = 0.128F});
+  Avoidance avoidance = avoidance_of(simulation, {.radius_h = 0.128F});
   const Entity who[] = {walker(simulation, 1.2F, 0.1F, -5, 0), walker(simulation, 1.2F, -0.1F, 5, pi),
                         walker(simulation, 0, 20), walker(simulation, 0, 20.3F)};  // two who stand too near
   for (const Entity one : who) ASSERT_TRUE(avoidance.manage(one));
   for (int k = 0; k < 600; ++k) {
-    avoidance.update();
     simulation.tick();
     for (const Entity one : who) ASSERT_EQ(simulation.get<Course>(one)->turn_rad, 0);
   }
@@ -206,9 +206,9 @@ TEST(Shoulders, WhoIsPlacedElsewhereFacesTheirWay) {
 TEST(Shoulders, StayTurnedInCompactPeopleAndWhereSomebodyIsManagedAnew) {
   NearPair pair;
   const float before = pair.chest_rad();
-  ASSERT_TRUE(pair.simulation.compact({&pair.who[0], 1}));
+  ASSERT_TRUE(pair.simulation.set_state({&pair.who[0], 1}, PersonState::compact));
   EXPECT_NEAR(pair.chest_rad(), before, 1e-5F);
-  ASSERT_TRUE(pair.simulation.expand({&pair.who[0], 1}));
+  ASSERT_TRUE(pair.simulation.set_state({&pair.who[0], 1}, PersonState::full));
   EXPECT_NEAR(pair.chest_rad(), before, 1e-5F);
   const float turned = pair.turned_rad();
   ASSERT_TRUE(pair.avoidance.manage(pair.who[0]));
@@ -217,9 +217,9 @@ TEST(Shoulders, StayTurnedInCompactPeopleAndWhereSomebodyIsManagedAnew) {
 
 TEST(Shoulders, WhoSleepsFacesTheirWayAndWakesSo) {
   NearPair pair;
-  ASSERT_EQ(pair.simulation.sleep({&pair.who[0], 1}).value(), 1U);
+  ASSERT_EQ(pair.simulation.set_state({&pair.who[0], 1}, PersonState::asleep).value(), 1U);
   pair.simulation.tick(10);
-  ASSERT_TRUE(pair.simulation.wake({&pair.who[0], 1}));
+  ASSERT_TRUE(pair.simulation.set_state({&pair.who[0], 1}, PersonState::full));
   EXPECT_NEAR(pair.chest_rad(), 0, 0.02F);
   pair.simulation.tick();
   EXPECT_NEAR(pair.chest_rad(), 0, 0.02F);

@@ -37,7 +37,7 @@ inline Root root_of(const Simulation& simulation, Entity one) {
 /// A world whose people avoid each other.
 struct Avoiders {
   Simulation simulation;
-  Avoidance avoidance{simulation};
+  Avoidance avoidance = simulation.avoidance();
 
   template <class... Of>
   Entity come(float speed_m_s, Of... of) {
@@ -46,7 +46,7 @@ struct Avoiders {
     return one;
   }
   void run(int ticks = 1) {
-    for (int k = 0; k < ticks; ++k) avoidance.update(), simulation.tick();
+    for (int k = 0; k < ticks; ++k) simulation.tick();
   }
   Root root(Entity one) const { return root_of(simulation, one); }
   double apart_m(Entity a, Entity b) const {

@@ -8,12 +8,6 @@ namespace mobil::c_absent_test {
 namespace {
 using namespace c_test;
 
-int state(const Sim& sim, mobil_id id) {
-  int bits = -1;
-  EXPECT_EQ(mobil_state(sim, id, &bits), MOBIL_OK);
-  return bits;
-}
-
 mobil_muscles unseen_muscles() {
   auto muscles = reduced_muscles();
   muscles.control_points = 0;
@@ -25,12 +19,12 @@ struct Absent {
   Absent() {
     const auto muscles = unseen_muscles();
     ids = spawn(sim, 6, &muscles);
-    EXPECT_EQ(mobil_set_forces(sim, ids.data(), 2, 1), MOBIL_OK);
+    EXPECT_EQ(mobil_enable(sim, ids.data(), 2, MOBIL_FORCES, 1), MOBIL_OK);
     EXPECT_EQ(mobil_tick(sim, 120), MOBIL_OK);
     std::size_t changed = 0;
-    EXPECT_EQ(mobil_sleep(sim, ids.data(), 2, &changed), MOBIL_OK);
+    EXPECT_EQ(mobil_set_state(sim, ids.data(), 2, MOBIL_ASLEEP, 0, &changed), MOBIL_OK);
     EXPECT_EQ(changed, 2U);
-    EXPECT_EQ(mobil_compact(sim, &ids[2], 2, &changed), MOBIL_OK);
+    EXPECT_EQ(mobil_set_state(sim, &ids[2], 2, MOBIL_COMPACT, 0, &changed), MOBIL_OK);
     EXPECT_EQ(changed, 2U);
   }
   Sim sim;
@@ -39,17 +33,16 @@ struct Absent {
 
 TEST(CAbsent, StateSaysWhatComesBack) {
   const Absent all;
-  EXPECT_EQ(state(all.sim, all.ids[0]), MOBIL_ASLEEP | MOBIL_HAS_MUSCLES | MOBIL_HAS_FORCES);
-  EXPECT_EQ(state(all.sim, all.ids[2]), MOBIL_COMPACT | MOBIL_HAS_MUSCLES);
-  EXPECT_EQ(state(all.sim, all.ids[4]), MOBIL_HAS_MUSCLES);
+  EXPECT_EQ(bits_of(all.sim, all.ids[0]), MOBIL_ASLEEP | MOBIL_HAS_MUSCLES | MOBIL_HAS_FORCES);
+  EXPECT_EQ(bits_of(all.sim, all.ids[2]), MOBIL_COMPACT | MOBIL_HAS_MUSCLES);
+  EXPECT_EQ(bits_of(all.sim, all.ids[4]), MOBIL_HAS_MUSCLES);
 }
 
 TEST(CAbsent, MusclesGoForGood) {
   const Absent all;
   ASSERT_EQ(mobil_set_muscles(all.sim, all.ids.data(), 6, nullptr), MOBIL_OK) << all.sim.message();
-  ASSERT_EQ(mobil_wake(all.sim, all.ids.data(), 6, 0.005F), MOBIL_OK);
-  ASSERT_EQ(mobil_expand(all.sim, all.ids.data(), 6), MOBIL_OK);
-  for (const mobil_id id : all.ids) EXPECT_EQ(state(all.sim, id) & MOBIL_HAS_MUSCLES, 0);
+  ASSERT_EQ(mobil_set_state(all.sim, all.ids.data(), 6, MOBIL_FULL, 0.005F, nullptr), MOBIL_OK);
+  for (const mobil_id id : all.ids) EXPECT_EQ(bits_of(all.sim, id) & MOBIL_HAS_MUSCLES, 0);
 }
 
 TEST(CAbsent, MusclesBecomeOthersAndMethodsAreSet) {
@@ -76,12 +69,12 @@ TEST(CAbsent, MusclesBecomeOthersAndMethodsAreSet) {
 
 TEST(CAbsent, ForcesOfSleepersGo) {
   const Absent all;
-  ASSERT_EQ(mobil_set_forces(all.sim, all.ids.data(), 1, 0), MOBIL_OK);
-  ASSERT_EQ(mobil_set_forces(all.sim, &all.ids[1], 1, 1), MOBIL_OK);
-  EXPECT_NE(state(all.sim, all.ids[1]) & MOBIL_ASLEEP, 0);
-  ASSERT_EQ(mobil_wake(all.sim, all.ids.data(), 2, 0.005F), MOBIL_OK);
-  EXPECT_EQ(state(all.sim, all.ids[0]) & MOBIL_HAS_FORCES, 0);
-  EXPECT_NE(state(all.sim, all.ids[1]) & MOBIL_HAS_FORCES, 0);
+  ASSERT_EQ(mobil_enable(all.sim, all.ids.data(), 1, MOBIL_FORCES, 0), MOBIL_OK);
+  ASSERT_EQ(mobil_enable(all.sim, &all.ids[1], 1, MOBIL_FORCES, 1), MOBIL_OK);
+  EXPECT_NE(bits_of(all.sim, all.ids[1]) & MOBIL_ASLEEP, 0);
+  ASSERT_EQ(mobil_set_state(all.sim, all.ids.data(), 2, MOBIL_FULL, 0.005F, nullptr), MOBIL_OK);
+  EXPECT_EQ(bits_of(all.sim, all.ids[0]) & MOBIL_HAS_FORCES, 0);
+  EXPECT_NE(bits_of(all.sim, all.ids[1]) & MOBIL_HAS_FORCES, 0);
 }
 
 /// Whom choosing put to sleep, and whose muscles it keeps for later.
@@ -90,34 +83,28 @@ TEST(CAbsent, MusclesOfManagedSleepersAreOneSet) {
     const Sim sim;
     const auto muscles = unseen_muscles();
     const auto ids = spawn(sim, 4, &muscles);
-    const auto choosing = filled<mobil_choosing>(MOBIL_CHOOSING);
-    ASSERT_EQ(mobil_start_choosing(sim, &choosing, &muscles), MOBIL_OK);
-    ASSERT_EQ(mobil_manage(sim, ids.data(), 4, nullptr), MOBIL_OK) << sim.message();
+    const auto choosing = filled<mobil_lod_options>(MOBIL_LOD_OPTIONS);
+    ASSERT_EQ(mobil_lod_set_options(sim, &choosing, &muscles), MOBIL_OK);
+    ASSERT_EQ(mobil_lod_manage(sim, ids.data(), 4, nullptr), MOBIL_OK) << sim.message();
     auto scene = filled<mobil_scene>(MOBIL_SCENE);
     scene.has_camera = 1;
     scene.eye[0] = 500;
     scene.gaze[2] = 1;
     scene.asleep_beyond_m = 20;
-    ASSERT_EQ(mobil_set_scene(sim, &scene), MOBIL_OK) << sim.message();
-    for (int i = 0; i < 200; ++i) {
-      ASSERT_EQ(mobil_choose(sim, nullptr), MOBIL_OK);
-      ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
-    }
-    ASSERT_NE(state(sim, ids[0]) & MOBIL_ASLEEP, 0);
-    ASSERT_NE(state(sim, ids[3]) & MOBIL_ASLEEP, 0);
-    ASSERT_EQ(mobil_release(sim, &ids[3], 1), MOBIL_OK) << sim.message();
-    EXPECT_EQ(state(sim, ids[3]) & (MOBIL_ASLEEP | MOBIL_MANAGED | MOBIL_HAS_MUSCLES), MOBIL_HAS_MUSCLES);
-    EXPECT_EQ(mobil_release(sim, &ids[3], 1), MOBIL_MISSING);
+    ASSERT_EQ(mobil_lod_set_scene(sim, &scene), MOBIL_OK) << sim.message();
+    ASSERT_EQ(mobil_tick(sim, 200), MOBIL_OK);
+    ASSERT_NE(bits_of(sim, ids[0]) & MOBIL_ASLEEP, 0);
+    ASSERT_NE(bits_of(sim, ids[3]) & MOBIL_ASLEEP, 0);
+    ASSERT_EQ(mobil_lod_release(sim, &ids[3], 1), MOBIL_OK) << sim.message();
+    EXPECT_EQ(bits_of(sim, ids[3]) & (MOBIL_ASLEEP | MOBIL_MANAGED | MOBIL_HAS_MUSCLES), MOBIL_HAS_MUSCLES);
+    EXPECT_EQ(mobil_lod_release(sim, &ids[3], 1), MOBIL_MISSING);
     auto others = unseen_muscles();
     others.muscles = 1U << MOBIL_QUADRICEPS;
     const mobil_id twice[] = {ids[0], ids[0], ids[1]};
     ASSERT_EQ(mobil_set_muscles(sim, twice, 3, away ? nullptr : &others), MOBIL_OK) << sim.message();
-    for (int i = 0; i < 100; ++i) {
-      ASSERT_EQ(mobil_choose(sim, nullptr), MOBIL_OK);
-      ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
-    }
-    EXPECT_EQ(state(sim, ids[0]) & MOBIL_HAS_MUSCLES, away ? 0 : MOBIL_HAS_MUSCLES);
-    ASSERT_EQ(mobil_wake(sim, ids.data(), 4, 0.005F), MOBIL_OK);
+    ASSERT_EQ(mobil_tick(sim, 100), MOBIL_OK);
+    EXPECT_EQ(bits_of(sim, ids[0]) & MOBIL_HAS_MUSCLES, away ? 0 : MOBIL_HAS_MUSCLES);
+    ASSERT_EQ(mobil_set_state(sim, ids.data(), 4, MOBIL_FULL, 0.005F, nullptr), MOBIL_OK);
     mobil_method method;
     method.size = sizeof method;
     if (!away) {
@@ -125,7 +112,7 @@ TEST(CAbsent, MusclesOfManagedSleepersAreOneSet) {
                 MOBIL_OK)
           << sim.message();
       ASSERT_EQ(mobil_set_muscles(sim, ids.data(), 1, nullptr), MOBIL_OK) << sim.message();
-      EXPECT_EQ(state(sim, ids[0]) & MOBIL_HAS_MUSCLES, 0) << "there was one set";
+      EXPECT_EQ(bits_of(sim, ids[0]) & MOBIL_HAS_MUSCLES, 0) << "there was one set";
     }
   }
 }
@@ -149,17 +136,15 @@ TEST(CAbsent, NobodyHasChangedWhereOneIsRefused) {
   const float pull = 0.5F;
   refused(mobil_set_excitation(all.sim, all.ids.data(), 1, MOBIL_HAMSTRINGS, MOBIL_RIGHT, &pull, 0));
   refused(mobil_step_aside(all.sim, all.ids[0], 5, 5));
-  mobil_chosen unfilled{};
-  const auto choosing = filled<mobil_choosing>(MOBIL_CHOOSING);
-  ASSERT_EQ(mobil_start_choosing(all.sim, &choosing, nullptr), MOBIL_OK);
-  ASSERT_EQ(mobil_manage(all.sim, all.ids.data(), 6, nullptr), MOBIL_OK) << all.sim.message();
+  const auto choosing = filled<mobil_lod_options>(MOBIL_LOD_OPTIONS);
+  ASSERT_EQ(mobil_lod_set_options(all.sim, &choosing, nullptr), MOBIL_OK);
+  ASSERT_EQ(mobil_lod_manage(all.sim, all.ids.data(), 6, nullptr), MOBIL_OK) << all.sim.message();
   for (const mobil_id id : all.ids) {
-    EXPECT_EQ(state(all.sim, id) & (MOBIL_ASLEEP | MOBIL_COMPACT), 0);
-    EXPECT_NE(state(all.sim, id) & MOBIL_MANAGED, 0);
+    EXPECT_EQ(bits_of(all.sim, id) & (MOBIL_ASLEEP | MOBIL_COMPACT), 0);
+    EXPECT_NE(bits_of(all.sim, id) & MOBIL_MANAGED, 0);
   }
-  const auto managed = all.sim.hash();
-  EXPECT_EQ(mobil_choose(all.sim, &unfilled), MOBIL_STRUCT);
-  EXPECT_EQ(all.sim.hash(), managed);
+  mobil_lod_counts unfilled{};
+  EXPECT_EQ(mobil_lod_report(all.sim, &unfilled), MOBIL_STRUCT);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
-#include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/simulation.h>
 #include "tests/c/c_fixture.h"
 #include "tests/labels.h"

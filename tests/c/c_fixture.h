@@ -63,6 +63,14 @@ inline std::vector<mobil_id> spawn(const Sim& sim, std::size_t count, const mobi
   return ids;
 }
 
+/// Their state, and what they have, as bits.
+inline int bits_of(const Sim& sim, mobil_id id) {
+  int state = -1, has = -1;
+  EXPECT_EQ(mobil_get_state(sim, id, &state), MOBIL_OK);
+  EXPECT_EQ(mobil_has(sim, id, &has), MOBIL_OK);
+  return state | has;
+}
+
 /// The same in C++.
 inline std::vector<SpawnRequest> as_requests(const std::vector<mobil_person>& people) {
   std::vector<SpawnRequest> requests(people.size());

@@ -1,5 +1,7 @@
 // What a host brings to the C interface: axes, memory that runs out, jobs.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -60,7 +62,7 @@ mobil_id walker(const Sim& sim, const Host& host) {
   auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
   muscles.method = MOBIL_REDUCED;
   EXPECT_EQ(mobil_spawn(sim, &person, 0, 1, &muscles, &id), MOBIL_OK) << sim.message();
-  EXPECT_EQ(mobil_set_forces(sim, &id, 1, 1), MOBIL_OK);
+  EXPECT_EQ(mobil_enable(sim, &id, 1, MOBIL_FORCES, 1), MOBIL_OK);
   EXPECT_EQ(mobil_tick(sim, 50), MOBIL_OK);
   return id;
 }
@@ -250,34 +252,34 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
     unseen.control_points = 0;
     for (std::size_t i = 0; i < 20; ++i)
       until_done("set_muscles", [&] { return mobil_set_muscles(sim, &ids[i], 1, &unseen); });
-    ASSERT_EQ(mobil_start_avoidance(sim, nullptr), MOBIL_OK);
     const auto absent = [&] {
-      until_done("compact", [&] { return mobil_compact(sim, ids.data(), 20, nullptr); });
-      until_done("sleep", [&] { return mobil_sleep(sim, &ids[20], 20, nullptr); });
+      until_done("compact", [&] { return mobil_set_state(sim, ids.data(), 20, MOBIL_COMPACT, 0, nullptr); });
+      until_done("sleep", [&] { return mobil_set_state(sim, &ids[20], 20, MOBIL_ASLEEP, 0, nullptr); });
     };
-    for (const auto& [name, ask] : {std::pair{"avoid", &mobil_avoid}, std::pair{"ground", &mobil_set_on_ground}}) {
+    for (const auto& [name, ask] :
+         {std::pair{"avoid", &mobil_avoidance_manage}, std::pair{"ground", &mobil_terrain_manage}}) {
       absent();
       until_done(name, [&, asked = ask] { return asked(sim, ids.data(), ids.size(), 1); });
       until_done(name, [&, asked = ask] { return asked(sim, ids.data(), ids.size(), 0); });
     }
     absent();
-    const auto choosing = filled<mobil_choosing>(MOBIL_CHOOSING);
-    ASSERT_EQ(mobil_start_choosing(sim, &choosing, &muscles), MOBIL_OK);
-    until_done("manage", [&] { return mobil_manage(sim, ids.data(), ids.size(), nullptr); });
-    ASSERT_EQ(mobil_release(sim, ids.data(), ids.size()), MOBIL_OK);
+    const auto choosing = filled<mobil_lod_options>(MOBIL_LOD_OPTIONS);
+    ASSERT_EQ(mobil_lod_set_options(sim, &choosing, &muscles), MOBIL_OK);
+    until_done("manage", [&] { return mobil_lod_manage(sim, ids.data(), ids.size(), nullptr); });
+    ASSERT_EQ(mobil_lod_release(sim, ids.data(), ids.size()), MOBIL_OK);
     absent();
-    until_done("expand", [&] { return mobil_expand(sim, ids.data(), 20); });
-    until_done("wake", [&] { return mobil_wake(sim, &ids[20], 20, 0.005F); });
+    until_done("expand", [&] { return mobil_set_state(sim, ids.data(), 20, MOBIL_FULL, 0.005F, nullptr); });
+    until_done("wake", [&] { return mobil_set_state(sim, &ids[20], 20, MOBIL_FULL, 0.005F, nullptr); });
     absent();
-    for (const int on : {1, 0}) until_done("forces", [&] { return mobil_set_forces(sim, &ids[15], 10, on); });
-    until_done("sleep of the compact", [&] { return mobil_sleep(sim, ids.data(), 15, nullptr); });
-    ASSERT_EQ(mobil_wake(sim, ids.data(), ids.size(), 0.005F), MOBIL_OK);
+    for (const int on : {1, 0}) until_done("forces", [&] { return mobil_enable(sim, &ids[15], 10, MOBIL_FORCES, on); });
+    until_done("sleep of the compact", [&] { return mobil_set_state(sim, ids.data(), 15, MOBIL_ASLEEP, 0, nullptr); });
+    ASSERT_EQ(mobil_set_state(sim, ids.data(), ids.size(), MOBIL_FULL, 0.005F, nullptr), MOBIL_OK);
     auto moments = muscles;
     moments.activation = MOBIL_BY_MOMENTS;
-    ASSERT_EQ(mobil_set_forces(sim, ids.data(), 5, 1), MOBIL_OK);
+    ASSERT_EQ(mobil_enable(sim, ids.data(), 5, MOBIL_FORCES, 1), MOBIL_OK);
     ASSERT_EQ(mobil_set_muscles(sim, ids.data(), 5, &moments), MOBIL_OK) << sim.message();
-    until_done("no forces", [&] { return mobil_set_forces(sim, ids.data(), 5, 0); });
-    until_done("fat", [&] { return mobil_set_fat_wobble(sim, ids.data(), 5, 1); });
+    until_done("no forces", [&] { return mobil_enable(sim, ids.data(), 5, MOBIL_FORCES, 0); });
+    until_done("fat", [&] { return mobil_enable(sim, ids.data(), 5, MOBIL_FAT, 1); });
     std::vector<std::byte> bytes(mobil_snapshot_bytes(sim));
     std::size_t used = 0;
     ASSERT_EQ(mobil_save(sim, bytes.data(), bytes.size(), &used), MOBIL_OK);
@@ -286,6 +288,83 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
     EXPECT_GT(refusals, 20U);
   }
   EXPECT_TRUE(memory.pieces.empty());
+}
+
+/// A world whose next tick steers, asks the ground, watches steps and, on request, chooses methods.
+struct Busy {
+  Busy(const mobil_options& options, bool lod, const std::vector<std::byte>& baked) : sim(options) {
+    if (!baked.empty()) {
+      EXPECT_EQ(mobil_load_baked(sim, baked.data(), baked.size()), MOBIL_OK);
+    }
+    const auto ids = spawn(sim, 30);
+    EXPECT_EQ(mobil_avoidance_manage(sim, &ids[5], 20, 1), MOBIL_OK) << sim.message();
+    EXPECT_EQ(mobil_terrain_manage(sim, &ids[10], 20, 1), MOBIL_OK) << sim.message();
+    EXPECT_EQ(mobil_enable(sim, ids.data(), 10, MOBIL_STEP_EVENTS, 1), MOBIL_OK);
+    const auto waves = [](void*, const float* places, const mobil_id*, size_t count, float* ground) {
+      for (size_t i = 0; i < count; ++i) ground[4 * i] = 0.02F * std::sin(places[3 * i + 2]);
+      return 0;
+    };
+    EXPECT_EQ(mobil_terrain_set_heights(sim, waves, nullptr), MOBIL_OK);
+    if (!lod) return;
+    auto choosing = filled<mobil_lod_options>(MOBIL_LOD_OPTIONS);
+    choosing.machine_factor = 1;
+    const auto muscles = reduced_muscles();
+    auto scene = filled<mobil_scene>(MOBIL_SCENE);
+    scene.muscles = muscles.muscles;
+    scene.has_camera = 1;
+    scene.eye[2] = -4;
+    scene.gaze[2] = 1;
+    scene.asleep_beyond_m = 10;
+    scene.compact_unseen = 1;
+    EXPECT_EQ(mobil_lod_set_options(sim, &choosing, &muscles), MOBIL_OK);
+    EXPECT_EQ(mobil_lod_set_scene(sim, &scene), MOBIL_OK) << sim.message();
+    EXPECT_EQ(mobil_lod_manage(sim, ids.data(), ids.size(), nullptr), MOBIL_OK) << sim.message();
+  }
+
+  Sim sim;
+};
+
+/// A tick that lacks memory does not count, and the next one goes on with the phase that lacked it.
+TEST(CHost, ATickWithoutMemoryIsMadeUpFor) {
+  const auto usual = filled<mobil_options>(MOBIL_OPTIONS);
+  std::vector<std::byte> baked;
+  {
+    const Busy first(usual, true, {});
+    ASSERT_EQ(mobil_tick(first.sim, 5), MOBIL_OK);
+    std::size_t bytes = 0;
+    ASSERT_EQ(mobil_bake(first.sim, nullptr, 0, &bytes), MOBIL_OK);
+    baked.resize(bytes);
+    ASSERT_EQ(mobil_bake(first.sim, baked.data(), bytes, nullptr), MOBIL_OK);
+  }
+  for (const bool lod : {false, true}) {
+    const Busy plain(usual, lod, baked);
+    ASSERT_EQ(mobil_tick(plain.sim, 30), MOBIL_OK);
+    int refusals = 0;
+    for (long n = 1;; ++n) {
+      Scarce memory;
+      auto options = usual;
+      options.memory = {&memory, &Scarce::allocate, &Scarce::release};
+      const Busy busy(options, lod, baked);
+      memory.asked = 0;
+      memory.fails_at = n;
+      const int code = mobil_tick(busy.sim, 1);
+      memory.fails_at = -1;
+      if (memory.asked < n) break;
+      if (code != MOBIL_OK) {
+        ASSERT_EQ(code, MOBIL_MEMORY) << busy.sim.message();
+        ASSERT_EQ(mobil_time_s(busy.sim), 0);
+        ASSERT_EQ(mobil_tick(busy.sim, 1), MOBIL_OK) << busy.sim.message();
+        ++refusals;
+      }
+      ASSERT_EQ(mobil_tick(busy.sim, 29), MOBIL_OK) << busy.sim.message();
+      ASSERT_NEAR(mobil_time_s(busy.sim), 0.5, 1e-9);
+      // Level of detail has looked at another quarter of the people by then.
+      if (!lod) {
+        ASSERT_EQ(busy.sim.hash(), plain.sim.hash()) << "piece " << n;
+      }
+    }
+    EXPECT_GT(refusals, 5);
+  }
 }
 
 TEST(CHost, ItsJobsDoTheWork) {

@@ -7,10 +7,13 @@
 #include <limits>
 #include <string>
 
+#include <mobil/engine/world.h>
 #include <mobil/forces.h>
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/c/c_fixture.h"
+#include "tests/interfaces.h"
 
 namespace mobil::c_test {
 namespace {
@@ -37,7 +40,7 @@ TEST(CInterface, UsualStructsMakeWhatTheUsualStructsOfCppMake) {
   ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, &muscles, &id), MOBIL_OK) << sim.message();
   Simulation simulation;
   const Entity twin = *simulation.spawn(BodyRequest{});
-  ASSERT_TRUE(simulation.add_leg_muscles(twin));
+  ASSERT_TRUE(simulation.set_muscles(twin));
   ASSERT_EQ(mobil_tick(sim, 40), MOBIL_OK);
   for (int i = 0; i < 40; ++i) simulation.tick();
   EXPECT_EQ(sim.hash(), simulation.state_hash());
@@ -90,51 +93,47 @@ TEST(CInterface, APlayThroughCHasTheBitsOfThatThroughCpp) {
   const float place[3] = {50, 0, -20};
   ASSERT_EQ(mobil_place(sim, ids[4], place, 2), MOBIL_OK) << sim.message();
   ASSERT_TRUE(simulation.place(people[4], 50, -20, 2));
-  ASSERT_EQ(mobil_set_forces(sim, &ids[5], 2, 1), MOBIL_OK);
-  for (const std::size_t i : {5U, 6U}) ASSERT_TRUE(simulation.add_forces(people[i]));
-  ASSERT_EQ(mobil_set_fat_wobble(sim, &ids[6], 3, 1), MOBIL_OK);
-  ASSERT_TRUE(simulation.set_fat_wobble(std::span(people).subspan(6, 3)));
+  ASSERT_EQ(mobil_enable(sim, &ids[5], 2, MOBIL_FORCES, 1), MOBIL_OK);
+  for (const std::size_t i : {5U, 6U}) ASSERT_TRUE(simulation.enable(people[i], Feature::forces));
+  ASSERT_EQ(mobil_enable(sim, &ids[6], 3, MOBIL_FAT, 1), MOBIL_OK);
+  ASSERT_TRUE(simulation.enable(std::span(people).subspan(6, 3), Feature::fat));
   both(12);
 
   std::size_t slept = 0, compacted = 0;
-  ASSERT_EQ(mobil_sleep(sim, &ids[10], 4, &slept), MOBIL_OK);
-  EXPECT_EQ(*simulation.sleep(std::span(people).subspan(10, 4)), slept);
+  ASSERT_EQ(mobil_set_state(sim, &ids[10], 4, MOBIL_ASLEEP, 0, &slept), MOBIL_OK);
+  EXPECT_EQ(*simulation.set_state(std::span(people).subspan(10, 4), PersonState::asleep), slept);
   auto unseen = reduced_muscles();
   unseen.control_points = 0;
   auto choice = reduced_choice();
   choice.reduced.control_points = false;
   ASSERT_EQ(mobil_set_muscles(sim, &ids[14], 4, &unseen), MOBIL_OK) << sim.message();
-  for (std::size_t i = 14; i < 18; ++i) ASSERT_TRUE(simulation.change_leg_muscles(people[i], choice));
+  for (std::size_t i = 14; i < 18; ++i) ASSERT_TRUE(simulation.set_muscles(people[i], choice));
   both(30);
-  ASSERT_EQ(mobil_compact(sim, &ids[14], 4, &compacted), MOBIL_OK);
-  EXPECT_EQ(*simulation.compact(std::span(people).subspan(14, 4)), compacted);
+  ASSERT_EQ(mobil_set_state(sim, &ids[14], 4, MOBIL_COMPACT, 0, &compacted), MOBIL_OK);
+  EXPECT_EQ(*simulation.set_state(std::span(people).subspan(14, 4), PersonState::compact), compacted);
   EXPECT_EQ(compacted, 4U);
   both(10);
-  int bits = 0;
-  ASSERT_EQ(mobil_state(sim, ids[14], &bits), MOBIL_OK);
-  EXPECT_EQ(bits, MOBIL_COMPACT | MOBIL_HAS_MUSCLES);
-  ASSERT_EQ(mobil_state(sim, ids[7], &bits), MOBIL_OK);
-  EXPECT_NE(bits & MOBIL_HAS_FAT, 0);
-  ASSERT_EQ(mobil_state(sim, ids[10], &bits), MOBIL_OK);
-  EXPECT_EQ(bits & MOBIL_ASLEEP, slept > 0 ? MOBIL_ASLEEP : 0);
-  ASSERT_EQ(mobil_wake(sim, &ids[10], 4, 0.005F), MOBIL_OK);
-  ASSERT_TRUE(simulation.wake(std::span(people).subspan(10, 4)));
-  ASSERT_EQ(mobil_expand(sim, &ids[14], 4), MOBIL_OK);
-  ASSERT_TRUE(simulation.expand(std::span(people).subspan(14, 4)));
+  EXPECT_EQ(bits_of(sim, ids[14]), MOBIL_COMPACT | MOBIL_HAS_MUSCLES);
+  EXPECT_NE(bits_of(sim, ids[7]) & MOBIL_HAS_FAT, 0);
+  EXPECT_EQ(bits_of(sim, ids[10]) & MOBIL_ASLEEP, slept > 0 ? MOBIL_ASLEEP : 0);
+  ASSERT_EQ(mobil_set_state(sim, &ids[10], 4, MOBIL_FULL, 0.005F, nullptr), MOBIL_OK);
+  ASSERT_TRUE(simulation.set_state(std::span(people).subspan(10, 4), PersonState::full));
+  ASSERT_EQ(mobil_set_state(sim, &ids[14], 4, MOBIL_FULL, 0.005F, nullptr), MOBIL_OK);
+  ASSERT_TRUE(simulation.set_state(std::span(people).subspan(14, 4), PersonState::full));
   const float origin[3] = {64, 0, 0};
   ASSERT_EQ(mobil_shift_origin(sim, origin), MOBIL_OK);
   ASSERT_TRUE(simulation.shift_origin(64, 0));
   ASSERT_EQ(mobil_set_muscles(sim, ids.data(), 2, nullptr), MOBIL_OK);
-  for (std::size_t i = 0; i < 2; ++i) ASSERT_TRUE(simulation.remove_leg_muscles(people[i]));
+  for (std::size_t i = 0; i < 2; ++i) ASSERT_TRUE(simulation.set_muscles(people[i], std::nullopt));
   ASSERT_EQ(mobil_despawn(sim, &ids[18], 2), MOBIL_OK);
   ASSERT_TRUE(simulation.despawn(std::span(people).subspan(18, 2)));
   both(10);
 }
 
-TEST(CInterface, ChoosingIsThatOfRelevance) {
+TEST(CInterface, LevelOfDetailIsThatOfCpp) {
   const Sim sim;
   const auto ids = spawn(sim, 30);
-  auto options = filled<mobil_choosing>(MOBIL_CHOOSING);
+  auto options = filled<mobil_lod_options>(MOBIL_LOD_OPTIONS);
   options.machine_factor = 1;
   auto scene = filled<mobil_scene>(MOBIL_SCENE);
   scene.has_camera = 1;
@@ -142,38 +141,39 @@ TEST(CInterface, ChoosingIsThatOfRelevance) {
   scene.eye[2] = -6;
   scene.gaze[2] = 1;
   scene.compact_unseen = 1;
-  EXPECT_EQ(mobil_choose(sim, nullptr), MOBIL_MISSING);
-  ASSERT_EQ(mobil_start_choosing(sim, &options, nullptr), MOBIL_OK) << sim.message();
-  ASSERT_EQ(mobil_set_scene(sim, &scene), MOBIL_OK) << sim.message();
-  ASSERT_EQ(mobil_manage(sim, ids.data(), ids.size(), nullptr), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_lod_set_options(sim, &options, nullptr), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_lod_set_scene(sim, &scene), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_lod_manage(sim, ids.data(), ids.size(), nullptr), MOBIL_OK) << sim.message();
 
   Simulation simulation;
-  Relevance relevance(simulation, {.machine_factor = 1});
+  Lod lod = simulation.lod();
+  ASSERT_TRUE(lod.set_options({.machine_factor = 1}));
   SceneNeeds needs;
   needs.camera = Viewpoint{.position_m = {0, 1.7F, -6}};
   needs.compact_unseen = true;
-  ASSERT_TRUE(relevance.set_scene(needs));
+  ASSERT_TRUE(lod.set_scene(needs));
   const auto people = spawn_in(simulation, as_requests(some_people(30)));
-  for (const Entity person : people) ASSERT_TRUE(relevance.manage(person));
+  for (const Entity person : people) ASSERT_TRUE(lod.manage(person));
   std::size_t switched = 0;
-  for (int tick = 0; tick < 60; ++tick) {
-    auto did = filled<mobil_chosen>(MOBIL_CHOSEN);
-    ASSERT_EQ(mobil_choose(sim, &did), MOBIL_OK);
-    EXPECT_EQ(did.switched, relevance.update().switched);
+  for (int frame = 0; frame < 30; ++frame) {
+    auto did = filled<mobil_lod_counts>(MOBIL_LOD_COUNTS);
+    ASSERT_EQ(mobil_tick(sim, 2), MOBIL_OK);
+    simulation.tick(2);
+    ASSERT_EQ(mobil_lod_report(sim, &did), MOBIL_OK);
+    EXPECT_EQ(did.switched, lod.report().switched);
+    EXPECT_EQ(did.looked_at, lod.report().evaluated);
     switched += did.switched;
-    ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
-    simulation.tick();
   }
   EXPECT_GT(switched, 0U);
   EXPECT_EQ(sim.hash(), simulation.state_hash());
   char line[256];
   float error_m = -1;
   double cost_us = -1;
-  ASSERT_EQ(mobil_why(sim, ids[0], MOBIL_QUADRICEPS, line, sizeof line, &error_m, &cost_us), MOBIL_OK);
-  EXPECT_EQ(line, relevance.why(people[0], Muscle::quadriceps)->text);
-  EXPECT_EQ(error_m, relevance.why(people[0], Muscle::quadriceps)->predicted_error_m);
-  ASSERT_EQ(mobil_release(sim, ids.data(), 3), MOBIL_OK);
-  EXPECT_EQ(mobil_release(sim, ids.data(), 1), MOBIL_MISSING);
+  ASSERT_EQ(mobil_lod_why(sim, ids[0], MOBIL_QUADRICEPS, line, sizeof line, &error_m, &cost_us), MOBIL_OK);
+  EXPECT_EQ(line, lod.why(people[0], Muscle::quadriceps)->text);
+  EXPECT_EQ(error_m, lod.why(people[0], Muscle::quadriceps)->predicted_error_m);
+  ASSERT_EQ(mobil_lod_release(sim, ids.data(), 3), MOBIL_OK);
+  EXPECT_EQ(mobil_lod_release(sim, ids.data(), 1), MOBIL_MISSING);
 }
 
 TEST(CInterface, RowsAreTheComponents) {
@@ -184,7 +184,7 @@ TEST(CInterface, RowsAreTheComponents) {
   muscles.activation = MOBIL_BY_HOST;
   muscles.method = MOBIL_REDUCED;
   const auto ids = spawn(sim, 3, &muscles);
-  ASSERT_EQ(mobil_set_forces(sim, ids.data(), 3, 1), MOBIL_OK);
+  ASSERT_EQ(mobil_enable(sim, ids.data(), 3, MOBIL_FORCES, 1), MOBIL_OK);
   Simulation simulation;
   auto requests = as_requests(some_people(3));
   LegMuscles choice;
@@ -194,7 +194,7 @@ TEST(CInterface, RowsAreTheComponents) {
   choice.method = Method::reduced;
   for (auto& request : requests) request.muscles = choice;
   const auto people = spawn_in(simulation, requests);
-  for (const Entity person : people) ASSERT_TRUE(simulation.add_forces(person));
+  for (const Entity person : people) ASSERT_TRUE(simulation.enable(person, Feature::forces));
   const float pull[3] = {0.2F, 0.5F, 1};
   ASSERT_EQ(mobil_set_excitation(sim, ids.data(), 3, MOBIL_TRICEPS_SURAE, MOBIL_LEFT, pull, 0), MOBIL_OK)
       << sim.message();
@@ -240,7 +240,7 @@ TEST(CInterface, RowsAreTheComponents) {
   EXPECT_EQ(muscle_rows(MOBIL_ACTIVATION)[1], simulation.get<Activation>(calf)->activation);
   EXPECT_EQ(muscle_rows(MOBIL_TENDON)[3], simulation.get<Musculotendon>(calf)->force_n);
   const auto nodes = muscle_rows(MOBIL_NODES);
-  const NodalView view = simulation.nodal_displacement(calf);
+  const NodalView view = nodal_displacement(simulation.world(), calf);
   ASSERT_EQ(nodes.size(), 3U * view.nodes);
   for (std::size_t f = 0; f < nodes.size(); ++f) EXPECT_EQ(nodes[f], view.first[f * lane_count]);
 
@@ -384,9 +384,16 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
     const std::vector<float> pull(n, 0.5F);
     return mobil_set_excitation(sim, ids.data(), n, MOBIL_HAMSTRINGS, MOBIL_RIGHT, pull.data(), 0);
   });
-  refused("set_forces", MOBIL_STALE, [&] { return mobil_set_forces(sim, with_gone.data(), n, 1); });
-  refused("set_fat_wobble", MOBIL_STALE, [&] { return mobil_set_fat_wobble(sim, with_gone.data(), n, 1); });
-  refused("sleep", MOBIL_STALE, [&] { return mobil_sleep(sim, with_gone.data(), n, nullptr); });
+  refused("enable forces", MOBIL_STALE, [&] { return mobil_enable(sim, with_gone.data(), n, MOBIL_FORCES, 1); });
+  refused("enable fat", MOBIL_STALE, [&] { return mobil_enable(sim, with_gone.data(), n, MOBIL_FAT, 1); });
+  refused("set_state", MOBIL_STALE,
+          [&] { return mobil_set_state(sim, with_gone.data(), n, MOBIL_ASLEEP, 0, nullptr); });
+  refused("set_state of one twice", MOBIL_STALE,
+          [&] { return mobil_set_state(sim, twice.data(), n, MOBIL_ASLEEP, 0, nullptr); });
+  refused("set_state to be posed", MOBIL_REFUSED,
+          [&] { return mobil_set_state(sim, ids.data(), n, MOBIL_POSED, 0, nullptr); });
+  refused("set_state of no kind", MOBIL_REFUSED, [&] { return mobil_set_state(sim, ids.data(), n, 3, 0, nullptr); });
+  refused("enable of no kind", MOBIL_REFUSED, [&] { return mobil_enable(sim, ids.data(), n, 3, 1); });
   refused("poses of a stale one", MOBIL_STALE, [&] {
     std::vector<float> poses(n * 48 * 7, 5);
     const int code = mobil_poses(sim, with_gone.data(), n, nullptr, poses.data(), 0);

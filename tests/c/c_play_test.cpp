@@ -4,6 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include <mobil/engine/world.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/limits/limit_watch.h>
 #include "tests/c/c_fixture.h"
 
 namespace mobil::c_play_test {
@@ -23,11 +26,9 @@ std::vector<mobil_event> events(const Sim& sim) {
 
 TEST(CPlay, EventsAreThoseOfCpp) {
   Twins twins;
-  ASSERT_EQ(mobil_watch(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
-  ASSERT_TRUE(twins.simulation.watch_steps(twins.entities));
-  int bits = 0;
-  ASSERT_EQ(mobil_state(twins.sim, twins.ids[0], &bits), MOBIL_OK);
-  EXPECT_NE(bits & MOBIL_WATCHED, 0);
+  ASSERT_EQ(mobil_enable(twins.sim, twins.ids.data(), 5, MOBIL_STEP_EVENTS, 1), MOBIL_OK) << twins.sim.message();
+  ASSERT_TRUE(twins.simulation.enable(twins.entities, Feature::step_events));
+  EXPECT_NE(bits_of(twins.sim, twins.ids[0]) & MOBIL_WATCHED, 0);
   std::size_t all = 0;
   for (int i = 0; i < 60; ++i) {
     ASSERT_EQ(mobil_advance(twins.sim, 0.05, nullptr), MOBIL_OK);
@@ -50,14 +51,14 @@ TEST(CPlay, EventsAreThoseOfCpp) {
   }
   EXPECT_GT(all, 40U);
   EXPECT_EQ(twins.sim.hash(), twins.simulation.state_hash());
-  ASSERT_EQ(mobil_watch(twins.sim, twins.ids.data(), 5, 0), MOBIL_OK);
+  ASSERT_EQ(mobil_enable(twins.sim, twins.ids.data(), 5, MOBIL_STEP_EVENTS, 0), MOBIL_OK);
   ASSERT_EQ(mobil_tick(twins.sim, 30), MOBIL_OK);
   EXPECT_TRUE(events(twins.sim).empty());
 }
 
 TEST(CPlay, SeveralTicksAtOnceAreToldOfTogether) {
   Twins twins;
-  ASSERT_EQ(mobil_watch(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK);
+  ASSERT_EQ(mobil_enable(twins.sim, twins.ids.data(), 5, MOBIL_STEP_EVENTS, 1), MOBIL_OK);
   ASSERT_EQ(mobil_tick(twins.sim, 60), MOBIL_OK);
   EXPECT_GT(events(twins.sim).size(), 10U);
 }
@@ -151,7 +152,7 @@ TEST(CPlay, WhoIsPosedIsNotWatched) {
   person.posed = 1;
   mobil_id id;
   ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &id), MOBIL_OK);
-  EXPECT_EQ(mobil_watch(sim, &id, 1, 1), MOBIL_MISSING);
+  EXPECT_EQ(mobil_enable(sim, &id, 1, MOBIL_STEP_EVENTS, 1), MOBIL_MISSING);
   EXPECT_NE(sim.message().find("posed"), std::string::npos);
   auto walk = filled<mobil_walk>(MOBIL_WALK);
   EXPECT_EQ(mobil_get_walk(sim, id, &walk, nullptr, 0), MOBIL_MISSING);
@@ -190,7 +191,7 @@ TEST(CPlay, LimitsThatAreBrokenAreThoseOfCpp) {
     ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
     simulation.tick();
     std::string ours;
-    for (const BrokenLimit& limit : simulation.broken_limits(same)) ours += described(limit) + '\n';
+    for (const BrokenLimit& limit : broken_limits(simulation.world(), same)) ours += described(limit) + '\n';
     std::size_t length = 0;
     ASSERT_EQ(mobil_broken_limits(sim, id, nullptr, 0, &length), MOBIL_OK);
     ASSERT_EQ(length, ours.size());
@@ -209,6 +210,25 @@ TEST(CPlay, LimitsThatAreBrokenAreThoseOfCpp) {
   EXPECT_EQ(mobil_broken_limits(sim, id, nullptr, 0, nullptr), MOBIL_REFUSED);
   EXPECT_EQ(mobil_beyond_limits(sim, nullptr, nullptr), MOBIL_OK);
   EXPECT_EQ(mobil_broken_limits(sim, {99, 0}, nullptr, 0, &people), MOBIL_STALE);
+}
+
+TEST(CPlay, PhasesAreThoseOfTheReport) {
+  const Sim sim;
+  Simulation simulation;
+  ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
+  const StepReport report = simulation.report();
+  mobil_phase phase{};
+  int count = 0;
+  while (mobil_phase_cost(sim, count, &phase) == MOBIL_OK) {
+    const PhaseReport& ours = report.phases.at(static_cast<std::size_t>(count++));
+    EXPECT_EQ(phase.name, ours.name);
+    EXPECT_EQ(phase.module, ours.module);
+    EXPECT_EQ(phase.after != 0, ours.after);
+    EXPECT_GE(phase.seconds, 0);
+  }
+  EXPECT_EQ(static_cast<std::size_t>(count), report.phases.size());
+  EXPECT_EQ(mobil_phase_cost(sim, -1, &phase), MOBIL_MISSING);
+  EXPECT_EQ(mobil_phase_cost(sim, 0, nullptr), MOBIL_REFUSED);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/skin_writer.h>
 #include "tests/c/c_fixture.h"

@@ -1,9 +1,11 @@
 // Others, walls and ground through the C interface: those of C++, in the host's axes.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <mobil/avoidance.h>
+#include <mobil/lod.h>
 #include <mobil/terrain.h>
 #include "tests/c/c_fixture.h"
 
@@ -13,15 +15,10 @@ using namespace c_test;
 
 TEST(CSurroundings, TheWaysOfWhoAvoidOthersAreThoseOfCpp) {
   Twins twins;
-  Avoidance avoidance(twins.simulation);
-  ASSERT_EQ(mobil_avoid(twins.sim, twins.ids.data(), 5, 1), MOBIL_MISSING);
-  EXPECT_NE(twins.sim.message().find("mobil_start_avoidance"), std::string::npos);
-  ASSERT_EQ(mobil_start_avoidance(twins.sim, nullptr), MOBIL_OK) << twins.sim.message();
-  ASSERT_EQ(mobil_avoid(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
+  Avoidance avoidance = twins.simulation.avoidance();
+  ASSERT_EQ(mobil_avoidance_manage(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
   for (const Entity human : twins.entities) ASSERT_TRUE(avoidance.manage(human));
-  int bits = 0;
-  ASSERT_EQ(mobil_state(twins.sim, twins.ids[2], &bits), MOBIL_OK);
-  EXPECT_EQ(bits & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_AVOIDS);
+  EXPECT_EQ(bits_of(twins.sim, twins.ids[2]) & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_AVOIDS);
 
   // All of them to the middle, between two walls, past a pillar that comes along.
   std::vector<std::array<float, 2>> wishes(5);
@@ -32,28 +29,28 @@ TEST(CSurroundings, TheWaysOfWhoAvoidOthersAreThoseOfCpp) {
   }
   const float walls[2][6] = {{-500, 100, 0, 900, 100, 0}, {-500, -600, 0, 900, -600, 30}};
   const float discs[1][7] = {{300, -200, 0, -50, 0, 0, 25}};
-  ASSERT_EQ(mobil_want(twins.sim, twins.ids.data(), 5, wishes[0].data(), 0), MOBIL_OK) << twins.sim.message();
-  ASSERT_EQ(mobil_set_walls(twins.sim, walls[0], 0, 2), MOBIL_OK) << twins.sim.message();
-  ASSERT_EQ(mobil_set_discs(twins.sim, discs[0], 0, 1), MOBIL_OK) << twins.sim.message();
+  ASSERT_EQ(mobil_avoidance_want(twins.sim, twins.ids.data(), 5, wishes[0].data(), 0), MOBIL_OK) << twins.sim.message();
+  ASSERT_EQ(mobil_avoidance_set_walls(twins.sim, walls[0], 0, 2), MOBIL_OK) << twins.sim.message();
+  ASSERT_EQ(mobil_avoidance_set_discs(twins.sim, discs[0], 0, 1), MOBIL_OK) << twins.sim.message();
   ASSERT_TRUE(avoidance.want(ours));
   ASSERT_TRUE(avoidance.set_walls({{{{-1, -5}, {-1, 9}}, {{6, -5}, {6, 9}}}}));
   ASSERT_TRUE(avoidance.set_discs({{{{2, 3}, 0.25F, 0, -0.5F}}}));
   std::size_t chose = 0;
-  for (int t = 0; t < 300; ++t) {
-    auto did = filled<mobil_steered>(MOBIL_STEERED);
-    ASSERT_EQ(mobil_steer(twins.sim, &did), MOBIL_OK) << twins.sim.message();
-    const AvoidanceReport report = avoidance.update();
+  for (int frame = 0; frame < 100; ++frame) {
+    auto did = filled<mobil_avoidance_counts>(MOBIL_AVOIDANCE_COUNTS);
+    ASSERT_EQ(mobil_tick(twins.sim, 3), MOBIL_OK);
+    twins.simulation.tick(3);
+    ASSERT_EQ(mobil_avoidance_report(twins.sim, &did), MOBIL_OK) << twins.sim.message();
+    const AvoidanceReport& report = avoidance.report();
     ASSERT_EQ(did.people, 5U);
     ASSERT_EQ(did.chose, report.chose);
     ASSERT_EQ(did.kept_claim, report.kept_claim);
     chose += did.chose;
-    ASSERT_EQ(mobil_tick(twins.sim, 1), MOBIL_OK);
-    twins.simulation.tick();
   }
   EXPECT_GT(chose, 30U);
   EXPECT_EQ(twins.sim.hash(), twins.simulation.state_hash());
-  ASSERT_EQ(mobil_avoid(twins.sim, twins.ids.data(), 5, 0), MOBIL_OK) << twins.sim.message();
-  EXPECT_EQ(mobil_avoid(twins.sim, twins.ids.data(), 5, 0), MOBIL_MISSING);
+  ASSERT_EQ(mobil_avoidance_manage(twins.sim, twins.ids.data(), 5, 0), MOBIL_OK) << twins.sim.message();
+  EXPECT_EQ(mobil_avoidance_manage(twins.sim, twins.ids.data(), 5, 0), MOBIL_MISSING);
   EXPECT_NE(twins.sim.message().find("person 0"), std::string::npos);
 }
 
@@ -62,44 +59,55 @@ TerrainHeight hill(float x_m, float z_m) {
   return {0.3F * std::sin(x_m) + 0.1F * z_m, 0.3F * std::cos(x_m), 0.1F};
 }
 
+/// The same as a host's function in the library's axes.
+int hill_of_host(void* calls, const float* places, const mobil_id*, size_t count, float* ground) {
+  ++*static_cast<int*>(calls);
+  for (size_t i = 0; i < count; ++i, places += 3, ground += 4) {
+    const TerrainHeight at = hill(places[0], places[2]);
+    const float row[] = {at.height_m, -at.rise_x, 1, -at.rise_z};
+    std::ranges::copy(row, ground);
+  }
+  return 0;
+}
+
 /// Everybody on the hill, and whether they slow down there: as in C++.
 void walk_on_the_hill(bool slows_down) {
   Twins twins;
   const auto heights = [](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
     for (std::size_t i = 0; i < at.size(); ++i) out[i] = hill(at[i].x_m, at[i].z_m);
   };
-  Terrain terrain(twins.simulation, heights, {.slows_down = slows_down});
-  ASSERT_EQ(mobil_set_slowing(twins.sim, slows_down ? 1 : 0), MOBIL_OK);
-  ASSERT_EQ(mobil_set_on_ground(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
+  Terrain terrain = twins.simulation.terrain();
+  terrain.set_heights(heights);
+  terrain.set_options({.slows_down = slows_down});
+  ASSERT_EQ(mobil_terrain_set_slowing(twins.sim, slows_down ? 1 : 0), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_manage(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
   ASSERT_TRUE(terrain.manage(twins.entities));
-  int bits = 0;
-  ASSERT_EQ(mobil_state(twins.sim, twins.ids[2], &bits), MOBIL_OK);
-  EXPECT_EQ(bits & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_ON_GROUND);
+  EXPECT_EQ(bits_of(twins.sim, twins.ids[2]) & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_ON_GROUND);
   std::size_t all = 0;
   for (int t = 0; t < 200; ++t) {
     std::size_t count = 0, unusable = 1;
-    ASSERT_EQ(mobil_ask_ground(twins.sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
-    const TerrainReport report = terrain.update();
-    ASSERT_EQ(count, report.places);
+    ASSERT_EQ(mobil_terrain_ask(twins.sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
     all += count;
     if (count > 0) {
       std::vector<std::array<float, 3>> places(count);
       std::vector<std::array<float, 4>> ground(count);
       std::vector<mobil_id> who(count);
-      EXPECT_EQ(mobil_ask_ground(twins.sim, places[0].data(), 0, who.data(), count - 1, nullptr), MOBIL_ROOM);
-      ASSERT_EQ(mobil_ask_ground(twins.sim, places[0].data(), 0, who.data(), count, nullptr), MOBIL_OK);
+      EXPECT_EQ(mobil_terrain_ask(twins.sim, places[0].data(), 0, who.data(), count - 1, nullptr), MOBIL_ROOM);
+      ASSERT_EQ(mobil_terrain_ask(twins.sim, places[0].data(), 0, who.data(), count, nullptr), MOBIL_OK);
       for (std::size_t i = 0; i < count; ++i) {
         EXPECT_LT(who[i].index, 5U);
         EXPECT_EQ(places[i][2], 0);
         const TerrainHeight at = hill(-places[i][1] / 100, places[i][0] / 100);
         ground[i] = {100 * at.height_m, -2 * at.rise_z, 2 * at.rise_x, 2};  // x ahead, y right, z up
       }
-      EXPECT_EQ(mobil_answer_ground(twins.sim, ground[0].data(), 0, count - 1, nullptr), MOBIL_REFUSED);
-      ASSERT_EQ(mobil_answer_ground(twins.sim, ground[0].data(), 0, count, &unusable), MOBIL_OK) << twins.sim.message();
+      EXPECT_EQ(mobil_terrain_answer(twins.sim, ground[0].data(), 0, count - 1, nullptr), MOBIL_REFUSED);
+      ASSERT_EQ(mobil_terrain_answer(twins.sim, ground[0].data(), 0, count, &unusable), MOBIL_OK)
+          << twins.sim.message();
       EXPECT_EQ(unusable, 0U);
     }
     ASSERT_EQ(mobil_tick(twins.sim, 1), MOBIL_OK);
     twins.simulation.tick();
+    ASSERT_EQ(count, terrain.report().places);
   }
   EXPECT_GT(all, 300U);
   std::vector<float> pose(std::size_t{7} * MOBIL_SEGMENTS);
@@ -116,7 +124,7 @@ void walk_on_the_hill(bool slows_down) {
     slowed += walk.speed_m_s < 0.85F;  // nobody was asked for less than 0.9 m/s
   }
   EXPECT_EQ(slowed > 0, slows_down);
-  ASSERT_EQ(mobil_set_slowing(twins.sim, 0), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_set_slowing(twins.sim, 0), MOBIL_OK);
 }
 
 TEST(CSurroundings, TheGroundIsThatOfCpp) {
@@ -127,52 +135,131 @@ TEST(CSurroundings, WalkersSlowDownAsInCpp) {
   walk_on_the_hill(true);
 }
 
+/// One advance a frame chooses, steers and asks: as in C++.
+TEST(CSurroundings, AFrameHasAllOfItsPhases) {
+  const Sim sim;
+  const auto ids = spawn(sim, 5);
+  int calls = 0;
+  auto options = filled<mobil_lod_options>(MOBIL_LOD_OPTIONS);
+  options.machine_factor = 1;
+  auto scene = filled<mobil_scene>(MOBIL_SCENE);
+  scene.tolerance_m = 0.001F;
+  ASSERT_EQ(mobil_lod_set_options(sim, &options, nullptr), MOBIL_OK);
+  ASSERT_EQ(mobil_lod_set_scene(sim, &scene), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_lod_manage(sim, ids.data(), 5, nullptr), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_avoidance_manage(sim, ids.data(), 5, 1), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_terrain_manage(sim, ids.data(), 5, 1), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_terrain_set_heights(sim, &hill_of_host, &calls), MOBIL_OK);
+
+  Simulation ours;
+  std::vector<Entity> people(5);
+  ASSERT_TRUE(ours.spawn(as_requests(some_people(5)), people));
+  ASSERT_TRUE(ours.lod().set_options({.machine_factor = 1}));
+  ASSERT_TRUE(ours.lod().set_scene({.tolerance_m = 0.001F}));
+  ASSERT_TRUE(ours.lod().manage(people));
+  ASSERT_TRUE(ours.avoidance().manage(people));
+  ASSERT_TRUE(ours.terrain().manage(people));
+  ours.terrain().set_heights([](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+    for (std::size_t i = 0; i < at.size(); ++i) out[i] = hill(at[i].x_m, at[i].z_m);
+  });
+  std::size_t looked_at = 0, places = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    mobil_ticks ticks;
+    ASSERT_EQ(mobil_advance(sim, 0.04, &ticks), MOBIL_OK) << sim.message();
+    ASSERT_EQ(ours.advance(0.04).count, ticks.count);
+    auto lod = filled<mobil_lod_counts>(MOBIL_LOD_COUNTS);
+    auto avoidance = filled<mobil_avoidance_counts>(MOBIL_AVOIDANCE_COUNTS);
+    auto terrain = filled<mobil_terrain_counts>(MOBIL_TERRAIN_COUNTS);
+    ASSERT_EQ(mobil_lod_report(sim, &lod), MOBIL_OK);
+    ASSERT_EQ(mobil_avoidance_report(sim, &avoidance), MOBIL_OK);
+    ASSERT_EQ(mobil_terrain_report(sim, &terrain), MOBIL_OK);
+    EXPECT_EQ(lod.switched, ours.lod().report().switched);
+    EXPECT_EQ(avoidance.people, ours.avoidance().report().people);
+    EXPECT_EQ(terrain.people, ours.terrain().report().people);
+    looked_at += lod.looked_at;
+    places += terrain.places;
+  }
+  EXPECT_EQ(sim.hash(), ours.state_hash());
+  EXPECT_GT(looked_at, 0U);
+  EXPECT_GT(places, 300U);
+  EXPECT_GT(calls, 10);
+  EXPECT_EQ(bits_of(sim, ids[0]), MOBIL_HAS_MUSCLES | MOBIL_MANAGED | MOBIL_AVOIDS | MOBIL_ON_GROUND);
+}
+
+/// A function that refuses keeps the tick from running; the next one goes on.
+TEST(CSurroundings, GroundThatIsNotThereStopsTime) {
+  const Sim sim, plain;
+  const auto level = [](void* user, const float*, const mobil_id*, size_t, float*) { return *static_cast<int*>(user); };
+  for (const Sim* each : {&sim, &plain}) {
+    const auto ids = spawn(*each, 3);
+    ASSERT_EQ(mobil_terrain_manage(*each, ids.data(), 3, 1), MOBIL_OK);
+  }
+  int refuses = 7, never = 0;
+  ASSERT_EQ(mobil_terrain_set_heights(sim, level, &refuses), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_set_heights(plain, level, &never), MOBIL_OK);
+  const auto before = sim.hash();
+  EXPECT_EQ(mobil_tick(sim, 4), MOBIL_REFUSED);
+  EXPECT_NE(sim.message().find("returned 7"), std::string::npos) << sim.message();
+  EXPECT_EQ(sim.hash(), before);
+  EXPECT_EQ(mobil_time_s(sim), 0);
+  refuses = 0;
+  ASSERT_EQ(mobil_tick(sim, 40), MOBIL_OK);
+  ASSERT_EQ(mobil_tick(plain, 40), MOBIL_OK);
+  EXPECT_EQ(sim.hash(), plain.hash());
+  ASSERT_EQ(mobil_terrain_set_heights(sim, nullptr, nullptr), MOBIL_OK);
+  std::size_t count = 0;
+  ASSERT_EQ(mobil_tick(sim, 60), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_ask(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
+  EXPECT_GT(count, 0U);  // nobody answered
+}
+
 TEST(CSurroundings, GroundThatHangsOverOrIsNoNumberIsLevel) {
   const Sim sim;
   const auto ids = spawn(sim, 1);
-  ASSERT_EQ(mobil_set_on_ground(sim, ids.data(), 1, 1), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_manage(sim, ids.data(), 1, 1), MOBIL_OK);
   std::size_t count = 0, unusable = 0;
-  ASSERT_EQ(mobil_ask_ground(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_ask(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
   ASSERT_EQ(count, 33U);
   std::vector<std::array<float, 4>> ground(count);
   ground[3] = {0, 0, -1, 0};
   ground[7] = {NAN, 0, 1, 0};
   ground[9] = {0, 1, 0, 0};
-  ASSERT_EQ(mobil_answer_ground(sim, ground[0].data(), 0, count, &unusable), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_terrain_answer(sim, ground[0].data(), 0, count, &unusable), MOBIL_OK) << sim.message();
   EXPECT_EQ(unusable, 3U);
-  EXPECT_EQ(mobil_answer_ground(sim, ground[0].data(), 0, count, &unusable), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_terrain_answer(sim, ground[0].data(), 0, count, &unusable), MOBIL_REFUSED);
 }
 
 TEST(CSurroundings, AllOrNone) {
   const Sim sim;
   auto ids = spawn(sim, 2);
-  ASSERT_EQ(mobil_start_avoidance(sim, nullptr), MOBIL_OK);
+  ASSERT_EQ(mobil_avoidance_set_options(sim, nullptr), MOBIL_OK);
   auto person = filled<mobil_person>(MOBIL_PERSON);
   person.posed = 1;
   mobil_id posed;
   ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &posed), MOBIL_OK);
   ids.push_back(posed);
   const std::uint64_t before = sim.hash();
-  EXPECT_EQ(mobil_avoid(sim, ids.data(), 3, 1), MOBIL_MISSING);
+  EXPECT_EQ(mobil_avoidance_manage(sim, ids.data(), 3, 1), MOBIL_MISSING);
   EXPECT_NE(sim.message().find("person 2"), std::string::npos);
-  EXPECT_EQ(mobil_set_on_ground(sim, ids.data(), 3, 1), MOBIL_MISSING);
+  EXPECT_EQ(mobil_terrain_manage(sim, ids.data(), 3, 1), MOBIL_MISSING);
   ids[2] = {99, 9};
-  EXPECT_EQ(mobil_avoid(sim, ids.data(), 3, 1), MOBIL_STALE);
-  EXPECT_EQ(mobil_set_on_ground(sim, ids.data(), 3, 1), MOBIL_STALE);
+  EXPECT_EQ(mobil_avoidance_manage(sim, ids.data(), 3, 1), MOBIL_STALE);
+  EXPECT_EQ(mobil_terrain_manage(sim, ids.data(), 3, 1), MOBIL_STALE);
   EXPECT_EQ(sim.hash(), before);
-  ASSERT_EQ(mobil_avoid(sim, ids.data(), 2, 1), MOBIL_OK);
+  ASSERT_EQ(mobil_avoidance_manage(sim, ids.data(), 2, 1), MOBIL_OK);
   const float wishes[2][2] = {{1, 0}, {NAN, 0}};
   const std::uint64_t avoiding = sim.hash();
-  EXPECT_EQ(mobil_want(sim, ids.data(), 2, wishes[0], 0), MOBIL_REFUSED);
-  EXPECT_EQ(mobil_want(sim, ids.data(), 2, wishes[0], 4), MOBIL_REFUSED);
-  EXPECT_EQ(mobil_want(sim, ids.data(), 2, nullptr, 0), MOBIL_REFUSED);
-  EXPECT_EQ(mobil_avoid(sim, ids.data(), 2, 1), MOBIL_OK);  // people who avoid others already keep their wish
+  EXPECT_EQ(mobil_avoidance_want(sim, ids.data(), 2, wishes[0], 0), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_avoidance_want(sim, ids.data(), 2, wishes[0], 4), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_avoidance_want(sim, ids.data(), 2, nullptr, 0), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_avoidance_manage(sim, ids.data(), 2, 1),
+            MOBIL_OK);  // people who avoid others already keep their wish
   EXPECT_EQ(sim.hash(), avoiding);
   const float wall[6] = {0, 0, 0, INFINITY, 0, 0};
-  EXPECT_EQ(mobil_set_walls(sim, wall, 0, 1), MOBIL_REFUSED);
-  auto options = filled<mobil_avoidance>(MOBIL_AVOIDANCE);
+  EXPECT_EQ(mobil_avoidance_set_walls(sim, wall, 0, 1), MOBIL_REFUSED);
+  auto options = filled<mobil_avoidance_options>(MOBIL_AVOIDANCE_OPTIONS);
   options.radius_h = NAN;
-  EXPECT_EQ(mobil_start_avoidance(sim, &options), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_avoidance_set_options(sim, &options), MOBIL_REFUSED);
 }
 
 }  // namespace

@@ -118,7 +118,6 @@ class Worlds(unittest.TestCase):
             (mobil.RefusedError, lambda: world.change_walk(people, speed_m_s=90)),
             (mobil.MissingError, lambda: world.moments(people)),
             (mobil.MissingError, lambda: world.muscle_rows("line", people, "soleus")),
-            (mobil.MissingError, world.choose),
             (ValueError, lambda: world.muscle_rows("line", people, "biceps")),
             (ValueError, lambda: world.spawn(constitution="round")),
             (TypeError, lambda: mobil.muscles(methods="ecd")),
@@ -141,7 +140,7 @@ class Worlds(unittest.TestCase):
         people = world.spawn(3, place=[[i, 0, 0] for i in range(3)], speed_m_s=1.4)
         world.tick(10)
         self.assertEqual(len(world.events()), 0)
-        world.watch(people)
+        world.enable(people, "step_events")
         told = []
         for _ in range(120):
             world.tick()
@@ -157,7 +156,7 @@ class Worlds(unittest.TestCase):
         self.assertEqual({e["side"] for e in first}, {0, 1})
         for e in first:  # x is to the right
             self.assertEqual(float(e["place"][0]) > 1, e["side"] == 0)
-        world.watch(people, on=False)
+        world.enable(people, "step_events", on=False)
         world.tick(60)
         self.assertEqual(len(world.events()), 0)
 
@@ -210,7 +209,8 @@ class Worlds(unittest.TestCase):
         def nearest(avoids):
             world = mobil.World()
             people = world.spawn(speed_m_s=1.3, place=[[0, 0, 0], [0.05, 0, 7]], heading_rad=[0, np.pi])
-            avoidance = mobil.Avoidance(world, overlap_m=0.02)
+            avoidance = world.avoidance
+            avoidance.set_options(overlap_m=0.02)
             if avoids:
                 avoidance.manage(people)
                 avoidance.want(people, 1.3, [0, np.pi])
@@ -218,8 +218,8 @@ class Worlds(unittest.TestCase):
             avoidance.set_discs([[0, 0, 12]], 0.3)
             apart = np.inf
             for _ in range(300):
-                self.assertEqual(avoidance.update().people, 2)
-                world.tick()
+                world.advance(world.tick_s)
+                self.assertEqual(avoidance.report.people, 2 if avoids else 0)
                 place = world.roots(people)["place"]
                 apart = min(apart, float(np.hypot(*(place[1] - place[0])[[0, 2]])))
             if avoids:
@@ -235,16 +235,17 @@ class Worlds(unittest.TestCase):
         world = mobil.World(axes="unreal", units_per_m=100)
         people = crowd(world, 4)
         slope = 0.1
-        terrain = mobil.Terrain(world, lambda at: (slope * at[:, 0], [-slope, 0, 1]))
+        terrain = world.terrain
         terrain.manage(people)
         places, who = terrain.ask()
         self.assertEqual(places.shape, (132, 3))
         self.assertEqual(set(who["index"]), set(people["index"]))
         with self.assertRaises(mobil.RefusedError):
             terrain.answer([0.0])
-        for _ in range(200):
-            self.assertEqual(terrain.update(), 0)
-            world.tick()
+        terrain.set_heights(lambda at: (slope * at[:, 0], [-slope, 0, 1]))
+        for _ in range(50):
+            world.tick(4)
+            self.assertEqual((terrain.report.people, terrain.report.unusable), (4, 0))
         soles, _ = world.feet(people)
         over = soles[..., 2] - slope * soles[..., 0]  # (n, points, sides)
         self.assertGreater(over.min(), -0.5)  # cm
@@ -255,27 +256,128 @@ class Worlds(unittest.TestCase):
         def speed_after(slows_down):
             world = mobil.World()
             people = crowd(world, 1)
-            terrain = mobil.Terrain(world, lambda at: (0.2 * at[:, 2], [0, 1, -0.2]), slows_down=slows_down)
-            terrain.manage(people)
-            for _ in range(240):
-                terrain.update()
-                world.tick()
+            world.terrain.set_heights(lambda at: (0.2 * at[:, 2], [0, 1, -0.2]))
+            world.terrain.set_slowing(slows_down)
+            world.terrain.manage(people)
+            world.tick(240)
             return world.walk(people[0])["speed_m_s"]
 
         self.assertLess(speed_after(True), 0.7 * speed_after(False))
 
-    def test_choosing_follows_the_camera(self):
+    def test_what_the_ground_raises_comes_out_of_advance(self):
+        world = mobil.World()
+        people = crowd(world, 2)
+        world.terrain.manage(people)
+
+        class Away(Exception):
+            pass
+
+        def away(_):
+            raise Away
+
+        before = world.hash()
+        for heights, kind in ((away, Away), (lambda at: np.zeros(3), ValueError), (lambda at: "up", ValueError)):
+            world.terrain.set_heights(heights)
+            for go_on in (world.tick, lambda: world.advance(0.1)):
+                with self.assertRaises(kind):
+                    go_on()
+                self.assertEqual(world.hash(), before)
+        world.terrain.set_heights(lambda at: np.zeros(len(at)))
+        world.tick(30)
+        self.assertGreater(world.terrain.report.places, 0)
+        self.assertEqual(world.time_s, 30 * world.tick_s)
+
+    def test_a_frame_has_all_of_its_phases(self):
         world = mobil.World()
         people = crowd(world)
-        world.start_choosing(machine_factor=1)
-        world.set_scene(eye=(6, 1.7, -8), gaze=(0, 0, 1), half_angle_rad=0.9)
-        world.manage(people)
+        world.lod.set_options(machine_factor=1)
+        world.lod.set_scene(tolerance_m=0.001)
+        world.lod.manage(people)
+        world.avoidance.manage(people)
+        world.terrain.set_heights(lambda at: 0.05 * np.sin(at[:, 2]))
+        world.terrain.manage(people)
+        looked_at = chose = places = 0
         for _ in range(40):
-            did = world.choose()
+            self.assertIn(world.advance(0.04).count, (2, 3))
+            looked_at += world.lod.report["looked_at"]
+            chose += world.avoidance.report.chose
+            places += world.terrain.report.places
+        self.assertTrue(looked_at and chose and places)
+        self.assertLessEqual({"level of detail", "avoidance", "ground"}, {phase.name for phase in world.phases() if not phase.after})
+        self.assertTrue(any(phase.after for phase in world.phases()))
+
+    def test_states(self):
+        world = mobil.World()
+        people, posed = crowd(world, 4), world.spawn(1, posed=True)
+        world.tick(120)
+        self.assertEqual(world.set_state(people[:2], "asleep"), 2)
+        self.assertEqual(world.set_state(people[2:], "compact"), 2)
+        self.assertEqual([world.state(one) for one in (people[0], people[3], posed)], ["asleep", "compact", "posed"])
+        self.assertEqual(world.set_state(people, "full"), 4)
+        self.assertEqual(world.state(people[0]), "full")
+        with self.assertRaises(ValueError):
+            world.set_state(people, "tired")
+
+    def test_deprecated_names_warn_and_do_their_work(self):
+        world, other = mobil.World(), mobil.World()
+        people, others = crowd(world), crowd(other)
+        slope = lambda at: (0.1 * at[:, 2], [0, 1, -0.1])  # noqa: E731
+        with self.assertWarns(DeprecationWarning):
+            avoidance = mobil.Avoidance(world, overlap_m=0.02)
+        with self.assertWarns(DeprecationWarning):
+            terrain = mobil.Terrain(world, slope, slows_down=True)
+        for call in (
+            lambda: world.start_choosing(machine_factor=1),
+            lambda: world.set_scene(tolerance_m=0.001),
+            lambda: world.manage(people[:3]),
+            lambda: world.set_forces(people[3:5]),
+            lambda: world.set_fat_wobble(people[3:5]),
+            lambda: world.watch(people),
+        ):
+            with self.assertWarns(DeprecationWarning):
+                call()
+        avoidance.manage(people)
+        terrain.manage(people)
+        other.lod.set_options(machine_factor=1)
+        other.lod.set_scene(tolerance_m=0.001)
+        other.lod.manage(others[:3])
+        for feature, some in (("forces", others[3:5]), ("fat", others[3:5]), ("step_events", others)):
+            other.enable(some, feature)
+        other.avoidance.set_options(overlap_m=0.02)
+        other.avoidance.manage(others)
+        other.terrain.set_heights(slope)
+        other.terrain.set_slowing()
+        other.terrain.manage(others)
+        for _ in range(90):
+            with self.assertWarns(DeprecationWarning):
+                did, steered, unusable = world.choose(), avoidance.update(), terrain.update()
+            self.assertEqual((steered, unusable), (other.avoidance.report, 0))
+            self.assertEqual(did["looked_at"], other.lod.report["looked_at"])
             world.tick()
-        self.assertIn("looked_at", did)
+            other.tick()
+        self.assertEqual(world.hash(), other.hash())
+        world = mobil.World()
+        people = crowd(world)
+        world.tick(120)
+        with self.assertWarns(DeprecationWarning):
+            self.assertEqual(world.sleep(people[8:]) + world.compact(people[6:8]), 6)
+        with self.assertWarns(DeprecationWarning):
+            world.wake(people)
+        self.assertEqual([world.state(one) for one in people[[7, 8]]], ["compact", "full"])
+        with self.assertWarns(DeprecationWarning):
+            world.expand(people)
+        self.assertEqual(world.state(people[7]), "full")
+
+    def test_level_of_detail_follows_the_camera(self):
+        world = mobil.World()
+        people = crowd(world)
+        world.lod.set_options(machine_factor=1)
+        world.lod.set_scene(eye=(6, 1.7, -8), gaze=(0, 0, 1), half_angle_rad=0.9)
+        world.lod.manage(people)
+        world.tick(40)
+        self.assertGreater(world.lod.report["looked_at"], 0)
         self.assertIn(world.method(people[0], "quadriceps"), ("reduced", "ecd", "static"))
-        why = world.why(people[0], "quadriceps")
+        why = world.lod.why(people[0], "quadriceps")
         self.assertGreater(why.cost_us, 0)
         self.assertTrue(why.why)
         self.assertTrue(any(cost.entities for cost in world.cost()))
@@ -382,8 +484,7 @@ class Arrays(unittest.TestCase):
         posed = world.spawn(6, posed=True)
         world.tick()
         surfaces, skin = mobil.Surfaces(world, people[0], detail=0.3), mobil.Skin(world, "man", "distant")
-        avoidance, terrain = mobil.Avoidance(world), mobil.Terrain(world, lambda at: np.zeros(len(at)))
-        world.start_choosing(machine_factor=1)
+        avoidance, terrain = world.avoidance, world.terrain
         before = world.hash()
         roots = world.roots(people)
         still = world.poses(posed)
@@ -404,9 +505,9 @@ class Arrays(unittest.TestCase):
                 lambda: world.set_excitation(grid, "quadriceps", "right", 0.5),
                 lambda: world.change_walk(grid, speed_m_s=1.2),
                 lambda: world.set_muscles(grid, None),
-                lambda: world.watch(grid),
-                lambda: world.sleep(grid),
-                lambda: world.manage(grid),
+                lambda: world.enable(grid, "fat"),
+                lambda: world.set_state(grid, "asleep"),
+                lambda: world.lod.manage(grid),
                 lambda: world.despawn(grid),
                 lambda: avoidance.manage(grid),
                 lambda: avoidance.want(grid, 1.0, 0.0),
@@ -437,7 +538,7 @@ class Arrays(unittest.TestCase):
         ):
             np.testing.assert_array_equal(world.joints(some), rows)
         for other in (np.arange(3), [], people.view(np.uint32), "people"):
-            for call in (world.joints, world.poses, world.roots, world.sleep):
+            for call in (world.joints, world.poses, world.roots, world.lod.manage):
                 with self.assertRaises(TypeError):
                     call(other)
 

@@ -124,7 +124,7 @@ Came run(const Asked& asked) {
           people += shard->people().size();
           refused += shard->refused();
           for (const auto& [number, entity] : shard->people()) {
-            asleep += shard->simulation().is_asleep(entity) ? 1 : 0;
+            asleep += (shard->simulation().state(entity) == PersonState::asleep) ? 1 : 0;
             with_muscles += shard->simulation().muscles(entity).empty() ? 0 : 1;
           }
         }

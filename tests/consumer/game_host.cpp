@@ -3,9 +3,10 @@
 #include <Eigen/Dense>
 #include <cstdio>
 
-#include "engine/world.h"
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/version.h>
+#include "engine/world.h"
 
 int main() {
   const game::World mine;
@@ -15,7 +16,7 @@ int main() {
   const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
   mobil::LegMuscles muscles;
   muscles.method = mobil::Method::reduced;
-  const auto added = simulation.add_leg_muscles(human.value(), muscles);
+  const auto added = simulation.set_muscles(human.value(), muscles);
   for (int i = 0; i < 10; ++i) simulation.tick();
   std::printf("mobil %s: %s; the host's least eigenvalue is %.3f\n", MOBIL_VERSION,
               added ? "muscles" : added.error().message.c_str(), solver.eigenvalues()[0]);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,32 @@ TEST(EngineSchedule, PreviousReadsAheadOfTheWriterAndBreaksACircle) {
   ScheduleBuilder open;
   open.add("ab", &a_to_b).add("bc", &b_to_c).add("ca", [](Previous<C>, LA&) {});
   EXPECT_EQ(order_of(open), "ca ab bc");
+}
+
+/// Alternatives write one component without an order, as long as no table has two of them.
+TEST(EngineSchedule, AlternativesNeedNoOrderUntilATableHasTwo) {
+  const auto both = [] {
+    ScheduleBuilder systems;
+    systems.add("one", [](LA&, const LB&) {}).one_of("ways").add("two", [](LA&, const LC&) {}).one_of("ways");
+    return systems.add("last", &write_a).after("ways");
+  };
+  EXPECT_EQ(order_of(both()), "one two last");
+  EXPECT_NE(order_of(both().add("other", &write_a).one_of("others")).find("both write"), std::string::npos);
+  EXPECT_NE(order_of(ScheduleBuilder().add("one", &write_a).after("ways")).find("never added"), std::string::npos);
+  World world;
+  world.create(A<float>{}, B<float>{});
+  world.create(A<float>{}, C<float>{});
+  auto schedule = both().build().value();
+  schedule.run(world, {});
+  world.create(A<float>{}, B<float>{}, C<float>{});
+  for (int twice = 0; twice < 2; ++twice) {
+    try {
+      schedule.run(world, {});
+      ADD_FAILURE() << "a table has both";
+    } catch (const std::logic_error& error) {
+      EXPECT_NE(std::string(error.what()).find("'two'"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(EngineSchedule, AfterOrdersWritersAndWinsOverTheRule) {

@@ -21,7 +21,7 @@ struct Births {
 /// Writes what runs into `said`, with the number of finished ticks.
 Module telling(std::string& said, const std::string& name) {
   const auto tell = [&said](const std::string& what) {
-    return Phase{what, [&said, what](Frame& frame) { said += what + std::to_string(frame.tick.index) + ' '; }};
+    return Phase{what, [&said, what](const Frame& frame) { said += what + std::to_string(frame.tick.index) + ' '; }};
   };
   return {.name = name,
           .systems =
@@ -45,10 +45,10 @@ Module generations() {
                 });
               },
           .before = {{"births",
-                      [](Frame& frame) {
+                      [](const Frame& frame) {
                         frame.workspace.get<Births>().all.push_back(frame.world.create(Age<float>{0}));
                       }}},
-          .after = {{"deaths", [](Frame& frame) {
+          .after = {{"deaths", [](const Frame& frame) {
                        for (const Entity one : frame.workspace.get<Births>().all)
                          if (frame.world.alive(one) && frame.world.get<Age>(one)->ticks == 3) frame.world.destroy(one);
                      }}}};
@@ -64,8 +64,9 @@ TEST(Phases, RunAroundTheSystemsInTheOrderOfModules) {
   schedule.tick(world, tick, workspace);
   EXPECT_EQ(said, "before a7 before b7 a7 b7 after a8 after b8 ");
   EXPECT_EQ(tick.index, 8U);
-  EXPECT_EQ(schedule.describe(), "before: before a\nbefore: before b\n1. a; reads Age\n2. b; reads Age\n"
-                                 "after: after a\nafter: after b\n");
+  EXPECT_EQ(schedule.describe(),
+            "before: before a\nbefore: before b\n1. a; reads Age\n2. b; reads Age\n"
+            "after: after a\nafter: after b\n");
 }
 
 TEST(Phases, ChangeRowsAndKeepWhatTheyNeed) {
@@ -83,7 +84,7 @@ TEST(Phases, ChangeRowsAndKeepWhatTheyNeed) {
 TEST(Phases, ATickWhoseBeginningThrowsDoesNotCount) {
   std::string said;
   Module failing = telling(said, "b");
-  failing.before.front().run = [](Frame&) { throw std::runtime_error("no room"); };
+  failing.before.front().run = [](const Frame&) { throw std::runtime_error("no room"); };
   auto schedule = *make_schedule(std::array{telling(said, "a"), failing});
   World world;
   world.create(Age<float>{0});
@@ -94,12 +95,35 @@ TEST(Phases, ATickWhoseBeginningThrowsDoesNotCount) {
   EXPECT_EQ(said, "before a3 ");
 }
 
+TEST(Phases, TheTickAfterOneThatThrewBeginsWithThePhaseThatThrew) {
+  std::string said;
+  Module failing = telling(said, "b");
+  int left = 2;
+  failing.before.front().run = [&](const Frame&) {
+    if (left-- > 0) throw std::runtime_error("no room");
+    said += "at last ";
+  };
+  auto schedule = *make_schedule(std::array{telling(said, "a"), failing, telling(said, "c")});
+  World world;
+  world.create(Age<float>{0});
+  Workspace workspace;
+  Tick tick{0.01F, 3};
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(schedule.tick(world, tick, workspace), std::runtime_error);
+  schedule.tick(world, tick, workspace);
+  EXPECT_EQ(said, "before a3 at last before c3 a3 b3 c3 after a4 after b4 after c4 ");
+  said.clear();
+  left = 1;
+  EXPECT_THROW(schedule.tick(world, tick, workspace), std::runtime_error);
+  schedule.begin_anew();
+  schedule.tick(world, tick, workspace);
+  EXPECT_TRUE(said.starts_with("before a4 before a4 at last ")) << said;
+}
+
 TEST(Phases, AreTimed) {
   static double now = 0;
-  auto schedule = *make_schedule(std::array<Module, 1>{
-      {{.name = "slow",
-        .before = {{"slow", [](Frame&) { now += 2; }}},
-        .after = {{"slow", [](Frame&) { now += 5; }}}}}});
+  auto schedule = *make_schedule(std::array<Module, 1>{{{.name = "slow",
+                                                         .before = {{"slow", [](const Frame&) { now += 2; }}},
+                                                         .after = {{"slow", [](const Frame&) { now += 5; }}}}}});
   schedule.measure_with([] { return now; });
   World world;
   Workspace workspace;
@@ -114,7 +138,8 @@ TEST(Phases, AreTimed) {
 }
 
 TEST(Phases, NeedANameOfTheirOwnAndAFunction) {
-  const Phase good{"one", [](Frame&) {}}, same{"one", [](Frame&) {}}, nameless{"", [](Frame&) {}}, empty{"two", {}};
+  const Phase good{"one", [](const Frame&) {}}, same{"one", [](const Frame&) {}}, nameless{"", [](const Frame&) {}},
+      empty{"two", {}};
   for (const Phase& bad : {same, nameless, empty}) {
     const auto refused = make_schedule(std::array<Module, 1>{{{.name = "host", .after = {good, bad}}}});
     ASSERT_FALSE(refused) << bad.name;

@@ -23,7 +23,6 @@ class WildHost {
     promise(mobil_create(&options, &sim_, line, sizeof line) == MOBIL_OK, "a simulation is made");
     static const std::vector<unsigned char> baked = kept_or_baked();
     if (!baked.empty()) mobil_load_baked(sim_, baked.data(), baked.size());
-    promise(mobil_start_avoidance(sim_, nullptr) == MOBIL_OK, "avoidance begins");
   }
   ~WildHost() { mobil_destroy(sim_); }
   WildHost(const WildHost&) = delete;
@@ -152,17 +151,12 @@ class WildHost {
         return mobil_set_poses(sim_, &who, 1, pose.data(), 0, numbers_.wild(2));
       }
       case 6:
-        return mobil_sleep(sim_, &who, 1, nullptr);
       case 7:
-        return mobil_wake(sim_, &who, 1, numbers_.number() / 100);
       case 8:
-        return mobil_compact(sim_, &who, 1, nullptr);
       case 9:
-        return mobil_expand(sim_, &who, 1);
-      case 10: {
-        const int what = numbers_.wild(4);
-        return what < 2 ? mobil_set_forces(sim_, &who, 1, what) : mobil_set_fat_wobble(sim_, &who, 1, what - 2);
-      }
+        return mobil_set_state(sim_, &who, 1, numbers_.wild(5), numbers_.number() / 100, nullptr);
+      case 10:
+        return mobil_enable(sim_, &who, 1, numbers_.wild(3), numbers_.wild(2));
       case 11: {
         const mobil_muscles choice = muscles();
         return mobil_set_muscles(sim_, &who, 1, numbers_.byte() % 4 == 0 ? nullptr : &choice);
@@ -180,7 +174,6 @@ class WildHost {
         return mobil_set_excitation(sim_, &who, 1, numbers_.wild(17), numbers_.wild(2), &excitation, 0);
       }
       case 14:
-        promise(mobil_steer(sim_, nullptr) == MOBIL_OK, "steps are chosen");
         answer_ground();
         return mobil_tick(sim_, numbers_.byte() % 8);
       case 15:
@@ -221,48 +214,49 @@ class WildHost {
     const size_t count = numbers_.byte() % 2;
     switch (numbers_.byte() % 6) {
       case 0:
-        return mobil_avoid(sim_, &who, 1, numbers_.wild(2));
+        return mobil_avoidance_manage(sim_, &who, 1, numbers_.wild(2));
       case 1:
-        return mobil_want(sim_, &who, 1, row, 0);
+        return mobil_avoidance_want(sim_, &who, 1, row, 0);
       case 2:
-        return mobil_set_walls(sim_, row, 0, count);
+        return mobil_avoidance_set_walls(sim_, row, 0, count);
       case 3:
-        return mobil_set_discs(sim_, row, 0, count);
+        return mobil_avoidance_set_discs(sim_, row, 0, count);
       case 4: {
-        mobil_avoidance options;
-        mobil_defaults(MOBIL_AVOIDANCE, &options, sizeof options);
+        mobil_avoidance_options options;
+        mobil_defaults(MOBIL_AVOIDANCE_OPTIONS, &options, sizeof options);
         options.radius_h = row[0];
         options.overlap_m = row[1];
         options.shoulders_h = row[2];
-        return mobil_start_avoidance(sim_, &options);
+        return mobil_avoidance_set_options(sim_, &options);
       }
       default:
-        mobil_set_slowing(sim_, static_cast<int>(count));
-        return mobil_set_on_ground(sim_, &who, 1, numbers_.wild(2));
+        mobil_terrain_set_slowing(sim_, static_cast<int>(count));
+        return mobil_terrain_manage(sim_, &who, 1, numbers_.wild(2));
     }
   }
 
   /// Now and then something else than what was asked for.
   void answer_ground() {
     size_t places = 0;
-    promise(mobil_ask_ground(sim_, nullptr, 0, nullptr, 0, &places) == MOBIL_OK, "the ground is asked for");
+    promise(mobil_terrain_ask(sim_, nullptr, 0, nullptr, 0, &places) == MOBIL_OK, "the ground is asked for");
     if (places == 0) return;
     std::vector<float> ground(4 * places);
     for (float& number : ground) number = numbers_.byte() < 32 ? numbers_.number() : 0.25F * numbers_.number();
-    mobil_answer_ground(sim_, ground.data(), 0, numbers_.byte() < 250 ? places : places - 1, nullptr);
+    mobil_terrain_answer(sim_, ground.data(), 0, numbers_.byte() < 250 ? places : places - 1, nullptr);
   }
 
   /// Whatever was called, everybody who is there is somewhere.
   void look() {
     for (const mobil_id& who : people_) {
       std::array<float, std::size_t{7} * MOBIL_SEGMENTS> pose;
-      int bits = 0;
-      promise(mobil_state(sim_, who, &bits) == MOBIL_OK, "who was made is there");
-      if ((bits & MOBIL_ASLEEP) != 0) continue;  // has no pose to be placed
+      int bits = 0, state = 0;
+      promise(mobil_has(sim_, who, &bits) == MOBIL_OK, "who was made is there");
+      promise(mobil_get_state(sim_, who, &state) == MOBIL_OK, "who was made has a state");
+      if (state == MOBIL_ASLEEP) continue;  // has no pose to be placed
       const int code = mobil_poses(sim_, &who, 1, nullptr, pose.data(), 0);
       promise(code == MOBIL_OK, code == MOBIL_OK ? "" : mobil_message(sim_));
       for (const float number : pose) promise(std::isfinite(number), "poses are finite");
-      if ((bits & MOBIL_HAS_MUSCLES) == 0 || (bits & MOBIL_COMPACT) != 0) continue;
+      if ((bits & MOBIL_HAS_MUSCLES) == 0 || state == MOBIL_COMPACT) continue;
       for (int muscle = 0; muscle < 17; ++muscle) {
         const int floats = mobil_muscle_row_floats(sim_, MOBIL_NODES, who, muscle, 0);
         if (floats <= 0) continue;

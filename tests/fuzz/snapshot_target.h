@@ -4,7 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/simulation/reseal.h"
 
@@ -19,14 +22,14 @@ class SmallWorld {
     choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
     choice.reduced.vectors = 4;
     const Entity walker = *simulation.spawn({});
-    (void)simulation.add_leg_muscles(walker, choice);
-    (void)simulation.add_forces(walker);
+    (void)simulation.set_muscles(walker, choice);
+    (void)simulation.enable(walker, Feature::forces);
     choice.method = Method::ecd;
     choice.activation = ExcitationSource::host;
-    (void)simulation.add_leg_muscles(*simulation.spawn_posed({}), choice);
+    (void)simulation.set_muscles(*simulation.spawn_posed({}), choice);
     const Entity sleeper = *simulation.spawn({.height_m = 1.6F, .mass_kg = 60});
     for (int i = 0; i < 3; ++i) simulation.tick();
-    (void)simulation.sleep({&sleeper, 1});
+    (void)simulation.set_state({&sleeper, 1}, PersonState::asleep);
     bytes.resize(simulation.snapshot_bytes());
     bytes.resize(*simulation.save(bytes));
     hash = simulation.state_hash();
@@ -84,7 +87,7 @@ inline void fuzz_snapshot(Input input) {
       (void)simulation.get<Pose>(human);
       (void)held(simulation.change_gait(human, {.speed_m_s = 1.1F}));
       for (const OwnMuscle& own : simulation.muscles(human))
-        (void)simulation.nodal_displacement(own.entity[Side::left]);
+        (void)nodal_displacement(simulation.world(), own.entity[Side::left]);
     }
     (void)simulation.state_hash();
     promise(held(simulation.restore(world.bytes, RestoreLimits::none())),

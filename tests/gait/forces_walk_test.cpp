@@ -50,7 +50,7 @@ struct Walker {
 Walker walk(float height, float mass, float speed, double tick_s = 1.0 / 120) {
   Simulation simulation({.tick_s = tick_s});
   const Entity human = *simulation.spawn({.height_m = height, .mass_kg = mass}, {.speed_m_s = speed});
-  simulation.add_forces(human);
+  simulation.enable(human, Feature::forces);
   Walker w{static_cast<double>(height), static_cast<double>(mass), tick_s, {}};
   const auto settle = static_cast<int>(5 / tick_s), ticks = static_cast<int>(11 / tick_s);
   for (int t = 0; t < ticks; ++t) {

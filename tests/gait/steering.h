@@ -15,6 +15,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
 
 namespace mobil::steering {
 using geometry::to_double;

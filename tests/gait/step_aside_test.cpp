@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
 #include "tests/gait/walkers.h"
 
 namespace mobil::step_aside_test {

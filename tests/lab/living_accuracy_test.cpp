@@ -1,4 +1,4 @@
-// What Relevance promises of muscles that pull, beside nonlinear tissue: bodies that the accuracy table was not
+// What level of detail promises of muscles that pull, beside nonlinear tissue: bodies that the accuracy table was not
 // measured on.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include "demo/lab/effects/accuracy_living.h"
 
 namespace mobil::living_accuracy_test {
@@ -41,8 +41,8 @@ TEST(LivingAccuracy, OtherBodiesErrAsTheTableSays) {
   std::ranges::sort(over);
   const float most = over.back(), usual = over[over.size() * 9 / 10];
   fmt::print("errors over the table's: nine in ten at most {:.2f}, the largest {:.2f}\n", usual, most);
-  EXPECT_LT(usual, RelevanceOptions{}.margin);
-  EXPECT_LT(most, 2 * RelevanceOptions{}.margin);
+  EXPECT_LT(usual, LodOptions{}.margin);
+  EXPECT_LT(most, 2 * LodOptions{}.margin);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What Relevance promises, kept: bodies and speeds that the accuracy table was not measured on walk with the methods
-// that are chosen for them, beside converged references of their very own.
+// What level of detail promises, kept: bodies and speeds that the accuracy table was not measured on walk with the
+// methods that are chosen for them, beside converged references of their very own.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,10 +10,14 @@
 #include <memory>
 #include <vector>
 
+#include <mobil/engine/world.h>
+#include <mobil/lod.h>
 #include <mobil/muscle_table.h>
-#include <mobil/relevance.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/reduction/reduced_basis.h"
 #include "demo/lab/effects/accuracy_measure.h"
+#include "tests/interfaces.h"
 
 namespace mobil::relevance_show_test {
 constexpr double kept_part = 0.99;  // of muscle-ticks within the tolerance; all of them are within twice that
@@ -31,7 +35,7 @@ struct Plan {
   double settle_s = 2, seconds = 2;
 };
 
-/// One muscle's ticks under one tolerance. `promised_m`: errors where Relevance said that it is kept, `stretched` the
+/// One muscle's ticks under one tolerance. `promised_m`: errors where it was said that it is kept, `stretched` the
 /// same over what the table alone (a margin of 1) predicts; `best_m`: where it said that no method keeps it.
 struct Tally {
   std::vector<float> promised_m, stretched, best_m;
@@ -53,7 +57,7 @@ BodyRequest body_of(float height_m, float mass_kg, Constitution constitution) {
   return body;
 }
 
-Result<std::vector<Walk>> begin(const Plan& plan, Simulation& simulation, Relevance& relevance) {
+Result<std::vector<Walk>> begin(const Plan& plan, Simulation& simulation, Lod& relevance) {
   std::vector<Walk> walks;
   for (const Plan::Walker& walker : plan.walkers) {
     MuscleSet wanted;
@@ -82,8 +86,7 @@ Result<std::vector<Walk>> begin(const Plan& plan, Simulation& simulation, Releva
   return walks;
 }
 
-Result<void> follow(const Simulation& simulation, const Relevance& relevance, float margin, Walk& walk,
-                    Tallies* tallies) {
+Result<void> follow(const Simulation& simulation, const Lod& relevance, float margin, Walk& walk, Tallies* tallies) {
   for (std::size_t m = 0; m < walk.muscles.size(); ++m) {
     const Muscle muscle = walk.muscles[m];
     for (const Side side : {Side::right, Side::left}) {
@@ -92,7 +95,7 @@ Result<void> follow(const Simulation& simulation, const Relevance& relevance, fl
       if (tallies == nullptr) continue;
       for (std::size_t c = 0; c < walk.copies.size(); ++c) {
         const Entity belly = simulation.muscle(walk.copies[c], muscle, side);
-        const float error_m = reference.largest_error_m(simulation.nodal_displacement(belly));
+        const float error_m = reference.largest_error_m(nodal_displacement(simulation.world(), belly));
         const auto choice = relevance.why(walk.copies[c], muscle);
         if (!choice) return fail("a muscle is managed no more");
         Tally& tally = (*tallies)[c][static_cast<std::size_t>(muscle)];
@@ -110,18 +113,17 @@ Result<void> follow(const Simulation& simulation, const Relevance& relevance, fl
   return {};
 }
 
-Result<Tallies> walk_and_compare(const Plan& plan, const RelevanceOptions& options) {
+Result<Tallies> walk_and_compare(const Plan& plan, const LodOptions& options) {
   Simulation simulation;
-  Relevance relevance(simulation, options);
+  Lod relevance = lod_of(simulation, options);
   auto walks = begin(plan, simulation, relevance);
   if (!walks) return tl::unexpected(walks.error());
   Tallies tallies(plan.tolerances_m.size());
   const auto settling = static_cast<int>(plan.settle_s / simulation.tick_s());
   const auto ticks = settling + static_cast<int>(plan.seconds / simulation.tick_s());
   for (int t = 0; t < ticks; ++t) {
-    const auto report = relevance.update();
-    if (report.refused > 0) return fail(report.refusal);
     simulation.tick();
+    if (relevance.report().refused > 0) return fail(relevance.report().refusal);
     for (Walk& walk : *walks) {
       auto done = follow(simulation, relevance, options.margin, walk, t < settling ? nullptr : &tallies);
       if (!done) return tl::unexpected(done.error());
@@ -180,8 +182,8 @@ void show(const Plan& plan, Tallies tallies) {
   std::fflush(stdout);
 }
 
-RelevanceOptions options_of(bool inertia) {
-  RelevanceOptions options;
+LodOptions options_of(bool inertia) {
+  LodOptions options;
   options.machine_factor = 1;
   options.stagger = 1;  // everybody begins as their references do
   options.switches = 100000;
@@ -199,7 +201,7 @@ void expect_kept(const Plan& plan) {
 constexpr std::array groups = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
                                Muscle::tibialis_anterior};
 
-TEST(RelevanceShow, TolerancesAreKeptByBodiesAndSpeedsThatWereNotMeasured) {
+TEST(LodShow, TolerancesAreKeptByBodiesAndSpeedsThatWereNotMeasured) {
   expect_kept({.walkers = {{body_of(1.72F, 68, Constitution::average), {groups.begin(), groups.end()}},
                            {body_of(1.88F, 95, Constitution::heavy), {Muscle::tibialis_anterior}},
                            {body_of(1.63F, 58, Constitution::thin), {Muscle::hamstrings}}},
@@ -207,15 +209,15 @@ TEST(RelevanceShow, TolerancesAreKeptByBodiesAndSpeedsThatWereNotMeasured) {
                .tolerances_m = {0.001F, 0.002F, 0.005F}});
 }
 
-TEST(RelevanceShow, TolerancesAreKeptWhereMusclesFeelGravityAndTheirFramesMotion) {
+TEST(LodShow, TolerancesAreKeptWhereMusclesFeelGravityAndTheirFramesMotion) {
   expect_kept({.walkers = {{body_of(1.72F, 68, Constitution::average), {Muscle::quadriceps}}},
                .speeds_m_s = {1.1F, 1.7F},
                .tolerances_m = {0.0015F, 0.002F, 0.005F},
                .inertia = true});
 }
 
-/// What RelevanceOptions::margin was set by.
-TEST(RelevanceShow, TolerancesAreKeptByManyBodiesAtManySpeedsAndTolerances) {
+/// What LodOptions::margin was set by.
+TEST(LodShow, TolerancesAreKeptByManyBodiesAtManySpeedsAndTolerances) {
   if (std::getenv("MOBIL_LONG") == nullptr) GTEST_SKIP() << "takes minutes: tests/run --long, or MOBIL_LONG=1";
   for (const bool inertia : {false, true}) {
     Plan plan;

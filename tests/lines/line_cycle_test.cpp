@@ -10,6 +10,7 @@
 
 #include <mobil/components/gait.h>
 #include <mobil/components/pose.h>
+#include <mobil/each.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include "tests/files/reference_data.h"
@@ -168,7 +169,7 @@ TEST(LineCycle, OurWalkLengthensMusclesAsMeasuredOnesDo) {
     for (const auto& [speed, dimensionless] : speeds) {
       const auto speed_m_s = static_cast<float>(dimensionless * std::sqrt(9.81 * leg_m));
       walkers.push_back({request, speed, simulation.spawn(request, {.speed_m_s = speed_m_s}).value()});
-      ASSERT_TRUE(simulation.add_leg_muscles(walkers.back().human, only(members)));
+      ASSERT_TRUE(simulation.set_muscles(walkers.back().human, only(members)));
     }
   }
   while (simulation.time_s() < 20 && !std::ranges::all_of(walkers, &Walker::done)) {

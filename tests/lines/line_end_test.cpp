@@ -23,7 +23,7 @@ struct EndError {
 std::vector<EndError> end_errors(const Person& who, const LegMuscles& choice) {
   Simulation simulation(sharing());
   const Entity human = simulation.spawn(who.body, who.gait).value();
-  EXPECT_TRUE(simulation.add_leg_muscles(human, choice));
+  EXPECT_TRUE(simulation.set_muscles(human, choice));
   const std::vector<OwnMuscle> muscles = simulation.muscles(human);
   std::vector<EndError> errors(muscles.size());
   for (int tick = 0; tick < 60; ++tick) {

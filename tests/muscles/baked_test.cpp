@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <mobil/muscle_library.h>
 #include <mobil/simulation.h>
 #include "engine/row_hash.h"
 #include "tests/refused.h"
@@ -39,7 +40,7 @@ std::vector<LegMuscles> choices() {
 void spawn(Simulation& simulation, std::size_t choice) {
   const auto person = simulation.spawn({.height_m = 1.65F + 0.03F * static_cast<float>(choice), .mass_kg = 72});
   ASSERT_TRUE(person);
-  const auto done = simulation.add_leg_muscles(*person, choices()[choice]);
+  const auto done = simulation.set_muscles(*person, choices()[choice]);
   ASSERT_TRUE(done) << done.error().message;
 }
 
@@ -53,7 +54,7 @@ std::uint64_t walked(Simulation& simulation) {
 std::vector<std::byte> baked_bytes() {
   Simulation simulation;
   walked(simulation);
-  return simulation.bake();
+  return simulation.muscle_library().bake();
 }
 
 /// Sealed anew, so that what is inside must be looked at.
@@ -66,28 +67,29 @@ void seal(std::vector<std::byte>& bytes) {
 TEST(Baked, WhatIsLoadedIsWhatWouldBeMade) {
   Simulation made, loaded;
   const std::uint64_t hash = walked(made);
-  const std::vector<std::byte> bytes = made.bake();
-  ASSERT_TRUE(loaded.load_baked(bytes));
-  EXPECT_EQ(loaded.bake(), bytes);
+  const std::vector<std::byte> bytes = made.muscle_library().bake();
+  ASSERT_TRUE(loaded.muscle_library().load(bytes));
+  EXPECT_EQ(loaded.muscle_library().bake(), bytes);
   EXPECT_EQ(walked(loaded), hash);
-  EXPECT_EQ(loaded.bake(), bytes) << "something was made again, or something that was not there before";
+  EXPECT_EQ(loaded.muscle_library().bake(), bytes)
+      << "something was made again, or something that was not there before";
 }
 
 TEST(Baked, LoadedOnTopOfWhatIsThereAddsWhatLacks) {
   const std::vector<std::byte> bytes = baked_bytes();
   Simulation simulation;
   for (const std::size_t choice : {std::size_t{9}, std::size_t{5}}) spawn(simulation, choice);
-  ASSERT_TRUE(simulation.load_baked(bytes));
-  const std::vector<std::byte> both = simulation.bake();
-  ASSERT_TRUE(simulation.load_baked(bytes));
-  EXPECT_EQ(simulation.bake(), both);
+  ASSERT_TRUE(simulation.muscle_library().load(bytes));
+  const std::vector<std::byte> both = simulation.muscle_library().bake();
+  ASSERT_TRUE(simulation.muscle_library().load(bytes));
+  EXPECT_EQ(simulation.muscle_library().bake(), both);
   EXPECT_EQ(both.size(), bytes.size()) << "of what both have there is one";
 }
 
 TEST(Baked, ASnapshotFindsWhatWasLoaded) {
   Simulation made, loaded;
   walked(made);
-  ASSERT_TRUE(loaded.load_baked(made.bake()));
+  ASSERT_TRUE(loaded.muscle_library().load(made.muscle_library().bake()));
   std::vector<std::byte> snapshot(made.snapshot_bytes());
   ASSERT_TRUE(made.save(snapshot));
   const auto done = loaded.restore(snapshot, RestoreLimits::none());
@@ -97,9 +99,9 @@ TEST(Baked, ASnapshotFindsWhatWasLoaded) {
 
 void expect_refused(const std::vector<std::byte>& bytes, const char* what, const std::string& says) {
   Simulation simulation;
-  const std::vector<std::byte> before = simulation.bake();
-  EXPECT_TRUE(is_refused(simulation.load_baked(bytes), says)) << what;
-  EXPECT_EQ(simulation.bake(), before) << what;
+  const std::vector<std::byte> before = simulation.muscle_library().bake();
+  EXPECT_TRUE(is_refused(simulation.muscle_library().load(bytes), says)) << what;
+  EXPECT_EQ(simulation.muscle_library().bake(), before) << what;
 }
 
 TEST(Baked, DamagedBytesAreRefused) {
@@ -137,11 +139,11 @@ TEST(Baked, NonsenseUnderARightSealHarmsNobody) {
     }
     seal(altered);
     Simulation simulation;
-    if (!simulation.load_baked(altered)) continue;
+    if (!simulation.muscle_library().load(altered)) continue;
     ++taken;
     for (const LegMuscles& choice : choices()) {
       const auto person = simulation.spawn({});
-      (void)simulation.add_leg_muscles(*person, choice);
+      (void)simulation.set_muscles(*person, choice);
     }
     simulation.tick();
   }

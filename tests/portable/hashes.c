@@ -45,7 +45,7 @@ static void scene(const char* name, int people, int method, int control_points, 
   muscles.activation = activation;
   muscles.inertia = inertia;
   need(sim, mobil_spawn(sim, person, 0, (size_t)people, method < 0 ? NULL : &muscles, ids));
-  if (forces) need(sim, mobil_set_forces(sim, ids, (size_t)people, 1));
+  if (forces) need(sim, mobil_enable(sim, ids, (size_t)people, MOBIL_FORCES, 1));
   need(sim, mobil_tick(sim, ticks));
   mobil_defaults(MOBIL_WALK, &walk, sizeof walk);
   walk.given = MOBIL_SPEED | MOBIL_HEADING;

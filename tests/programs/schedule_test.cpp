@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include <mobil/schedule.h>
 #include <mobil/simulation.h>
 #include "demo/schedule/schedule_picture.h"
 #include "tests/program/program.h"

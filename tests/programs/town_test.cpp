@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <mobil/components/footing.h>
+#include <mobil/step_report.h>
 #include "demo/scene/crowd_people.h"
 #include "demo/town/town_map.h"
 #include "demo/town/town_scene.h"

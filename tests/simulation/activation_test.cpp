@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <mobil/components/activation.h>
+#include <mobil/muscle_table.h>
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"
@@ -75,7 +76,7 @@ TEST(Activation, FollowsTheHost) {
   const Entity human = *simulation.spawn_posed({});
   LegMuscles choice = pulling(ExcitationSource::host);
   choice.muscles |= muscle_members();
-  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  ASSERT_TRUE(simulation.set_muscles(human, choice));
   run(simulation, 10);
   const Muscle soleus = *find_muscle("soleus");
   EXPECT_NEAR(activation(simulation, human, "soleus", Side::left).activation, 0.01F, 1e-6F);
@@ -100,8 +101,8 @@ TEST(Activation, FollowsTheHost) {
 TEST(Activation, BadRequestsSayWhat) {
   Simulation simulation(sharing());
   const Entity walks = *simulation.spawn({}), hosted = *simulation.spawn({});
-  ASSERT_TRUE(simulation.add_leg_muscles(walks, pulling(ExcitationSource::phase)));
-  ASSERT_TRUE(simulation.add_leg_muscles(hosted, pulling(ExcitationSource::host)));
+  ASSERT_TRUE(simulation.set_muscles(walks, pulling(ExcitationSource::phase)));
+  ASSERT_TRUE(simulation.set_muscles(hosted, pulling(ExcitationSource::host)));
   run(simulation, 3);
   const std::uint64_t before = simulation.state_hash();
   const auto says = [](const Result<void>& result, Status status, std::string_view what) {
@@ -116,7 +117,7 @@ TEST(Activation, BadRequestsSayWhat) {
   says(simulation.set_excitation({}, Muscle::hamstrings, Side::right, 1), Status::stale_entity, "stale");
   LegMuscles forced = pulling(ExcitationSource::phase);
   forced.drive = Drive::force;
-  says(simulation.change_leg_muscles(walks, forced), Status::not_valid, "Drive::displacement");
+  says(simulation.set_muscles(walks, forced), Status::not_valid, "Drive::displacement");
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
@@ -142,12 +143,12 @@ TEST(Activation, StateGoesOn) {
   // The host takes over where the walk had it.
   ASSERT_TRUE(simulation.restore(bytes, RestoreLimits::none()));
   LegMuscles hosted = pulling(ExcitationSource::host, Method::reduced);
-  ASSERT_TRUE(simulation.change_leg_muscles(human, hosted));
+  ASSERT_TRUE(simulation.set_muscles(human, hosted));
   EXPECT_EQ(activation(simulation, human, "triceps_surae", Side::right).activation, excited.activation);
   run(simulation, 5);
   EXPECT_EQ(activation(simulation, human, "triceps_surae", Side::right).excitation, excited.excitation);
   // Without, the line's length is the belly's again.
-  ASSERT_TRUE(simulation.change_leg_muscles(human, pulling(ExcitationSource::none, Method::statics)));
+  ASSERT_TRUE(simulation.set_muscles(human, pulling(ExcitationSource::none, Method::statics)));
   run(simulation, 2);
   const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
   const auto line = *simulation.get<LineOfAction>(muscle);
@@ -159,7 +160,7 @@ TEST(Activation, LeftIsRightHalfACycleLater) {
   // Two steps a second: 64 ticks a cycle.
   const auto human = simulation.spawn({}, {.speed_m_s = 1.4F, .step_frequency_hz = 2.0F});
   ASSERT_TRUE(human);
-  ASSERT_TRUE(simulation.add_leg_muscles(*human, pulling(ExcitationSource::phase)));
+  ASSERT_TRUE(simulation.set_muscles(*human, pulling(ExcitationSource::phase)));
   run(simulation, 256);
   const auto right = pull(simulation, *human, "triceps_surae", Side::right);
   const auto excited = activation(simulation, *human, "triceps_surae", Side::right);
@@ -173,7 +174,7 @@ TEST(Activation, LeftIsRightHalfACycleLater) {
 TEST(Activation, IsInStepWithTheFeet) {
   Simulation simulation(sharing());
   const Entity human = *simulation.spawn({}, {.speed_m_s = 1.3F});
-  ASSERT_TRUE(simulation.add_leg_muscles(human, pulling(ExcitationSource::phase)));
+  ASSERT_TRUE(simulation.set_muscles(human, pulling(ExcitationSource::phase)));
   run(simulation, 120);
   for (int tick = 0; tick < 120; ++tick) {
     simulation.tick();

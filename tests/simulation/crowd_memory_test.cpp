@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include <mobil/engine/world.h>
+#include <mobil/muscle_library.h>
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/engine_counting_memory.h"
@@ -55,12 +57,12 @@ TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
       const Effects& e = effects[i % effects.size()];
       const Entity human = join(simulation, person(static_cast<int>(i)), false);
       if (e.forces) {
-        EXPECT_EQ(simulation.add_forces(human), Status::ok);
+        EXPECT_EQ(simulation.enable(human, Feature::forces), Status::ok);
       }
-      const auto added = simulation.add_leg_muscles(human, e.muscles);
+      const auto added = simulation.set_muscles(human, e.muscles);
       ASSERT_TRUE(added) << added.error().message;
       if (i % 2 == 0) {
-        EXPECT_TRUE(simulation.watch_steps({&human, 1}));
+        EXPECT_TRUE(simulation.enable({&human, 1}, Feature::step_events));
       }
       // a change of method fades and is over before what is counted begins
       if (i % 3 == 0) {
@@ -113,9 +115,9 @@ void refuse_at_every_request(const Change& change, Refuses who) {
     static const std::vector<std::byte> usual = [] {
       Simulation first;
       join(first, person(0));
-      return first.bake();
+      return first.muscle_library().bake();
     }();
-    EXPECT_TRUE(simulation->load_baked(usual));  // and makes what else it needs itself
+    EXPECT_TRUE(simulation->muscle_library().load(usual));  // and makes what else it needs itself
     people.reserve(32);
     for (int i = 0; i < 16; ++i) people.push_back(join(*simulation, person(i), i % 4 == 0));
     for (int i = 0; i < 5; ++i) simulation->tick();
@@ -163,7 +165,7 @@ void refuse_at_every_request(const Change& change) {
 }
 
 void add(Simulation& simulation, Entity human, const LegMuscles& choice) {
-  const auto added = simulation.add_leg_muscles(human, choice);
+  const auto added = simulation.set_muscles(human, choice);
   ASSERT_TRUE(added) << added.error().message;
 }
 
@@ -186,21 +188,23 @@ TEST(CrowdMemory, AChangeOfMethodWithoutMemoryChangesNothing) {
     EXPECT_TRUE(simulation.set_method(people[0], Muscle::hamstrings, {Method::statics}));
   });
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
-    EXPECT_TRUE(simulation.change_leg_muscles(people[0], {.drive = Drive::force, .inertia = true}));
+    EXPECT_TRUE(simulation.set_muscles(people[0], {.drive = Drive::force, .inertia = true}));
   });
 }
 
 TEST(CrowdMemory, AddingEffectsWithoutMemoryChangesNothing) {
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
-    EXPECT_EQ(simulation.add_forces(people[0]), Status::ok);
+    EXPECT_EQ(simulation.enable(people[0], Feature::forces), Status::ok);
   });
 }
 
 TEST(CrowdMemory, WatchingAndPlacingWithoutMemoryChangesNothing) {
-  refuse_at_every_request(
-      [](Simulation& simulation, std::vector<Entity>& people) { ASSERT_TRUE(simulation.watch_steps(people)); });
-  refuse_at_every_request(
-      [](Simulation& simulation, std::vector<Entity>& people) { ASSERT_TRUE(simulation.set_fat_wobble(people)); });
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    ASSERT_TRUE(simulation.enable(people, Feature::step_events));
+  });
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    ASSERT_TRUE(simulation.enable(people, Feature::fat));
+  });
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     std::vector<PlaceRequest> places;
     for (const Entity human : people) places.push_back({human, static_cast<float>(human.index), 5, 1});
@@ -239,7 +243,7 @@ TEST(CrowdMemory, GoingTakesNone) {
   bool gone = true;
   for (const Entity human : all.first(20)) gone = simulation.despawn(human) == Status::ok && gone;
   for (const Entity human : all.subspan(20, 4))
-    gone = simulation.remove_leg_muscles(human) != Status::stale_entity && gone;
+    gone = simulation.set_muscles(human, std::nullopt) != Status::stale_entity && gone;
   gone = simulation.despawn(all.subspan(20)) == Status::ok && gone;
   memory.refuse_after = heap_refuse_at = SIZE_MAX;
   EXPECT_EQ(refused, Status::stale_entity);
@@ -258,7 +262,7 @@ TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
       const Effects& e = effects[people.size() % effects.size()];
       people.push_back(join(simulation, person(static_cast<int>(people.size() % (4 * effects.size()))), false));
       if (e.forces) {
-        EXPECT_EQ(simulation.add_forces(people.back()), Status::ok);
+        EXPECT_EQ(simulation.enable(people.back(), Feature::forces), Status::ok);
       }
       add(simulation, people.back(), e.muscles);
     }

@@ -12,13 +12,15 @@
 #include <span>
 #include <vector>
 
+#include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/components/sleep.h>
+#include <mobil/engine/world.h>
 #include <mobil/forces.h>
 #include <mobil/simulation.h>
 #include <mobil/terrain.h>
 #include "engine/row_hash.h"
-#include "systems/simulation_world.h"
+#include "tests/interfaces.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 
@@ -80,6 +82,7 @@ struct Script {
   int comers = 24;    // that come later, one every `apart` ticks
   int apart = 3;      // ticks
   std::uint64_t seed = 1;
+  bool avoidance = true;  // some avoid others: what they do follows from handles and company
 
   int everybody() const { return at_first + comers; }
   int comes(int who) const { return who < at_first ? 0 : 1 + (who - at_first) * apart; }
@@ -92,7 +95,7 @@ class Crowd {
  public:
   /// `order`: in which people who come at once do so, and in which everybody is asked; all numbers once.
   Crowd(const SimulationOptions& options, const Script& script, std::vector<int> order)
-      : simulation_(options), terrain_(simulation_, &hills), script_(script), order_(std::move(order)) {}
+      : simulation_(options), terrain_(terrain_of(simulation_, &hills)), script_(script), order_(std::move(order)) {}
   Crowd(const Crowd&) = delete;
   Crowd& operator=(const Crowd&) = delete;
   Crowd(const SimulationOptions& options, const Script& script) : Crowd(options, script, in_turn(script)) {}
@@ -114,7 +117,6 @@ class Crowd {
       const auto person = people_.find(who);
       if (person != people_.end()) ask(who, person->second);
     }
-    terrain_.update();
     simulation_.tick();
     ++now_;
   }
@@ -129,7 +131,7 @@ class Crowd {
 
  private:
   static bool is_posed(int who) { return who % 16 == 11; }
-  static bool turns_shoulders(int who) { return who % 16 == 9; }
+  bool avoids_others(int who) const { return script_.avoidance && who % 16 == 9; }
   static bool is_on_hills(int who) { return who % 16 == 6; }
   static void hills(std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
     for (std::size_t i = 0; i < at.size(); ++i)
@@ -147,24 +149,22 @@ class Crowd {
     ASSERT_TRUE(human) << human.error().message;
     people_[who] = *human;
     if (is_posed(who)) {
-      EXPECT_EQ(simulation_.add_forces(*human), Status::ok);
+      EXPECT_EQ(simulation_.enable(*human, Feature::forces), Status::ok);
     }
     if (who % 3 == 0 && !is_posed(who)) {
-      EXPECT_TRUE(simulation_.watch_steps({&*human, 1}));
+      EXPECT_TRUE(simulation_.enable({&*human, 1}, Feature::step_events));
     }
     if (who % 4 == 1) {
-      EXPECT_TRUE(simulation_.set_fat_wobble({&*human, 1}));
+      EXPECT_TRUE(simulation_.enable({&*human, 1}, Feature::fat));
     }
     if (is_on_hills(who)) {
       EXPECT_TRUE(terrain_.manage({&*human, 1}));
     }
-    if (turns_shoulders(who)) {
-      Course<float> course{};
-      course.turn_to_rad = 0.5F;
-      EXPECT_EQ(world_of(simulation_).add(*human, course), Status::ok);
+    if (avoids_others(who)) {
+      EXPECT_TRUE(simulation_.avoidance().manage(*human));
     }
     if (who % 8 == 5) return;  // walks without muscles
-    const auto added = simulation_.add_leg_muscles(*human, choice_for(*human, draw(who, -1)));
+    const auto added = simulation_.set_muscles(*human, choice_for(*human, draw(who, -1)));
     ASSERT_TRUE(added) << added.error().message;
   }
 
@@ -189,13 +189,13 @@ class Crowd {
       EXPECT_EQ(simulation_.set_pose(human, pose), Status::ok);
     }
     if (what % 24 == 1) {
-      EXPECT_TRUE(simulation_.sleep({&human, 1}));
+      EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::asleep));
     } else if (what % 24 == 2 || (what % 24 == 0 && what / 24 % 2 == 0)) {
-      EXPECT_TRUE(simulation_.wake({&human, 1}));  // for muscles, too
+      EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::full));  // for muscles, too
     }
     if (what % 24 == 3 || what % 24 == 4) shrink(human, what / 24);
     if (what % 24 == 5) {
-      EXPECT_TRUE(simulation_.expand({&human, 1}));
+      EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::full));
     }
     if (what % 24 != 0) return;
     const std::uint64_t how = what / 24 / 8;
@@ -213,9 +213,9 @@ class Crowd {
     choice.method = how % 5 == 0 ? Method::none : Method::reduced;
     choice.reduced = reduced(how % 3 == 0 ? 5 : 12, true, false);
     if (!simulation_.muscles(human).empty()) {
-      EXPECT_TRUE(simulation_.change_leg_muscles(human, choice));
+      EXPECT_TRUE(simulation_.set_muscles(human, choice));
     }
-    EXPECT_TRUE(simulation_.compact({&human, 1}));
+    EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::compact));
   }
 
   void ask_to_walk(Entity human, std::uint64_t what, std::uint64_t how) {
@@ -225,21 +225,21 @@ class Crowd {
     } else if (what == 1) {
       EXPECT_TRUE(simulation_.turn_to(human, 6 * (part - 0.5F)));
     } else if (what == 2) {
-      EXPECT_EQ(simulation_.add_forces(human), Status::ok);
+      EXPECT_EQ(simulation_.enable(human, Feature::forces), Status::ok);
     } else {
-      EXPECT_NE(simulation_.remove_forces(human), Status::stale_entity);
+      EXPECT_NE(simulation_.enable(human, Feature::forces, false), Status::stale_entity);
     }
   }
 
   void ask_for_muscles(Entity human, std::uint64_t what, std::uint64_t how) {
-    EXPECT_TRUE(simulation_.expand({&human, 1}));
+    EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::full));
     const auto hamstrings = simulation_.muscle(human, Muscle::hamstrings, Side::right);
     if (!simulation_.world().alive(hamstrings)) {
-      EXPECT_TRUE(simulation_.add_leg_muscles(human, choice_for(human, how)));
+      EXPECT_TRUE(simulation_.set_muscles(human, choice_for(human, how)));
     } else if (what == 0) {
-      EXPECT_EQ(simulation_.remove_leg_muscles(human), Status::ok);
+      EXPECT_EQ(simulation_.set_muscles(human, std::nullopt), Status::ok);
     } else if (what == 1) {
-      EXPECT_TRUE(simulation_.change_leg_muscles(human, choice_for(human, how)));
+      EXPECT_TRUE(simulation_.set_muscles(human, choice_for(human, how)));
     } else {
       EXPECT_TRUE(simulation_.set_method(human, Muscle::hamstrings, every_method()[how % every_method().size()]));
       if (simulation_.get<ExcitationSource>(hamstrings) == static_cast<std::uint64_t>(ExcitationSource::host)) {

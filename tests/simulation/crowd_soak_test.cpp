@@ -12,6 +12,8 @@
 #include <iostream>
 #include <vector>
 
+#include <mobil/engine/world.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
@@ -109,7 +111,7 @@ class Soak {
           EXPECT_EQ(simulation_.get<MuscleOwner>(muscle)->index, human.index);
           const auto line = *simulation_.get<LineOfAction>(muscle);
           ASSERT_TRUE(line.length_m > 0.05F && line.length_m < 1);
-          const NodalView nodes = simulation_.nodal_displacement(muscle);
+          const NodalView nodes = nodal_displacement(simulation_.world(), muscle);
           for (std::size_t i = 0; i < 3 * std::size_t{nodes.nodes}; ++i)
             ASSERT_LT(std::abs(nodes.first[i * lane_count]), 0.5F);
         }
@@ -144,7 +146,7 @@ class Soak {
     const Person p = person(static_cast<int>(kind));
     const auto human = simulation_.spawn(p.body, p.gait);
     EXPECT_TRUE(human);
-    EXPECT_TRUE(simulation_.add_leg_muscles(*human, muscles_of(kind)));
+    EXPECT_TRUE(simulation_.set_muscles(*human, muscles_of(kind)));
     return *human;
   }
 

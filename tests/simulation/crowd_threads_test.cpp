@@ -7,7 +7,13 @@
 #include <thread>
 #include <vector>
 
+#include <mobil/each.h>
+#include <mobil/engine/world.h>
+#include <mobil/host_parts.h>
 #include <mobil/pose_writer.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
@@ -80,7 +86,7 @@ TEST(CrowdThreads, ManyReadAtOnce) {
   for (int i = 0; i < 5; ++i) crowd.tick();
   const Simulation& simulation = crowd.simulation();
   std::vector<Entity> people = simulation.people();
-  std::erase_if(people, [&](Entity person) { return simulation.is_asleep(person); });
+  std::erase_if(people, [&](Entity person) { return (simulation.state(person) == PersonState::asleep); });
   std::vector<double> seen(4);
   {
     std::vector<std::jthread> readers;
@@ -94,10 +100,10 @@ TEST(CrowdThreads, ManyReadAtOnce) {
           sum += static_cast<double>(simulation.human(person)->body.request.height_m);
           for (const OwnMuscle& own : simulation.muscles(person)) {
             sum += static_cast<double>(own.muscle) +
-                   (simulation.nodal_displacement(own.entity[Side::left]).first != nullptr);
+                   (nodal_displacement(simulation.world(), own.entity[Side::left]).first != nullptr);
           }
         }
-        simulation.each([&sum](const Rows& rows, const Pose<Lanes<float>>& pose) {
+        each(simulation.world(), [&sum](const Rows& rows, const Pose<Lanes<float>>& pose) {
           for (std::uint32_t lane = 0; lane < rows.live; ++lane) sum += static_cast<double>(pose.position_m[0].x[lane]);
         });
         sum += simulation.report().ticks + static_cast<double>(bytes[2]);

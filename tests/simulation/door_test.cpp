@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include <mobil/relevance.h>
+#include <mobil/each.h>
+#include <mobil/host_parts.h>
+#include <mobil/lod.h>
 #include "tests/labels.h"
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
@@ -27,54 +29,54 @@ struct Palette {
 TEST(Door, AHostsPartsPass) {
   Simulation simulation;
   const Entity human = *simulation.spawn(person(1).body);
-  ASSERT_TRUE(simulation.add_leg_muscles(human));
+  ASSERT_TRUE(simulation.set_muscles(human));
   const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::left);
   for (const Entity entity : {human, muscle}) {
-    EXPECT_EQ(simulation.add(entity, Score<float>{3, 0.5F}), Status::ok);
-    EXPECT_EQ(simulation.add(entity, FieldWidth<Trail>{2}), Status::ok);
-    EXPECT_EQ(simulation.add(entity, simulation.share(std::make_shared<const Palette>())), Status::ok);
-    EXPECT_EQ(simulation.set(entity, Score<float>{4, 0.5F}), Status::ok);
-    EXPECT_EQ(simulation.set_field<Trail>(entity, std::array{1.0F, 2.0F}), Status::ok);
+    EXPECT_EQ(simulation.parts().add(entity, Score<float>{3, 0.5F}), Status::ok);
+    EXPECT_EQ(simulation.parts().add(entity, FieldWidth<Trail>{2}), Status::ok);
+    EXPECT_EQ(simulation.parts().add(entity, simulation.parts().share(std::make_shared<const Palette>())), Status::ok);
+    EXPECT_EQ(simulation.parts().set(entity, Score<float>{4, 0.5F}), Status::ok);
+    EXPECT_EQ(simulation.parts().set_field<Trail>(entity, std::array{1.0F, 2.0F}), Status::ok);
     EXPECT_EQ(simulation.get<Score>(entity)->points, 4U);
   }
   const std::uint64_t before = simulation.state_hash();
-  EXPECT_EQ(simulation.each([](const Rows& rows, Score<Lanes<float>>& score) {
+  EXPECT_EQ(simulation.parts().each([](const Rows& rows, Score<Lanes<float>>& score) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) score.weight[lane] += 1;
   }),
             Status::ok);
   EXPECT_NE(simulation.state_hash(), before);
   float sum = 0;
-  std::as_const(simulation).each([&](const Rows& rows, const Score<Lanes<float>>& score, Field<const Trail> trail) {
+  each(simulation.world(), [&](const Rows& rows, const Score<Lanes<float>>& score, Field<const Trail> trail) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) sum += score.weight[lane] + trail.data[16 + lane];
   });
   EXPECT_EQ(sum, 2 * (1.5F + 2));
-  EXPECT_EQ(simulation.remove<Score>(muscle), Status::ok);
-  EXPECT_EQ(simulation.remove<Trail>(muscle), Status::ok);
+  EXPECT_EQ(simulation.parts().remove<Score>(muscle), Status::ok);
+  EXPECT_EQ(simulation.parts().remove<Trail>(muscle), Status::ok);
   EXPECT_EQ(simulation.get<Score>(muscle).error(), Status::missing);
 
-  const auto own = simulation.create(Score<float>{1, 2});
+  const auto own = simulation.parts().create(Score<float>{1, 2});
   ASSERT_TRUE(own);
   EXPECT_EQ(simulation.get<Score>(*own)->weight, 2);
-  EXPECT_EQ(simulation.destroy(*own), Status::ok);
-  EXPECT_EQ(simulation.destroy(*own), Status::stale_entity);
+  EXPECT_EQ(simulation.parts().destroy(*own), Status::ok);
+  EXPECT_EQ(simulation.parts().destroy(*own), Status::stale_entity);
 }
 
 TEST(Door, WhatIsTheLibrarysDoesNot) {
   Simulation simulation;
   const Entity human = *simulation.spawn(person(1).body);
-  ASSERT_TRUE(simulation.add_leg_muscles(human));
+  ASSERT_TRUE(simulation.set_muscles(human));
   const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::left);
   const std::uint64_t before = simulation.state_hash();
-  EXPECT_EQ(simulation.destroy(human), Status::not_yours);
-  EXPECT_EQ(simulation.destroy(muscle), Status::not_yours);
-  EXPECT_EQ(simulation.remove<GaitState>(human), Status::not_yours);
-  EXPECT_EQ(simulation.remove<NodalDisplacement>(muscle), Status::not_yours);
-  EXPECT_EQ(simulation.set(human, *simulation.get<Pose>(human)), Status::not_yours);
-  EXPECT_EQ(simulation.add(human, BellyScale<float>{1, 1}), Status::not_yours);
-  EXPECT_EQ(simulation.set_field<NodalDisplacement>(muscle, std::vector<float>(243)), Status::not_yours);
-  EXPECT_EQ(simulation.create(BodySize<float>{}, Score<float>{}).error(), Status::not_yours);
+  EXPECT_EQ(simulation.parts().destroy(human), Status::not_yours);
+  EXPECT_EQ(simulation.parts().destroy(muscle), Status::not_yours);
+  EXPECT_EQ(simulation.parts().remove<GaitState>(human), Status::not_yours);
+  EXPECT_EQ(simulation.parts().remove<NodalDisplacement>(muscle), Status::not_yours);
+  EXPECT_EQ(simulation.parts().set(human, *simulation.get<Pose>(human)), Status::not_yours);
+  EXPECT_EQ(simulation.parts().add(human, BellyScale<float>{1, 1}), Status::not_yours);
+  EXPECT_EQ(simulation.parts().set_field<NodalDisplacement>(muscle, std::vector<float>(243)), Status::not_yours);
+  EXPECT_EQ(simulation.parts().create(BodySize<float>{}, Score<float>{}).error(), Status::not_yours);
   bool called = false;
-  EXPECT_EQ(simulation.each([&](Pose<Lanes<float>>&) { called = true; }), Status::not_yours);
+  EXPECT_EQ(simulation.parts().each([&](Pose<Lanes<float>>&) { called = true; }), Status::not_yours);
   EXPECT_FALSE(called);
   EXPECT_EQ(simulation.state_hash(), before);
   EXPECT_EQ(simulation.people().size(), 1U);
@@ -85,7 +87,7 @@ TEST(Door, WhatIsTheLibrarysDoesNot) {
 TEST(Door, ASnapshotSaysWhichPartIsUnknown) {
   Simulation simulation, other;
   const Entity human = *simulation.spawn(person(1).body);
-  ASSERT_EQ(simulation.add(human, Score<float>{3, 0.5F}), Status::ok);
+  ASSERT_EQ(simulation.parts().add(human, Score<float>{3, 0.5F}), Status::ok);
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
   EXPECT_TRUE(is_refused(other.restore(bytes), "Score<float>"));
@@ -99,15 +101,15 @@ TEST(Made, ErrorsAreValues) {
   EXPECT_TRUE(is_refused(Simulation::make({.tick_s = 0})));
   EXPECT_FALSE(Simulation::make({.modules = {Module{}}}));
   Simulation simulation;
-  EXPECT_FALSE(Relevance::make(simulation, {.slack = 2}));
-  EXPECT_FALSE(Relevance::make(simulation, {.switching_s = 0}));
-  EXPECT_TRUE(Relevance::make(simulation));
+  EXPECT_FALSE(simulation.lod().set_options({.slack = 2}));
+  EXPECT_FALSE(simulation.lod().set_options({.switching_s = 0}));
+  EXPECT_TRUE(simulation.lod().set_options({}));
 }
 
 TEST(Made, ASimulationMayMove) {
   const auto fill = [](Simulation& simulation) {
     const Entity human = *simulation.spawn(person(2).body);
-    EXPECT_TRUE(simulation.add_leg_muscles(human));
+    EXPECT_TRUE(simulation.set_muscles(human));
     for (int i = 0; i < 20; ++i) simulation.tick();
   };
   Simulation stays;

@@ -97,7 +97,7 @@ TEST(Fat, OfWalkersShakesAndOfWhoStandsComesToRest) {
   std::vector<Entity> people = {*simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.4F}),
                                 *simulation.spawn({.height_m = 1.70F, .mass_kg = 105}, {.speed_m_s = 1.4F}),
                                 *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 0.0F})};
-  ASSERT_TRUE(simulation.set_fat_wobble(people));
+  ASSERT_TRUE(simulation.enable(people, Feature::fat));
   std::array<float, 3> thigh{}, belly{};
   for (int tick = 0; tick < 300; ++tick) {
     simulation.tick();
@@ -127,7 +127,7 @@ struct Shaken {
   Entity person = *simulation.spawn({.height_m = 1.75F, .mass_kg = 90}, {.speed_m_s = 1.4F});
 
   Shaken() {
-    simulation.set_fat_wobble({&person, 1});
+    simulation.enable({&person, 1}, Feature::fat);
     simulation.tick(130);
   }
   FatWobble<float> fat() const { return *simulation.get<FatWobble>(person); }
@@ -155,7 +155,7 @@ TEST(Fat, GoesAlongWhereItsWalkerIsPutAndAsTheOriginShifts) {
 TEST(Fat, BeginsAtRestWhereAPosedPersonJumps) {
   Simulation simulation;
   const Entity person = *simulation.spawn_posed({});
-  ASSERT_TRUE(simulation.set_fat_wobble({&person, 1}));
+  ASSERT_TRUE(simulation.enable({&person, 1}, Feature::fat));
   Pose<float> pose = *simulation.get<Pose>(person);
   const auto go = [&](float by_m, Arrival arrival) {
     for (auto& place : pose.position_m) place.x += by_m;
@@ -173,11 +173,11 @@ TEST(Fat, BeginsAtRestWhereAPosedPersonJumps) {
 
 TEST(Fat, IsKeptAsleepAndCompactAndBeginsAtRest) {
   Shaken asleep, compact;
-  ASSERT_EQ(asleep.simulation.sleep({&asleep.person, 1}).value(), 1U);
-  ASSERT_EQ(compact.simulation.compact({&compact.person, 1}).value(), 1U);
+  ASSERT_EQ(asleep.simulation.set_state({&asleep.person, 1}, PersonState::asleep).value(), 1U);
+  ASSERT_EQ(compact.simulation.set_state({&compact.person, 1}, PersonState::compact).value(), 1U);
   for (Shaken* one : {&asleep, &compact}) one->simulation.tick(3);
-  ASSERT_TRUE(asleep.simulation.wake({&asleep.person, 1}));
-  ASSERT_TRUE(compact.simulation.expand({&compact.person, 1}));
+  ASSERT_TRUE(asleep.simulation.set_state({&asleep.person, 1}, PersonState::full));
+  ASSERT_TRUE(compact.simulation.set_state({&compact.person, 1}, PersonState::full));
   for (Shaken* one : {&asleep, &compact}) {
     std::vector<std::byte> saved(one->simulation.snapshot_bytes());
     ASSERT_TRUE(one->simulation.save(saved));
@@ -198,19 +198,20 @@ TEST(Fat, OfSleepersIsSavedSwitchedAndPlaced) {
   const Entity other = *simulation.spawn({.height_m = 1.75F, .mass_kg = 90}, {.speed_m_s = 1.4F});
   simulation.tick(130);
   const std::array both = {one.person, other};
-  ASSERT_EQ(simulation.sleep(both).value(), 2U);
+  ASSERT_EQ(simulation.set_state(both, PersonState::asleep).value(), 2U);
   EXPECT_FALSE(simulation.get<FatWobble>(one.person)) << "nothing of it is kept";
-  ASSERT_TRUE(simulation.set_fat_wobble({&other, 1}));
-  ASSERT_TRUE(simulation.set_fat_wobble({&one.person, 1}, false));
+  ASSERT_TRUE(simulation.enable({&other, 1}, Feature::fat));
+  ASSERT_TRUE(simulation.enable({&one.person, 1}, Feature::fat, false));
   ASSERT_TRUE(simulation.place(other, 30, 40, 1));
   ASSERT_TRUE(simulation.shift_origin(64, -64));
-  EXPECT_TRUE(simulation.is_asleep(one.person) && simulation.is_asleep(other));
+  EXPECT_TRUE((simulation.state(one.person) == PersonState::asleep) &&
+              (simulation.state(other) == PersonState::asleep));
   std::vector<std::byte> saved(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(saved));
   Simulation copy;
   ASSERT_TRUE(copy.restore(saved));
   for (Simulation* const world : {&simulation, &copy}) {
-    ASSERT_TRUE(world->wake(both));
+    ASSERT_TRUE(world->set_state(both, PersonState::full));
     world->tick(40);
     EXPECT_FALSE(world->get<FatWobble>(one.person));
     const auto fat = world->get<FatWobble>(other);
@@ -235,13 +236,13 @@ TEST(Fat, IsSavedAndTakenAwayAllOrNone) {
   const Entity second = *simulation.spawn(BodyRequest{}), gone = *simulation.spawn(BodyRequest{});
   ASSERT_TRUE(simulation.despawn(gone));
   const std::array with_gone = {second, gone}, twice = {second, second}, both = {shaken.person, second};
-  EXPECT_FALSE(simulation.set_fat_wobble(with_gone));
-  EXPECT_FALSE(simulation.set_fat_wobble(twice));
+  EXPECT_FALSE(simulation.enable(with_gone, Feature::fat));
+  EXPECT_FALSE(simulation.enable(twice, Feature::fat));
   EXPECT_FALSE(simulation.get<FatWobble>(second));
-  ASSERT_TRUE(simulation.set_fat_wobble(both));
+  ASSERT_TRUE(simulation.enable(both, Feature::fat));
   simulation.tick(20);
   EXPECT_GT(length(shaken.fat().beside_m[0]), 0);
-  ASSERT_TRUE(simulation.set_fat_wobble(both, false));
+  ASSERT_TRUE(simulation.enable(both, Feature::fat, false));
   EXPECT_FALSE(simulation.get<FatWobble>(second));
   EXPECT_FALSE(simulation.get<FatWobble>(shaken.person));
 }

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include <mobil/components/activation.h>
+#include <mobil/engine/world.h>
+#include <mobil/step_report.h>
 #include "assets/fem/finite_element.h"
 #include "tests/labels.h"
 #include "tests/refused.h"
@@ -62,7 +64,7 @@ TEST(FiniteMethod, StandsAsTheTablesSay) {
       LegMuscles choice = close_up(ExcitationSource::host);
       choice.inertia = false;
       choice.method = method;
-      ASSERT_TRUE(simulation.add_leg_muscles(people.back(), choice));
+      ASSERT_TRUE(simulation.set_muscles(people.back(), choice));
       for (const OwnMuscle& own : simulation.muscles(people.back())) {
         for (const Side side : {Side::right, Side::left})
           ASSERT_TRUE(simulation.set_excitation(people.back(), own.muscle, side, pull));
@@ -97,7 +99,7 @@ double middle_area(const Simulation& simulation, Entity muscle) {
 TEST(FiniteMethod, FibresThatPullAreFeltAtTheEndAndThicken) {
   Simulation simulation(sharing());
   const Entity human = *simulation.spawn_posed({});
-  ASSERT_TRUE(simulation.add_leg_muscles(human, close_up(ExcitationSource::host)));
+  ASSERT_TRUE(simulation.set_muscles(human, close_up(ExcitationSource::host)));
   const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
   const auto pull = [&](float how_hard) {
     ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, how_hard));
@@ -116,10 +118,10 @@ TEST(FiniteMethod, RefusesWhatItCannotDo) {
   const Entity human = *simulation.spawn_posed({});
   LegMuscles choice = close_up();
   choice.stiffness_damping_s = 1e-3;
-  EXPECT_TRUE(is_refused(simulation.add_leg_muscles(human, choice), "stiffness_damping_s"));
+  EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "stiffness_damping_s"));
   choice = close_up();
   choice.dt_s = 0.004;
-  EXPECT_TRUE(is_refused(simulation.add_leg_muscles(human, choice), "critical step"));
+  EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "critical step"));
   EXPECT_TRUE(simulation.muscles(human).empty());
 }
 

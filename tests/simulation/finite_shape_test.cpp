@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <mobil/components/activation.h>
+#include <mobil/engine/world.h>
 #include "tests/labels.h"
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
@@ -85,7 +86,7 @@ TEST(FiniteShape, IsTheSameByEveryMethod) {
     LegMuscles choice = finite(method, ExcitationSource::host);
     choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
     choice.damping_per_s = 40;
-    ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+    ASSERT_TRUE(simulation.set_muscles(human, choice));
     ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, 0.5F));
     run(simulation, 240);
     shown.push_back(displacement(simulation, simulation.muscle(human, Muscle::triceps_surae, Side::right)));
@@ -109,7 +110,7 @@ TEST(FiniteShape, BulgesAsItPulls) {
   choice.muscles = MuscleSet{};
   const Muscle soleus = *find_muscle("soleus");
   choice.muscles.set(static_cast<std::size_t>(soleus));
-  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  ASSERT_TRUE(simulation.set_muscles(human, choice));
   const Entity muscle = simulation.muscle(human, soleus, Side::right);
   const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
   const BellyScale<float> scale = *simulation.get<BellyScale>(muscle);
@@ -212,7 +213,7 @@ TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
     choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
     const bool stepped = to.method == Method::finite;  // which is as far from the table as its mesh is
     if (stepped) choice.cells = close_up_cells;
-    ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+    ASSERT_TRUE(simulation.set_muscles(human, choice));
     ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, 0.8F));
     run(simulation, 240);
     ASSERT_TRUE(simulation.set_method(human, Muscle::triceps_surae, to));
@@ -243,7 +244,7 @@ TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
     const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
     for (const LegMuscles& next : {pulls, linear, pulls}) {
       const auto before = displacement(simulation, muscle);
-      ASSERT_TRUE(simulation.change_leg_muscles(human, next));
+      ASSERT_TRUE(simulation.set_muscles(human, next));
       simulation.tick();
       const auto after = displacement(simulation, muscle);
       double step = 0;
@@ -262,7 +263,7 @@ TEST(FiniteShape, TheForceDrivenEndIsRefused) {
   LegMuscles choice;
   choice.drive = Drive::force;
   choice.finite_shape = true;
-  EXPECT_TRUE(is_refused(simulation.add_leg_muscles(human, choice), "Drive::displacement"));
+  EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "Drive::displacement"));
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "engine/snapshot_bytes.h"
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
@@ -37,7 +39,7 @@ void people(Simulation& simulation) {
     LegMuscles choice;
     choice.method = method;
     choice.inertia = true;
-    ASSERT_TRUE(simulation.add_leg_muscles(*human, choice));
+    ASSERT_TRUE(simulation.set_muscles(*human, choice));
   }
   for (int i = 0; i < 20; ++i) simulation.tick();
 }
@@ -68,7 +70,7 @@ TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
   choice.muscles = MuscleSet(1);
   choice.method = Method::ecd;
   const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
-  ASSERT_TRUE(simulation.add_leg_muscles(*human, choice));
+  ASSERT_TRUE(simulation.set_muscles(*human, choice));
   const Bytes bytes = saved(simulation);
 
   Simulation other;  // that has nothing yet
@@ -79,7 +81,7 @@ TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
   expect_refused(other.restore(bytes, {.mesh_nodes = 1000, .seconds = 0}), "at most 0 may be made");
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));  // nothing was made
   EXPECT_EQ(other.state_hash(), before);
-  ASSERT_TRUE(other.prepare(choice));
+  ASSERT_TRUE(other.muscle_library().prepare(choice));
   const auto prepared = other.restore(bytes, {.mesh_nodes = 0});
   ASSERT_TRUE(prepared) << prepared.error().message;
   EXPECT_EQ(other.state_hash(), simulation.state_hash());
@@ -96,7 +98,7 @@ TEST(RestoreLimitsOf, StepsOfATickAreCounted) {
   choice.method = Method::ecd;
   choice.dt_s = simulation.tick_s() / 3000;
   const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
-  ASSERT_TRUE(simulation.add_leg_muscles(*human, choice));
+  ASSERT_TRUE(simulation.set_muscles(*human, choice));
   const Bytes bytes = saved(simulation);
   expect_refused(other.restore(bytes, {.seconds = any_time}), "3000 steps a tick");
   EXPECT_EQ(other.state_hash(), before);
@@ -104,8 +106,8 @@ TEST(RestoreLimitsOf, StepsOfATickAreCounted) {
   // the choice that somebody compact keeps, by which their muscles may be stepped later
   choice.method = Method::reduced;
   choice.reduced.control_points = false;
-  ASSERT_TRUE(simulation.change_leg_muscles(*human, choice));
-  ASSERT_TRUE(simulation.compact({&*human, 1}));
+  ASSERT_TRUE(simulation.set_muscles(*human, choice));
+  ASSERT_TRUE(simulation.set_state({&*human, 1}, PersonState::compact));
   EXPECT_TRUE(simulation.muscles(*human).empty());
   expect_refused(other.restore(saved(simulation), {.seconds = any_time}), "3000 steps a tick");
 }
@@ -140,7 +142,7 @@ TEST(RestoreLimitsOf, NumbersThatAreNotFiniteAreRefused) {
     for (const Entity human : simulation.people()) {
       EXPECT_TRUE(std::isfinite(simulation.get<Pose>(human)->position_m[0].x));
       for (const OwnMuscle& own : simulation.muscles(human)) {
-        const NodalView shown = simulation.nodal_displacement(own.entity[Side::right]);
+        const NodalView shown = nodal_displacement(simulation.world(), own.entity[Side::right]);
         for (std::size_t n = 0; shown.first != nullptr && n < shown.nodes; ++n) {
           EXPECT_TRUE(std::isfinite(shown.first[3 * n * lane_count])) << round;
         }
@@ -208,9 +210,9 @@ TEST(Posed, WildPosesAreRefusedOrFinite) {
     choice.inertia = true;
     for (const auto& [where, who] : {std::pair{&simulation, wild}, {&simulation, calm}, {&alone, twin}}) {
       if (!where->muscles(who).empty()) {
-        ASSERT_TRUE(where->remove_leg_muscles(who));
+        ASSERT_TRUE(where->set_muscles(who, std::nullopt));
       }
-      ASSERT_TRUE(where->add_leg_muscles(who, choice));
+      ASSERT_TRUE(where->set_muscles(who, choice));
     }
     const Pose<float> usual = *simulation.get<Pose>(wild);
     std::mt19937 random(5);
@@ -246,7 +248,7 @@ TEST(Posed, WildPosesAreRefusedOrFinite) {
     const auto shown = [](const Simulation& of, Entity who) {
       std::vector<float> all;
       for (const OwnMuscle& own : of.muscles(who)) {
-        const NodalView view = of.nodal_displacement(own.entity[Side::left]);
+        const NodalView view = nodal_displacement(of.world(), own.entity[Side::left]);
         for (std::size_t n = 0; view.first != nullptr && n < view.nodes; ++n) {
           all.push_back(view.first[(3 * n + 1) * lane_count]);
         }

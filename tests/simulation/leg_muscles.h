@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/fem/muscle_template.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
@@ -31,7 +33,7 @@ inline std::vector<Entity> muscles_of(const Simulation& simulation, Entity human
 }
 
 inline std::vector<float> displacement(const Simulation& simulation, Entity muscle) {
-  const NodalView nodes = simulation.nodal_displacement(muscle);
+  const NodalView nodes = nodal_displacement(simulation.world(), muscle);
   std::vector<float> u(3 * std::size_t{nodes.nodes});
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = nodes.first[i * lane_count];
   return u;
@@ -39,7 +41,7 @@ inline std::vector<float> displacement(const Simulation& simulation, Entity musc
 
 inline Entity join_with(Simulation& simulation, const Person& p, const LegMuscles& choice) {
   const Entity human = join(simulation, p, false);
-  const auto added = simulation.add_leg_muscles(human, choice);
+  const auto added = simulation.set_muscles(human, choice);
   EXPECT_TRUE(added) << added.error().message;
   return human;
 }

@@ -7,7 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "tests/labels.h"
@@ -27,7 +30,7 @@ TEST(Change, OfMaterialMakesStepsAnewAndKeepsTheState) {
     for (const double young : {4e4, 2e5, 5e3}) {
       std::vector<std::vector<float>> before;
       for (const Entity muscle : muscles) before.push_back(displacement(simulation, muscle));
-      const auto changed = simulation.change_leg_muscles(human, {.method = method, .material = {1000, young, 0.4}});
+      const auto changed = simulation.set_muscles(human, {.method = method, .material = {1000, young, 0.4}});
       ASSERT_TRUE(changed) << changed.error().message;
       EXPECT_EQ(muscles_of(simulation, human), muscles);
       for (std::size_t m = 0; m < muscles.size(); ++m) EXPECT_EQ(displacement(simulation, muscles[m]), before[m]);
@@ -73,7 +76,7 @@ TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
   for (const bool inertia : {true, false}) {
     for (const Method method : {Method::caa, Method::statics, Method::icd, Method::ecd}) {
       const auto before = displacement(simulation, muscles[3]);
-      ASSERT_TRUE(simulation.change_leg_muscles(human, {.method = method, .inertia = inertia}));
+      ASSERT_TRUE(simulation.set_muscles(human, {.method = method, .inertia = inertia}));
       EXPECT_EQ(simulation.human(human)->leg_muscles.method, method);
       EXPECT_EQ(muscles_of(simulation, human), muscles);
       EXPECT_EQ(displacement(simulation, muscles[3]), before);
@@ -95,11 +98,11 @@ TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
   }
   EXPECT_TRUE(key == world.find(muscles[0]).table->key());
   EXPECT_EQ(rows_with<FrameLoad>(world) + rows_with<FrameHistory>(world), 0U);
-  ASSERT_TRUE(simulation.change_leg_muscles(human, {.drive = Drive::force, .cells = {1, 1, 4}}));
+  ASSERT_TRUE(simulation.set_muscles(human, {.drive = Drive::force, .cells = {1, 1, 4}}));
   EXPECT_EQ(world.get<FarEnd>(muscles[0]), static_cast<std::uint64_t>(FarEnd::sliding));
-  EXPECT_EQ(simulation.nodal_displacement(muscles[0]).nodes, 20U);
+  EXPECT_EQ(nodal_displacement(simulation.world(), muscles[0]).nodes, 20U);
   for (int i = 0; i < 15; ++i) simulation.tick();
-  EXPECT_EQ(simulation.remove_leg_muscles(human), Status::ok);
+  EXPECT_EQ(simulation.set_muscles(human, std::nullopt), Status::ok);
   EXPECT_EQ(rows(world), 1U);
 }
 
@@ -117,7 +120,7 @@ TEST(Change, OfDriveLeavesTheBellyWhereItIs) {
     Simulation simulation(sharing());
     const Entity human = join_with(simulation, person(9), ways[way][0]);
     for (int i = 0; i < 40; ++i) simulation.tick();
-    ASSERT_TRUE(simulation.change_leg_muscles(human, ways[way][1]));
+    ASSERT_TRUE(simulation.set_muscles(human, ways[way][1]));
     for (int i = 0; i < 30; ++i) {
       simulation.tick();
       float most = 0, fastest = 0;
@@ -157,15 +160,14 @@ TEST(Change, ARefusedChangeChangesNothing) {
                             {.dt_s = INFINITY},
                             {.method = Method::caa, .dt_s = 1e-12}};
   for (const LegMuscles& choice : bad) {
-    const auto changed = simulation.change_leg_muscles(human, choice);
+    const auto changed = simulation.set_muscles(human, choice);
     ASSERT_FALSE(changed);
-    EXPECT_TRUE(changed.error().message.starts_with("change_leg_muscles: ")) << changed.error().message;
+    EXPECT_TRUE(changed.error().message.starts_with("set_muscles: ")) << changed.error().message;
     EXPECT_EQ(changed.error().message.find('\n'), std::string::npos) << changed.error().message;
-    EXPECT_FALSE(simulation.add_leg_muscles(bare, choice));
+    EXPECT_FALSE(simulation.set_muscles(bare, choice));
     EXPECT_EQ(hash_world(simulation), before) << changed.error().message;
   }
-  EXPECT_FALSE(simulation.change_leg_muscles(bare, {}));
-  EXPECT_FALSE(simulation.change_leg_muscles(Entity{}, {}));
+  EXPECT_FALSE(simulation.set_muscles(Entity{}, {}));
   EXPECT_EQ(simulation.world().tables().size(), tables);
   EXPECT_TRUE(simulation.human(human)->leg_muscles.inertia);
 }
@@ -182,7 +184,7 @@ TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
   LegMuscles choice;
   choice.muscles = 0;
   choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings)).set(static_cast<std::size_t>(soleus));
-  ASSERT_TRUE(simulation.change_leg_muscles(human, choice));
+  ASSERT_TRUE(simulation.set_muscles(human, choice));
   EXPECT_EQ(simulation.muscle(human, Muscle::hamstrings, Side::left), stays);
   EXPECT_EQ(displacement(simulation, stays), before);
   EXPECT_FALSE(simulation.world().alive(goes));
@@ -196,7 +198,7 @@ TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
   const auto hash = hash_world(simulation);
   for (const unsigned long none_or_beyond : {0UL, 1UL << 31}) {
     choice.muscles = none_or_beyond;
-    EXPECT_TRUE(is_refused(simulation.change_leg_muscles(human, choice), "muscle_groups()"));
+    EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "muscle_groups()"));
     EXPECT_EQ(hash_world(simulation), hash);
   }
 }

@@ -9,8 +9,10 @@
 #include <cstdio>
 #include <string>
 
+#include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
-#include "systems/muscles/choice_words.h"
+#include <mobil/systems/surfaces/nodal_view.h>
+#include "systems/bellies/choice_words.h"
 #include "tests/labels.h"
 #include "tests/refused.h"
 
@@ -115,7 +117,7 @@ TEST(Methods, OtherCellsDampingAndMassWalkToo) {
     const Entity human = join_with(simulation, person(2), choice);
     for (int i = 0; i < 40; ++i) simulation.tick();
     for (const Entity muscle : muscles_of(simulation, human)) {
-      EXPECT_EQ(simulation.nodal_displacement(muscle).nodes, node_count(choice.cells));
+      EXPECT_EQ(nodal_displacement(simulation.world(), muscle).nodes, node_count(choice.cells));
       for (const float u : displacement(simulation, muscle)) ASSERT_LT(std::abs(u), 0.2F);  // not true of NaN
     }
   }
@@ -171,10 +173,10 @@ TEST(Steps, AboveTheLimitAreRefusedByName) {
     for (std::size_t g = 0; g < muscle_group_count; ++g) {
       limit[g] = limit_of(simulation, simulation.muscle(probe, static_cast<Muscle>(g), Side::right));
     }
-    EXPECT_EQ(simulation.remove_leg_muscles(probe), Status::ok);
+    EXPECT_EQ(simulation.set_muscles(probe, std::nullopt), Status::ok);
     const std::size_t lowest = static_cast<std::size_t>(std::min_element(limit.begin(), limit.end()) - limit.begin());
     const auto before = hash_world(simulation);
-    const auto refused = simulation.add_leg_muscles(probe, {.method = method, .dt_s = limit[lowest] * 1.0001});
+    const auto refused = simulation.set_muscles(probe, {.method = method, .dt_s = limit[lowest] * 1.0001});
     ASSERT_FALSE(refused);
     const std::string& message = refused.error().message;
     EXPECT_NE(message.find(muscle_name(static_cast<Muscle>(lowest))), std::string::npos) << message;
@@ -182,9 +184,9 @@ TEST(Steps, AboveTheLimitAreRefusedByName) {
     std::snprintf(number, sizeof number, "%.6g", limit[lowest]);
     EXPECT_NE(message.find(number), std::string::npos) << message << " " << number;
     EXPECT_EQ(message.find('\n'), std::string::npos);
-    EXPECT_TRUE(is_refused(simulation.change_leg_muscles(other, {.method = method, .dt_s = 0.1}), "critical step"));
+    EXPECT_TRUE(is_refused(simulation.set_muscles(other, {.method = method, .dt_s = 0.1}), "critical step"));
     EXPECT_EQ(hash_world(simulation), before);
-    EXPECT_TRUE(simulation.add_leg_muscles(probe, {.method = method, .dt_s = limit[lowest] * 0.9999}));
+    EXPECT_TRUE(simulation.set_muscles(probe, {.method = method, .dt_s = limit[lowest] * 0.9999}));
   }
 }
 

@@ -9,8 +9,10 @@
 #include <mobil/assets/muscles/muscle_plan.h>
 #include <mobil/components/leg_frames.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/retarget.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
 
@@ -105,7 +107,7 @@ TEST(Limbs, MusclesAreAtRestWhereTheirBonesAre) {
     double most_mm = 0;
     for (const Entity human : {knows, does_not}) {
       ASSERT_EQ(simulation.set_pose(human, pose), Status::ok);
-      ASSERT_TRUE(simulation.add_leg_muscles(human, {.muscles = muscle_members()}));
+      ASSERT_TRUE(simulation.set_muscles(human, {.muscles = muscle_members()}));
       simulation.tick();
       for (const Entity muscle : muscles_of(simulation, human)) {
         const auto line = *simulation.get<LineOfAction>(muscle);
@@ -131,7 +133,7 @@ TEST(Limbs, WhatLiesAcrossABoneIsAsTheHeightHasIt) {
   std::vector<Human> humans;
   for (const BodyRequest& body : {own, plain}) {
     const Entity human = *simulation.spawn_posed(body);
-    ASSERT_TRUE(simulation.add_leg_muscles(human));
+    ASSERT_TRUE(simulation.set_muscles(human));
     scale.push_back(*simulation.get<LegScale>(simulation.muscle(human, Muscle::hamstrings, Side::right)));
     humans.push_back(*simulation.human(human));
   }
@@ -174,7 +176,7 @@ TEST(Limbs, AreKeptBySnapshotsAndToldByHuman) {
   Simulation simulation(sharing()), other(sharing());
   const BodyRequest asked = long_limbed(1.2F, 1.1F);
   const Entity human = *simulation.spawn_posed(asked);
-  ASSERT_TRUE(simulation.add_leg_muscles(human));
+  ASSERT_TRUE(simulation.set_muscles(human));
   simulation.tick();
   EXPECT_EQ(simulation.human(human)->body.request.limbs.thigh_m, asked.limbs.thigh_m);
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
@@ -230,7 +232,7 @@ TEST(Limbs, SurfacesOfUsualBodiesFit) {
   Simulation simulation(sharing());
   const Entity puppet = *simulation.spawn_posed(long_limbed(1.15F, 0.92F, 1.1F, 1.2F));
   ASSERT_EQ(simulation.set_pose(puppet, crouching(simulation.human(puppet)->body, 20, 30)), Status::ok);
-  ASSERT_TRUE(simulation.add_leg_muscles(puppet));
+  ASSERT_TRUE(simulation.set_muscles(puppet));
   simulation.tick();
   const Human human = *simulation.human(puppet);
   std::vector<SurfaceMuscle> muscles;

@@ -12,10 +12,12 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/people/limit_watch.h>
-#include <mobil/systems/people/walk_limits.h>
-#include "systems/people/style_estimate.h"
+#include <mobil/step_report.h>
+#include <mobil/systems/limits/limit_watch.h>
+#include <mobil/systems/limits/walk_limits.h>
+#include "systems/limits/style_estimate.h"
 #include "tests/simulation/walk_watch.h"
 
 namespace mobil::limit_watch_test {
@@ -77,7 +79,7 @@ void walk(const std::vector<Asked>& asked, const std::vector<Changes>& changes, 
     for (std::size_t i = 0; i < people.size(); ++i) {
       Walked now;
       watches[i].look(now);
-      const auto broken = simulation.broken_limits(people[i]);
+      const auto broken = broken_limits(simulation.world(), people[i]);
       EXPECT_TRUE(now.keeps_limits() || !broken.empty()) << told(asked[i], now);
       EXPECT_TRUE(broken.empty() || is_all_but_at_a_limit(now)) << told(asked[i], now);
       for (const BrokenLimit& limit : broken)
@@ -180,7 +182,7 @@ TEST(LimitWatch, NobodyElseIsBeyondOne) {
   far.style.double_support_scale = 0.6F;
   const Entity person = *simulation.spawn(BodyRequest{.height_m = 1.627254F, .mass_kg = 63.42218F}, far);
   for (int ticks = 0; ticks < 240; ++ticks) {
-    EXPECT_TRUE(simulation.broken_limits(person).empty()) << ticks;
+    EXPECT_TRUE(broken_limits(simulation.world(), person).empty()) << ticks;
     simulation.tick();
   }
   EXPECT_EQ(simulation.report().total_beyond_limits, 0U);
@@ -188,11 +190,11 @@ TEST(LimitWatch, NobodyElseIsBeyondOne) {
   simulation.tick(23);
   ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 1.630582F}));
   simulation.tick(240);
-  ASSERT_EQ(*simulation.sleep({&person, 1}), 1U);
-  EXPECT_TRUE(simulation.broken_limits(person).empty());
+  ASSERT_EQ(*simulation.set_state({&person, 1}, PersonState::asleep), 1U);
+  EXPECT_TRUE(broken_limits(simulation.world(), person).empty());
   simulation.despawn(person);
-  EXPECT_TRUE(simulation.broken_limits(person).empty());
-  EXPECT_TRUE(simulation.broken_limits(Entity{}).empty());
+  EXPECT_TRUE(broken_limits(simulation.world(), person).empty());
+  EXPECT_TRUE(broken_limits(simulation.world(), Entity{}).empty());
 }
 
 TEST(LimitWatch, SaysWhatIsBeyond) {

@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/world.h>
+#include <mobil/host_parts.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
 #include <mobil/snapshot_file.h>
+#include <mobil/step_report.h>
 #include "systems/muscles/muscle_parts.h"
 #include "tests/simulation/crowd_play.h"
 
@@ -40,8 +43,8 @@ Module counting(std::uint32_t version = 1, std::shared_ptr<const Palette> palett
 }
 
 void mark(Simulation& simulation, Entity entity, std::uint32_t key) {
-  EXPECT_EQ(simulation.add(entity, Counter<float>{0, key}), Status::ok);
-  EXPECT_EQ(simulation.add(entity, FieldWidth<Trace>{1}), Status::ok);
+  EXPECT_EQ(simulation.parts().add(entity, Counter<float>{0, key}), Status::ok);
+  EXPECT_EQ(simulation.parts().add(entity, FieldWidth<Trace>{1}), Status::ok);
 }
 void expect_marked(const Simulation& simulation, Entity entity, std::uint32_t key, std::uint32_t ticks) {
   const auto counter = simulation.get<Counter>(entity);
@@ -61,7 +64,7 @@ struct Marked {
 Marked marked_walker(Simulation& simulation) {
   Marked made;
   made.human = *simulation.spawn({});
-  EXPECT_TRUE(simulation.add_leg_muscles(made.human, {.cells = play::coarse}));
+  EXPECT_TRUE(simulation.set_muscles(made.human, {.cells = play::coarse}));
   made.muscle = simulation.muscle(made.human, Muscle::hamstrings, Side::left);
   mark(simulation, made.human, 11);
   mark(simulation, made.muscle, 22);
@@ -82,10 +85,10 @@ TEST(Modules, PartsOfAHostStayThroughEveryChangeOfAMuscle) {
     run();
   }
   for (std::uint64_t draw = 0; draw < 27; ++draw) {
-    ASSERT_TRUE(simulation.change_leg_muscles(marked.human, play::choice_of(draw)));
+    ASSERT_TRUE(simulation.set_muscles(marked.human, play::choice_of(draw)));
     run();
   }
-  EXPECT_EQ(simulation.add_forces(marked.human), Status::ok);
+  EXPECT_EQ(simulation.enable(marked.human, Feature::forces), Status::ok);
   run();
   for (int i = 0; i < 30; ++i) run();  // fades end
 }
@@ -110,7 +113,7 @@ TEST(Modules, SnapshotsAndRollbackKeepWhatModulesName) {
   const auto palette = std::make_shared<const Palette>(Palette{7});
   Simulation simulation({.modules = {counting(1, palette)}});
   const Marked marked = marked_walker(simulation);
-  simulation.add(marked.human, simulation.share(palette));
+  simulation.parts().add(marked.human, simulation.parts().share(palette));
   simulation.tick();
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
@@ -156,11 +159,11 @@ TEST(Modules, SnapshotsOfOtherModulesOrVersionsAreRefused) {
   // A resource that no module names cannot be saved; one that is named cannot be restored without its module.
   const auto palette = std::make_shared<const Palette>(Palette{7});
   const Entity human = *simulation.spawn({});
-  simulation.add(human, simulation.share(palette));
+  simulation.parts().add(human, simulation.parts().share(palette));
   const auto unnamed = simulation.save(bytes);
   EXPECT_FALSE(unnamed);
   Simulation named({.modules = {counting(1, palette)}});
-  named.add(*named.spawn({}), named.share(palette));
+  named.parts().add(*named.spawn({}), named.parts().share(palette));
   bytes.resize(named.snapshot_bytes());
   ASSERT_TRUE(named.save(bytes));
   EXPECT_NE(refusal({.modules = {counting()}}).find("named resource"), std::string::npos);
@@ -204,11 +207,11 @@ TEST(Modules, PhasesOfAHostSpawnAndDespawn) {
     Simulation* running = nullptr;
     Module arrivals{.name = "arrivals",
                     .before = {{"arrivals",
-                                [&running](Frame& frame) {
+                                [&running](const Frame& frame) {
                                   auto& all = frame.workspace.get<Arrivals>().all;
                                   if (frame.tick.index % 10 == 0) all.push_back(*running->spawn(BodyRequest{}));
                                 }}},
-                    .after = {{"departures", [&running](Frame& frame) {
+                    .after = {{"departures", [&running](const Frame& frame) {
                                  auto& all = frame.workspace.get<Arrivals>().all;
                                  if (all.size() < 4) return;
                                  EXPECT_TRUE(running->despawn(all.front()));
@@ -223,8 +226,8 @@ TEST(Modules, PhasesOfAHostSpawnAndDespawn) {
     for (const PhaseReport& one : report.phases)
       names += std::string(one.name) + (one.after ? " after, " : " before, ");
     EXPECT_EQ(names,
-              "memory of step events before, arrivals before, step events after, faded muscles after, settled walkers "
-              "after, departures after, ");
+              "level of detail before, avoidance before, ground before, memory of step events before, arrivals before, "
+              "step events after, faded muscles after, settled walkers after, departures after, ");
     return simulation.state_hash();
   };
   EXPECT_EQ(run(1), run(2));

@@ -38,11 +38,11 @@ double off(const Pair& of) {
 TEST(Moments, MusclesMakeThoseOfTheWalk) {
   Simulation simulation(sharing());
   const Entity human = walker(simulation);
-  ASSERT_TRUE(simulation.add_forces(human));
+  ASSERT_TRUE(simulation.enable(human, Feature::forces));
   LegMuscles choice = following();
   choice.muscles = muscle_members();
   choice.line_motion = true;
-  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  ASSERT_TRUE(simulation.set_muscles(human, choice));
   for (const Side side : {Side::right, Side::left}) {
     Pair ankle, knee;
     float reserve_nm = 0;
@@ -70,43 +70,43 @@ TEST(Moments, MusclesMakeThoseOfTheWalk) {
 TEST(Moments, NeedForces) {
   Simulation simulation(sharing());
   const Entity human = walker(simulation);
-  const auto refused = simulation.add_leg_muscles(human, following());
+  const auto refused = simulation.set_muscles(human, following());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().status, Status::missing);
-  EXPECT_NE(refused.error().message.find("add_forces"), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("Feature::forces"), std::string::npos) << refused.error().message;
   EXPECT_TRUE(simulation.muscles(human).empty());
   SpawnRequest request;
   request.muscles = following();
   Entity none;
   const auto spawned = simulation.spawn({&request, 1}, {&none, 1});
   ASSERT_FALSE(spawned);
-  ASSERT_TRUE(simulation.add_forces(human));
-  EXPECT_TRUE(simulation.add_leg_muscles(human, following()));
+  ASSERT_TRUE(simulation.enable(human, Feature::forces));
+  EXPECT_TRUE(simulation.set_muscles(human, following()));
 }
 
 /// The parts that they are asked by come and go with them, and with the forces that they are of.
 TEST(Moments, ComeAndGo) {
   Simulation simulation(sharing());
   const Entity human = walker(simulation);
-  ASSERT_TRUE(simulation.add_forces(human));
-  ASSERT_TRUE(simulation.add_leg_muscles(human, following(Method::reduced)));
+  ASSERT_TRUE(simulation.enable(human, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(human, following(Method::reduced)));
   EXPECT_TRUE(simulation.get<MomentReserve>(human));
   LegMuscles phase = following(Method::reduced);
   phase.activation = ExcitationSource::phase;
-  ASSERT_TRUE(simulation.change_leg_muscles(human, phase));
+  ASSERT_TRUE(simulation.set_muscles(human, phase));
   EXPECT_FALSE(simulation.get<MomentReserve>(human));
-  ASSERT_TRUE(simulation.change_leg_muscles(human, following(Method::reduced)));
+  ASSERT_TRUE(simulation.set_muscles(human, following(Method::reduced)));
   EXPECT_TRUE(simulation.get<MomentReserve>(human));
   for (int tick = 0; tick < 60; ++tick) simulation.tick();
-  ASSERT_TRUE(simulation.remove_forces(human));
+  ASSERT_TRUE(simulation.enable(human, Feature::forces, false));
   EXPECT_FALSE(simulation.get<MomentReserve>(human));
   for (int tick = 0; tick < 60; ++tick) simulation.tick();
   const Entity calf = simulation.muscle(human, Muscle::triceps_surae, Side::right);
   EXPECT_LT(simulation.get<Activation>(calf)->activation, 0.02F) << "nothing is asked of them";
-  ASSERT_FALSE(simulation.change_leg_muscles(human, following(Method::none)));
-  ASSERT_TRUE(simulation.add_forces(human));
-  ASSERT_TRUE(simulation.change_leg_muscles(human, following(Method::none)));
-  ASSERT_TRUE(simulation.remove_leg_muscles(human));
+  ASSERT_FALSE(simulation.set_muscles(human, following(Method::none)));
+  ASSERT_TRUE(simulation.enable(human, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(human, following(Method::none)));
+  ASSERT_TRUE(simulation.set_muscles(human, std::nullopt));
   EXPECT_FALSE(simulation.get<MomentReserve>(human));
 }
 
@@ -117,18 +117,18 @@ TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
   plain.reduced.control_points = false;
   for (const bool compact : {false, true}) {
     const Entity with = walker(simulation), without = walker(simulation);
-    ASSERT_TRUE(simulation.add_leg_muscles(with, plain));
+    ASSERT_TRUE(simulation.set_muscles(with, plain));
     for (int tick = 0; tick < 240; ++tick) simulation.tick();
     const std::array both = {with, without};
-    ASSERT_EQ((compact ? simulation.compact(both) : simulation.sleep(both)).value(), 2U) << compact;
+    const PersonState state = compact ? PersonState::compact : PersonState::asleep;
+    ASSERT_EQ(simulation.set_state(both, state).value(), 2U) << compact;
     const std::uint64_t before = simulation.state_hash();
-    EXPECT_EQ(simulation.change_leg_muscles(with, following(Method::reduced)).error().status, Status::missing);
-    EXPECT_EQ(simulation.change_leg_muscles(without, plain).error().status, Status::missing);
+    EXPECT_EQ(simulation.set_muscles(with, following(Method::reduced)).error().status, Status::missing);
     LegMuscles wild = plain;
     wild.reduced.vectors = 9999;
-    EXPECT_FALSE(simulation.change_leg_muscles(with, wild));
+    EXPECT_FALSE(simulation.set_muscles(with, wild));
     EXPECT_EQ(simulation.state_hash(), before);
-    for (const Entity human : both) EXPECT_TRUE(compact ? simulation.is_compact(human) : simulation.is_asleep(human));
+    for (const Entity human : both) EXPECT_EQ(simulation.state(human), state);
     ASSERT_TRUE(simulation.despawn(both));
   }
 }
@@ -136,8 +136,8 @@ TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
 TEST(Moments, GoOnFromASnapshot) {
   Simulation simulation(sharing()), other(sharing());
   const Entity human = walker(simulation);
-  ASSERT_TRUE(simulation.add_forces(human));
-  ASSERT_TRUE(simulation.add_leg_muscles(human, following(Method::reduced)));
+  ASSERT_TRUE(simulation.enable(human, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(human, following(Method::reduced)));
   for (int tick = 0; tick < 40; ++tick) simulation.tick();
   std::vector<std::byte> saved(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(saved));
@@ -154,8 +154,8 @@ TEST(Moments, OfPosedPeopleToo) {
   const Entity model = walker(walking);
   const auto posed = simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
   ASSERT_TRUE(posed);
-  ASSERT_TRUE(simulation.add_forces(*posed));
-  ASSERT_TRUE(simulation.add_leg_muscles(*posed, following()));
+  ASSERT_TRUE(simulation.enable(*posed, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(*posed, following()));
   float most = 0;
   for (int tick = 0; tick < 120; ++tick) {
     walking.tick();

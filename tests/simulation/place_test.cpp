@@ -83,7 +83,7 @@ TEST(Place, APosedPersonFeelsAWayAndNoJump) {
   for (const auto arrival : {Arrival::jumped, Arrival::moved}) {
     Simulation simulation(sharing());
     const Entity human = simulation.spawn_posed(person(2).body).value();
-    ASSERT_TRUE(simulation.add_leg_muscles(human, with_inertia(Method::reduced)));
+    ASSERT_TRUE(simulation.set_muscles(human, with_inertia(Method::reduced)));
     auto pose = *simulation.get<Pose>(human);
     const auto most = [&] {
       double all = 0;
@@ -142,20 +142,20 @@ TEST(Place, IsAsIfSpawnedThere) {
   }
   ASSERT_TRUE(there.spawn(requests, spawned));
   ASSERT_TRUE(placed.spawn(at_origin, people));
-  ASSERT_EQ(*placed.compact(std::span(people).first(4)), 4U);
-  ASSERT_EQ(*placed.sleep(std::span(people).subspan(4, 4)), 4U);
+  ASSERT_EQ(*placed.set_state(std::span(people).first(4), PersonState::compact), 4U);
+  ASSERT_EQ(*placed.set_state(std::span(people).subspan(4, 4), PersonState::asleep), 4U);
   for (std::size_t i = 0; i < 12; ++i) to[i] = {people[i], requests[i].x_m, requests[i].z_m, requests[i].heading_rad};
   ASSERT_TRUE(placed.place(to));
-  EXPECT_TRUE(placed.is_compact(people[0]));
-  EXPECT_TRUE(placed.is_asleep(people[4]));
+  EXPECT_EQ(placed.state(people[0]), PersonState::compact);
+  EXPECT_EQ(placed.state(people[4]), PersonState::asleep);
   for (int t = 0; t < 90; ++t) {
     for (std::size_t i = 0; i < 12; ++i) EXPECT_TRUE(walk_alike(there, spawned[i], placed, people[i])) << i;
     if (::testing::Test::HasFailure()) break;
     there.tick();
     placed.tick();
   }
-  ASSERT_TRUE(placed.expand(people));
-  ASSERT_TRUE(placed.wake(people));
+  ASSERT_TRUE(placed.set_state(people, PersonState::full));
+  ASSERT_TRUE(placed.set_state(people, PersonState::full));
   EXPECT_EQ(there.state_hash(), placed.state_hash());
 }
 
@@ -170,7 +170,7 @@ TEST(Place, SleepersGoAlong) {
     ASSERT_EQ(*asleep.spawn(who.body, who.gait), people.back());
   }
   for (int t = 0; t < 100; ++t) awake.tick(), asleep.tick();
-  ASSERT_EQ(*asleep.sleep(people), 8U);
+  ASSERT_EQ(*asleep.set_state(people, PersonState::asleep), 8U);
   const auto put = [&](float x_m) {
     std::vector<PlaceRequest> to;
     for (const Entity human : people) to.push_back({human, x_m + static_cast<float>(human.index), -x_m, 0.01F * x_m});
@@ -195,7 +195,7 @@ TEST(Place, SleepersGoAlong) {
     put(x_m);
     for (int t = 0; t < 40; ++t) awake.tick(), asleep.tick();
     for (const Entity human : people) {
-      EXPECT_TRUE(asleep.is_asleep(human));
+      EXPECT_EQ(asleep.state(human), PersonState::asleep);
       const auto a = *awake.get<GaitState>(human), b = *asleep.get<GaitState>(human);
       EXPECT_EQ(a.time_s, b.time_s);
       EXPECT_EQ(a.steps, b.steps);
@@ -204,7 +204,7 @@ TEST(Place, SleepersGoAlong) {
       EXPECT_NEAR(a.heading_rad, b.heading_rad, 1e-5);
     }
   }
-  ASSERT_TRUE(asleep.wake(people));
+  ASSERT_TRUE(asleep.set_state(people, PersonState::full));
   for (const Entity human : people) {
     const auto a = *awake.get<Pose>(human), b = *asleep.get<Pose>(human);
     for (std::size_t s = 0; s < segment_count; ++s)
@@ -219,7 +219,7 @@ TEST(Place, ManyOrNobody) {
     const auto n = static_cast<float>(i);
     to.push_back({join(simulation, person(i), false), n, 2 * n, n});
   }
-  ASSERT_EQ(*simulation.sleep({&to[2].person, 1}), 1U);
+  ASSERT_EQ(*simulation.set_state({&to[2].person, 1}, PersonState::asleep), 1U);
   const Entity posed = *simulation.spawn_posed(person(2).body), last = join(simulation, person(9), false);
   for (int t = 0; t < 20; ++t) simulation.tick();
   const std::uint64_t before = simulation.state_hash();
@@ -289,13 +289,13 @@ TEST(ShiftOrigin, AHundredKilometresOnNothingIsLost) {
   const Entity stays = join_with(home, who, with_inertia(Method::reduced)),
                goes = join_with(far, who, with_inertia(Method::reduced));
   const Entity posed = *far.spawn_posed(person(4).body);
-  ASSERT_TRUE(far.add_forces(posed));
+  ASSERT_TRUE(far.enable(posed, Feature::forces));
   Person other = person(2);
   other.gait.style = snapped(other.gait.style);
   const Entity sleeper = *far.spawn(other.body, other.gait), small = *far.spawn(other.body, other.gait),
                twin = *home.spawn(other.body, other.gait);
-  ASSERT_EQ(*far.sleep({&sleeper, 1}), 1U);
-  ASSERT_EQ(*far.compact({&small, 1}), 1U);
+  ASSERT_EQ(*far.set_state({&sleeper, 1}, PersonState::asleep), 1U);
+  ASSERT_EQ(*far.set_state({&small, 1}, PersonState::compact), 1U);
   double gone_m = 0, worst_m = 0, slipped_m = 0, behind_m = 0;
   Vec3<float> stood{};  // beside the same heel at home
   std::uint32_t stance = 0;

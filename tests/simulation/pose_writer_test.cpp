@@ -11,7 +11,9 @@
 #include <vector>
 
 #include <mobil/components/pose.h>
+#include <mobil/each.h>
 #include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include "engine/eigen.h"
 #include "tests/engine/counting_heap.h"

@@ -37,8 +37,8 @@ TEST(PosedForces, AWalkersPosesGiveTheWalkersForces) {
     const Person who = person(1);
     const Entity walker = *walking.spawn(who.body, {.speed_m_s = speed});
     const Entity puppet = *posed.spawn_posed(who.body);
-    ASSERT_EQ(walking.add_forces(walker), Status::ok);
-    ASSERT_EQ(posed.add_forces(puppet), Status::ok);
+    ASSERT_EQ(walking.enable(walker, Feature::forces), Status::ok);
+    ASSERT_EQ(posed.enable(puppet, Feature::forces), Status::ok);
     const float weight = who.body.mass_kg * gravity;
     Apart up, ahead, hip, knee, ankle, centre, total;
     for (int tick = 0; tick < 240; ++tick) {
@@ -85,7 +85,7 @@ TEST(PosedForces, WhoStandsIsBorneByBothFeet) {
     const Entity puppet = *simulation.spawn_posed(who.body);
     const Pose<float> standing = moved(*simulation.get<Pose>(puppet), {5, floor_m, -7});
     ASSERT_EQ(simulation.set_pose(puppet, standing, Arrival::jumped), Status::ok);
-    ASSERT_EQ(simulation.add_forces(puppet), Status::ok);
+    ASSERT_EQ(simulation.enable(puppet, Feature::forces), Status::ok);
     for (int tick = 0; tick < 5; ++tick) {
       if (tick > 0) simulation.tick();
       const auto ground = *simulation.get<GroundReaction>(puppet);
@@ -106,8 +106,7 @@ TEST(PosedForces, WhoStandsIsBorneByBothFeet) {
       EXPECT_NEAR(share * ground.centre_m[Side::right].z + (1 - share) * ground.centre_m[Side::left].z,
                   simulation.get<CentreOfMass>(puppet)->position_m.z, 0.005F);
     }
-    EXPECT_EQ(simulation.remove_forces(puppet), Status::ok);
-    EXPECT_EQ(simulation.remove_forces(puppet), Status::missing);
+    EXPECT_EQ(simulation.enable(puppet, Feature::forces, false), Status::ok);
     EXPECT_FALSE(simulation.get<GroundReaction>(puppet));
     simulation.tick();
   }
@@ -118,7 +117,7 @@ TEST(PosedForces, AFootInTheAirBearsNothing) {
   Simulation simulation;
   const Person who = person(2);
   const Entity puppet = *simulation.spawn_posed(who.body);
-  ASSERT_EQ(simulation.add_forces(puppet), Status::ok);
+  ASSERT_EQ(simulation.enable(puppet, Feature::forces), Status::ok);
   Pose<float> pose = *simulation.get<Pose>(puppet);
   using enum Segment;
   for (std::size_t s = index(shank_left); s <= index(toes_left); ++s) pose.position_m[s].y += 0.2F;
@@ -138,7 +137,7 @@ TEST(PosedForces, JumpsAndFalls) {
   const float weight = who.body.mass_kg * gravity;
   const Entity puppet = *simulation.spawn_posed(who.body);
   const Pose<float> standing = *simulation.get<Pose>(puppet);
-  ASSERT_EQ(simulation.add_forces(puppet), Status::ok);
+  ASSERT_EQ(simulation.enable(puppet, Feature::forces), Status::ok);
   const auto lift = [&] {
     const auto ground = *simulation.get<GroundReaction>(puppet);
     return ground.force_n[Side::right].y + ground.force_n[Side::left].y;
@@ -170,7 +169,7 @@ TEST(PosedForces, WhatAcceleratesPressesHarder) {
   const Person who = person(0);
   const Entity puppet = *simulation.spawn_posed(who.body);
   const Pose<float> standing = *simulation.get<Pose>(puppet);
-  ASSERT_EQ(simulation.add_forces(puppet), Status::ok);
+  ASSERT_EQ(simulation.enable(puppet, Feature::forces), Status::ok);
   const auto tick_s = static_cast<float>(simulation.tick_s());
   for (int tick = 0; tick < 30; ++tick) {
     const float t = tick_s * static_cast<float>(tick);
@@ -192,7 +191,7 @@ TEST(PosedForces, GoOnAfterASnapshotAndAShiftOfTheOrigin) {
   std::vector<Entity> puppets;
   for (Simulation* simulation : {&posed, &shifted}) {
     puppets.push_back(*simulation->spawn_posed(who.body));
-    ASSERT_EQ(simulation->add_forces(puppets.back()), Status::ok);
+    ASSERT_EQ(simulation->enable(puppets.back(), Feature::forces), Status::ok);
   }
   for (int tick = 0; tick < 90; ++tick) {
     walking.tick();

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/engine/world.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/muscles/human.h>
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
 
@@ -68,8 +71,8 @@ struct Couple {
 
   Couple(int i, const LegMuscles& choice) : walker(join(walking, person(i), false)), puppet(pose_person(posed, i)) {
     EXPECT_EQ(posed.set_pose(puppet, *walking.get<Pose>(walker)), Status::ok);
-    EXPECT_TRUE(walking.add_leg_muscles(walker, choice));
-    EXPECT_TRUE(posed.add_leg_muscles(puppet, choice));
+    EXPECT_TRUE(walking.set_muscles(walker, choice));
+    EXPECT_TRUE(posed.set_muscles(puppet, choice));
   }
   void tick() {
     walking.tick();
@@ -124,7 +127,7 @@ TEST(Posed, WithInertiaTheWalkersPastIsSoonForgotten) {
 TEST(Posed, BeginsWithGravityAloneWhateverItsHostDoesLater) {
   Simulation simulation(sharing());
   const Entity human = pose_person(simulation, 2);
-  ASSERT_TRUE(simulation.add_leg_muscles(human, {.inertia = true}));
+  ASSERT_TRUE(simulation.set_muscles(human, {.inertia = true}));
   for (const Entity muscle : muscles_of(simulation, human)) {
     const auto load = *simulation.get<FrameLoad>(muscle);
     const auto& [x, y, z] = load.constant_to;
@@ -141,7 +144,7 @@ TEST(Posed, RunsNoGaitAndNoKinematics) {
   Simulation simulation(sharing());
   for (int i = 0; i < 3; ++i) {
     const Entity human = pose_person(simulation, i);
-    ASSERT_TRUE(simulation.add_leg_muscles(human));
+    ASSERT_TRUE(simulation.set_muscles(human));
   }
   for (int i = 0; i < 3; ++i) simulation.tick();
   for (const SystemReport& system : simulation.report().systems) {
@@ -160,8 +163,7 @@ TEST(Posed, RequestsForAGaitAreRefusedAndChangeNothing) {
   const auto before = hash_world(simulation);
   EXPECT_TRUE(is_refused(simulation.change_gait(human, {.speed_m_s = 1.0F}), "host"));
   EXPECT_TRUE(is_refused(simulation.turn_to(human, 1), "host"));
-  EXPECT_EQ(simulation.remove_forces(human), Status::missing);
-  EXPECT_EQ(simulation.remove_leg_muscles(human), Status::missing);
+  EXPECT_EQ(simulation.enable(human, Feature::step_events), Status::missing);
   EXPECT_EQ(simulation.set_pose(walker, {}), Status::missing);
   EXPECT_EQ(simulation.set_pose({}, {}), Status::stale_entity);
   EXPECT_TRUE(is_refused(simulation.spawn_posed({.height_m = 9.0F})));
@@ -201,8 +203,8 @@ TEST(Posed, StandingComesToTheSameRestAfterAnyMethods) {
   Simulation changed(sharing()), steady(sharing());
   const Entity a = pose_person(changed, 5), b = pose_person(steady, 5);
   const ReducedChoice coarse = {.vectors = 10, .cells = {2, 2, 8}};
-  ASSERT_TRUE(changed.add_leg_muscles(a, {.inertia = true}));
-  ASSERT_TRUE(steady.add_leg_muscles(b, {.method = Method::caa, .inertia = true}));
+  ASSERT_TRUE(changed.set_muscles(a, {.inertia = true}));
+  ASSERT_TRUE(steady.set_muscles(b, {.method = Method::caa, .inertia = true}));
   for (const Method method : {Method::none, Method::statics, Method::reduced, Method::ecd, Method::caa}) {
     for (std::size_t m = 0; m < muscle_group_count; ++m) {
       ASSERT_TRUE(changed.set_method(a, static_cast<Muscle>(m), {method, coarse})) << name(method);

@@ -9,9 +9,13 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/world.h>
+#include <mobil/host_parts.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
-#include "systems/simulation_world.h"
+#include <mobil/step_report.h>
+#include <mobil/systems/surfaces/nodal_view.h>
+#include "tests/world_of.h"
 
 namespace mobil {
 namespace {
@@ -75,10 +79,10 @@ struct Scene {
   explicit Scene(const LegMuscles& choice) {
     for (int i = 0; i < 3; ++i) {
       people.push_back(*simulation.spawn({.height_m = 1.8F, .mass_kg = 80}));
-      const auto added = simulation.add_leg_muscles(people.back(), choice);
+      const auto added = simulation.set_muscles(people.back(), choice);
       EXPECT_TRUE(added) << added.error().message;
       for (const OwnMuscle& own : simulation.muscles(people.back()))
-        for (const Entity one : own.entity) EXPECT_EQ(simulation.add(one, Poison<float>{0}), Status::ok);
+        for (const Entity one : own.entity) EXPECT_EQ(simulation.parts().add(one, Poison<float>{0}), Status::ok);
     }
     for (int i = 0; i < 30; ++i) simulation.tick();
   }
@@ -87,7 +91,7 @@ struct Scene {
 
   std::vector<float> shown(Entity muscle) const {
     std::vector<float> all;
-    const NodalView view = simulation.nodal_displacement(muscle);
+    const NodalView view = nodal_displacement(simulation.world(), muscle);
     for (std::size_t i = 0; view.first != nullptr && i < 3 * view.nodes; ++i) all.push_back(view.first[i * lane_count]);
     EXPECT_EQ(all.size(), 3 * 81U);
     return all;
@@ -181,7 +185,7 @@ TEST(Restart, ABellyThatIsNotFiniteBeginsAnew) {
         write_state<NodalVelocity>(scene, random, value);
       }
       expect_restarted(scene, twin, what, true);
-      ASSERT_TRUE(scene.simulation.set(scene.muscle(), Poison<float>{value}));
+      ASSERT_TRUE(scene.simulation.parts().set(scene.muscle(), Poison<float>{value}));
       expect_restarted(scene, twin, what + " at its end", false);
     }
   }

@@ -11,7 +11,8 @@
 #include <mobil/engine/geometry.h>
 #include <mobil/retarget.h>
 #include <mobil/simulation.h>
-#include "systems/people/pose_axes.h"
+#include <mobil/systems/muscles/human.h>
+#include "systems/poses/pose_axes.h"
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
 
@@ -106,8 +107,8 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
     const auto map =
         Retarget::make(posed.human(puppet)->body, numbers(), bones_of(t_pose(posed.human(puppet)->body), units), units);
     ASSERT_TRUE(map) << map.error().message;
-    ASSERT_TRUE(walking.add_leg_muscles(walker));
-    ASSERT_TRUE(posed.add_leg_muscles(puppet));
+    ASSERT_TRUE(walking.set_muscles(walker));
+    ASSERT_TRUE(posed.set_muscles(puppet));
     ASSERT_TRUE(walking.turn_to(walker, 0.8F));
     for (int tick = 0; tick < 90; ++tick) {
       walking.tick();

@@ -6,9 +6,10 @@
 #include <type_traits>
 #include <vector>
 
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/snapshot_file.h>
 #include "tests/engine/counting_heap.h"
+#include "tests/interfaces.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
 
@@ -17,7 +18,7 @@ std::vector<Entity> fill(Simulation& simulation, int count, const LegMuscles& ch
   std::vector<Entity> people;
   for (int i = 0; i < count; ++i) {
     people.push_back(*simulation.spawn(person(i).body, person(i).gait));
-    EXPECT_TRUE(simulation.add_leg_muscles(people.back(), choice));
+    EXPECT_TRUE(simulation.set_muscles(people.back(), choice));
   }
   return people;
 }
@@ -97,7 +98,7 @@ TEST(Rollback, KeepingAndGoingBackTakesNoMemoryWithTheSamePeople) {
 
 TEST(Rollback, ChoosingOfMethodsGoesBackWithIt) {
   Simulation simulation;
-  Relevance relevance(simulation, {.switches = 3, .stagger = 3, .machine_factor = 1});
+  Lod relevance = lod_of(simulation, {.switches = 3, .stagger = 3, .machine_factor = 1});
   for (int i = 0; i < 40; ++i) {
     const Entity human = *simulation.spawn(person(i).body, person(i).gait);
     ASSERT_TRUE(relevance.manage(human, {.muscles = 1}));
@@ -108,7 +109,6 @@ TEST(Rollback, ChoosingOfMethodsGoesBackWithIt) {
   const auto run = [&] {
     std::vector<std::uint64_t> hashes;
     for (int tick = 0; tick < 25; ++tick) {
-      relevance.update();
       simulation.tick();
       hashes.push_back(simulation.state_hash());
     }
@@ -118,14 +118,10 @@ TEST(Rollback, ChoosingOfMethodsGoesBackWithIt) {
   run();
   scene.budget_s = 5e-5;
   ASSERT_TRUE(relevance.set_scene(scene));
-  relevance.update();
   Rollback window(1);
   ASSERT_TRUE(window.keep(simulation));
-  const RelevanceState kept = relevance.state();
-  static_assert(std::is_trivially_copyable_v<RelevanceState>);
   const auto first = run();
   ASSERT_TRUE(window.back(simulation, 1));
-  relevance.set_state(kept);
   EXPECT_EQ(run(), first);
 }
 

@@ -138,8 +138,8 @@ TEST(Roots, CompactPeopleAndSleepersAreWhereTheOthersAre) {
     people.push_back(*whole.spawn(who.body, who.gait));
     ASSERT_EQ(*mixed.spawn(who.body, who.gait), people.back());
   }
-  ASSERT_EQ(*mixed.compact(std::span(people).first(10)), 10U);
-  ASSERT_EQ(*mixed.sleep(std::span(people).subspan(10, 10)), 10U);
+  ASSERT_EQ(*mixed.set_state(std::span(people).first(10), PersonState::compact), 10U);
+  ASSERT_EQ(*mixed.set_state(std::span(people).subspan(10, 10), PersonState::asleep), 10U);
   std::vector<Root> a(people.size()), b(people.size());
   for (int t = 0; t < 90; ++t) {
     if (t == 40) {

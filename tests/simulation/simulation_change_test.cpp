@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/forces.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
@@ -39,8 +40,8 @@ TEST(Change, StaleHandlesChangeNothing) {
   for (const Entity bad : {gone, Entity{}, Entity{~0U, 1}, muscle}) {  // a muscle lives, but walks nowhere
     EXPECT_TRUE(is_refused(simulation.change_gait(bad, {.speed_m_s = 1.0F})));
     EXPECT_FALSE(simulation.turn_to(bad, 1));
-    EXPECT_EQ(simulation.add_forces(bad), Status::stale_entity);
-    EXPECT_EQ(simulation.remove_forces(bad), Status::stale_entity);
+    EXPECT_EQ(simulation.enable(bad, Feature::forces), Status::stale_entity);
+    EXPECT_EQ(simulation.enable(bad, Feature::forces, false), Status::stale_entity);
   }
   EXPECT_EQ(hash_world(simulation), before);
 }
@@ -91,8 +92,8 @@ TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
   const Entity human = join(simulation, person(0), false), other = join(simulation, person(1), false);
   const auto bare = simulation.world().find(human).table;
   for (int round = 0; round < 3; ++round) {
-    EXPECT_EQ(simulation.add_forces(human), Status::ok);
-    EXPECT_EQ(simulation.add_forces(human), Status::ok);  // there already
+    EXPECT_EQ(simulation.enable(human, Feature::forces), Status::ok);
+    EXPECT_EQ(simulation.enable(human, Feature::forces), Status::ok);  // there already
     EXPECT_TRUE(has_column<BodyMotion>(simulation, human));
     EXPECT_TRUE(has_column<GroundReaction>(simulation, human));
     EXPECT_TRUE(has_column<JointMoments>(simulation, human));
@@ -100,8 +101,8 @@ TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
     simulation.tick(20);
     EXPECT_TRUE(simulation.get<GroundReaction>(human).has_value());
     EXPECT_EQ(simulation.get<GroundReaction>(other).error(), Status::missing);
-    EXPECT_EQ(simulation.remove_forces(human), Status::ok);
-    EXPECT_EQ(simulation.remove_forces(human), Status::missing);
+    EXPECT_EQ(simulation.enable(human, Feature::forces, false), Status::ok);
+    EXPECT_EQ(simulation.enable(human, Feature::forces, false), Status::ok);  // gone already
     EXPECT_FALSE(has_column<BodyMotion>(simulation, human));
     EXPECT_FALSE(has_column<GroundReaction>(simulation, human));
     EXPECT_FALSE(has_column<JointMoments>(simulation, human));

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include "tests/simulation/people.h"
 
@@ -35,7 +36,7 @@ inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t h
 
 inline std::uint64_t hash_human(const Simulation& simulation, Entity human) {
   std::uint64_t hash = hash_row(simulation.world(), human, 0xcbf29ce484222325);
-  if (simulation.is_asleep(human)) {  // whose row stays as it is
+  if (simulation.state(human) == PersonState::asleep) {  // whose row stays as it is
     const GaitState<float> state = *simulation.get<GaitState>(human);
     std::uint32_t words[sizeof(state) / 4];
     std::memcpy(words, &state, sizeof(state));
@@ -93,7 +94,7 @@ inline Entity join(Simulation& simulation, const Person& person, bool muscles = 
   EXPECT_TRUE(human) << human.error().message;
   if (!human) return {};
   if (muscles) {
-    const auto added = simulation.add_leg_muscles(*human);
+    const auto added = simulation.set_muscles(*human);
     EXPECT_TRUE(added) << added.error().message;
   }
   return *human;

@@ -13,7 +13,10 @@
 #include <vector>
 
 #include <mobil/components/fade.h>
+#include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/leg_muscles.h"
@@ -274,7 +277,7 @@ TEST(SetMethod, IsForgottenByAChangeOfLegMuscles) {
   EXPECT_EQ(simulation.method(human, Muscle::tibialis_anterior).method, Method::ecd);
   simulation.tick();
   const auto muscles = muscles_of(simulation, human);
-  ASSERT_TRUE(simulation.change_leg_muscles(human, {.method = Method::caa}));
+  ASSERT_TRUE(simulation.set_muscles(human, {.method = Method::caa}));
   EXPECT_EQ(muscles_of(simulation, human), muscles);
   for (std::size_t m = 0; m < muscle_group_count; ++m) {
     EXPECT_EQ(simulation.method(human, static_cast<Muscle>(m)).method, Method::caa);
@@ -316,13 +319,14 @@ TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
   }
 
   LegMuscles choice{.method = Method::none, .inertia = true};
-  ASSERT_TRUE(simulation.add_leg_muscles(crowd[0], choice));
+  ASSERT_TRUE(simulation.set_muscles(crowd[0], choice));
   simulation.tick();
   EXPECT_EQ(worked(simulation, "lines of action"), 8U);
   for (const char* system : {"forces", "line motion", "frame motion", "deformation", "control points", "fade"}) {
     EXPECT_EQ(worked(simulation, system), 0U) << system;
   }
-  EXPECT_EQ(simulation.nodal_displacement(simulation.muscle(crowd[0], Muscle::hamstrings, Side::left)).first, nullptr);
+  EXPECT_EQ(nodal_displacement(simulation.world(), simulation.muscle(crowd[0], Muscle::hamstrings, Side::left)).first,
+            nullptr);
 
   ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, reduced(8, false, false)));
   simulation.tick();

@@ -1,5 +1,8 @@
 // The facade: bodies and gaits of all kinds, effects that come and go without a trace, time, memory.
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -45,7 +48,7 @@ void check_muscles(const Simulation& simulation, const Human& human) {
       // in between; what is positive is both energies' sum.)
       RC_ASSERT(report.strain_energy_j + report.kinetic_energy_j > -0.01F && report.strain_energy_j < 20);
       RC_ASSERT(std::isfinite(report.reaction_n) && std::abs(report.reaction_n) < 2000);
-      const NodalView nodes = simulation.nodal_displacement(muscle);
+      const NodalView nodes = nodal_displacement(simulation.world(), muscle);
       for (std::size_t i = 0; i < 3 * std::size_t{nodes.nodes}; ++i) {
         RC_ASSERT(std::abs(nodes.first[i * lane_count]) < 0.5F);  // not true of NaN
       }
@@ -94,7 +97,7 @@ TEST(Simulation, BodiesOfAllKindsWalkAndTheirMusclesFollow) {
     const Person p = any_person();
     const auto human = simulation.spawn(p.body, p.gait);
     RC_PRE(human.has_value());
-    const auto added = simulation.add_leg_muscles(*human);
+    const auto added = simulation.set_muscles(*human);
     if (!added) RC_FAIL(added.error().message);
     const bool clamped = simulation.get<StepPlan>(*human)->clamped != 0;  // what is reported as no walk
     Pose<float> first = *simulation.get<Pose>(*human), before = first;
@@ -114,7 +117,7 @@ TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
   Simulation simulation(sharing());
   for (const int who : {0, 7, 19}) {
     const auto human = *simulation.spawn(person(who).body, person(who).gait);
-    ASSERT_TRUE(simulation.add_leg_muscles(human, {.drive = Drive::force}));
+    ASSERT_TRUE(simulation.set_muscles(human, {.drive = Drive::force}));
     double asked = 0, missed = 0;
     for (int i = 0; i < 300; ++i) {
       simulation.tick();
@@ -148,7 +151,7 @@ TEST(Effects, EveryBodyInRangeGetsMuscles) {
              {Constitution::thin, Constitution::average, Constitution::athletic, Constitution::heavy}) {
           const auto human = simulation.spawn({height, mass, {3, meso, 3}, build}, {.speed_m_s = 1.1F});
           ASSERT_TRUE(human) << human.error().message;
-          const auto added = simulation.add_leg_muscles(*human);
+          const auto added = simulation.set_muscles(*human);
           EXPECT_TRUE(added) << added.error().message;
         }
       }
@@ -164,7 +167,7 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
   EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 0U);
   simulation.tick();
   for (int round = 0; round < 3; ++round) {
-    ASSERT_TRUE(simulation.add_leg_muscles(human));
+    ASSERT_TRUE(simulation.set_muscles(human));
     EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 2 * muscle_group_count);
     EXPECT_EQ(rows_with<Pose>(simulation.world()), 2U);
     std::vector<Entity> muscles;
@@ -173,16 +176,16 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
     for (const Entity muscle : muscles) {
       EXPECT_TRUE(simulation.world().alive(muscle));
       EXPECT_EQ(simulation.get<MuscleOwner>(muscle)->index, human.index);
-      EXPECT_EQ(simulation.nodal_displacement(muscle).nodes, 81U);
+      EXPECT_EQ(nodal_displacement(simulation.world(), muscle).nodes, 81U);
     }
     EXPECT_FALSE(simulation.world().alive(simulation.muscle(other, Muscle::quadriceps, Side::left)));
     simulation.tick();
-    EXPECT_EQ(simulation.remove_leg_muscles(human), Status::ok);
+    EXPECT_EQ(simulation.set_muscles(human, std::nullopt), Status::ok);
     EXPECT_EQ(rows(simulation.world()), 2U);
     EXPECT_EQ(rows_with<BellyReport>(simulation.world()) + rows_with<LineOfAction>(simulation.world()), 0U);
     for (const Entity muscle : muscles) {
       EXPECT_EQ(simulation.get<LineOfAction>(muscle).error(), Status::stale_entity);
-      EXPECT_EQ(simulation.nodal_displacement(muscle).first, nullptr);
+      EXPECT_EQ(nodal_displacement(simulation.world(), muscle).first, nullptr);
     }
     EXPECT_TRUE(simulation.human(human)->muscles.empty());
     simulation.tick();
@@ -194,19 +197,17 @@ TEST(Effects, MusclesDoNotChangeTheWalkNorATickBefore) {
   const Entity with = join(simulation, person(5)), without = join(simulation, person(5), false);
   for (int i = 0; i < 40; ++i) simulation.tick();
   EXPECT_EQ(hash_row(simulation.world(), with, 1), hash_row(simulation.world(), without, 1));
-  ASSERT_TRUE(simulation.add_leg_muscles(without));  // in mid-stride
+  ASSERT_TRUE(simulation.set_muscles(without));  // in mid-stride
   for (int i = 0; i < 40; ++i) simulation.tick();
   EXPECT_EQ(hash_row(simulation.world(), with, 1), hash_row(simulation.world(), without, 1));
 }
 
-TEST(Effects, AddingTwiceIsAnErrorAndChangesNothing) {
+TEST(Effects, TheSameMusclesAgainChangeNothing) {
   Simulation simulation(sharing());
   const Entity human = join(simulation, person(2));
   for (int i = 0; i < 10; ++i) simulation.tick();
   const auto before = hash_world(simulation);
-  for (const Drive drive : {Drive::displacement, Drive::force}) {
-    EXPECT_TRUE(is_refused(simulation.add_leg_muscles(human, {.drive = drive}), "remove them first"));
-  }
+  ASSERT_TRUE(simulation.set_muscles(human, simulation.human(human)->leg_muscles));
   EXPECT_EQ(hash_world(simulation), before);
 }
 
@@ -216,10 +217,10 @@ TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
   const auto before = hash_world(simulation);
   for (const Material& bad : {Material{1000, 1e4, 0.5}, Material{0, 1e4, 0.3}, Material{1000, NAN, 0.3},
                               Material{1000, 1e4, -1}, Material{INFINITY, 1e4, 0.3}}) {
-    EXPECT_FALSE(simulation.add_leg_muscles(human, {.material = bad}));
+    EXPECT_FALSE(simulation.set_muscles(human, {.material = bad}));
     EXPECT_EQ(hash_world(simulation), before);
   }
-  EXPECT_TRUE(simulation.add_leg_muscles(human));
+  EXPECT_TRUE(simulation.set_muscles(human));
 }
 
 TEST(Handles, OfTheGoneAreStaleEverywhere) {
@@ -233,14 +234,14 @@ TEST(Handles, OfTheGoneAreStaleEverywhere) {
   const Entity next = join(simulation, person(2));  // takes the place of the first
   for (const Entity gone : {human, Entity{}, Entity{~0U, 1}}) {
     EXPECT_EQ(simulation.despawn(gone), Status::stale_entity);
-    EXPECT_EQ(simulation.remove_leg_muscles(gone), Status::stale_entity);
-    EXPECT_FALSE(simulation.add_leg_muscles(gone));
+    EXPECT_EQ(simulation.set_muscles(gone, std::nullopt), Status::stale_entity);
+    EXPECT_FALSE(simulation.set_muscles(gone));
     EXPECT_FALSE(simulation.human(gone));
     EXPECT_EQ(simulation.get<Pose>(gone).error(), Status::stale_entity);
     EXPECT_FALSE(simulation.world().alive(simulation.muscle(gone, Muscle::hamstrings, Side::right)));
   }
   EXPECT_EQ(simulation.get<BellyReport>(muscle).error(), Status::stale_entity);
-  EXPECT_EQ(simulation.nodal_displacement(muscle).first, nullptr);
+  EXPECT_EQ(nodal_displacement(simulation.world(), muscle).first, nullptr);
   EXPECT_FALSE(simulation.human(muscle));
   // A muscle is no person, though it lives.
   const Entity living = simulation.muscle(next, Muscle::hamstrings, Side::left);

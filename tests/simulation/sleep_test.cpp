@@ -8,9 +8,13 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/forces.h>
+#include <mobil/host_parts.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "demo/scene/crowd_people.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"
@@ -71,7 +75,8 @@ struct Twins {
   }
   bool all_same(std::size_t i) const { return walk_alike(dozing, dozers[i], waking, wakers[i]); }
   std::size_t asleep() const {
-    return static_cast<std::size_t>(std::ranges::count_if(dozers, [&](Entity one) { return dozing.is_asleep(one); }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(dozers, [&](Entity one) { return (dozing.state(one) == PersonState::asleep); }));
   }
 
   Simulation dozing{sharing()}, waking{sharing()};
@@ -89,26 +94,27 @@ TEST(Sleep, WhoHasSleptIsWhereWhoNeverDidIs) {
     for (std::size_t i = 0; i < twins.dozers.size(); ++i) {
       const auto draw = random() % 100;
       if (draw < 7) twins.change(i);
-      if (twins.dozing.is_asleep(twins.dozers[i])) {
+      if (twins.dozing.state(twins.dozers[i]) == PersonState::asleep) {
         if (draw >= 90) rested.push_back(twins.dozers[i]);
       } else if (draw >= 30) {
         tired.push_back(twins.dozers[i]);
       }
     }
-    const auto sleeping = twins.dozing.sleep(tired);
+    const auto sleeping = twins.dozing.set_state(tired, PersonState::asleep);
     ASSERT_TRUE(sleeping) << sleeping.error().message;
     slept += *sleeping;
-    ASSERT_TRUE(twins.dozing.wake(rested));
+    ASSERT_TRUE(twins.dozing.set_state(rested, PersonState::full));
     woken += rested.size();
     most = std::max(most, twins.asleep());
     twins.tick(20 + static_cast<int>(random() % 30));
     for (auto i = static_cast<std::size_t>(second % 7); i < twins.dozers.size(); i += 7) {
       ASSERT_TRUE(twins.all_same(i)) << "person " << i << " in second " << second << ", "
-                                     << (twins.dozing.is_asleep(twins.dozers[i]) ? "asleep" : "awake");
-      read += twins.dozing.is_asleep(twins.dozers[i]) ? 1 : 0;
+                                     << ((twins.dozing.state(twins.dozers[i]) == PersonState::asleep) ? "asleep"
+                                                                                                      : "awake");
+      read += (twins.dozing.state(twins.dozers[i]) == PersonState::asleep) ? 1 : 0;
     }
   }
-  ASSERT_TRUE(twins.dozing.wake(twins.dozers));
+  ASSERT_TRUE(twins.dozing.set_state(twins.dozers, PersonState::full));
   EXPECT_EQ(twins.asleep(), 0U);
   EXPECT_EQ(twins.dozing.state_hash(), twins.waking.state_hash());
   EXPECT_GT(slept, 1000U);
@@ -123,9 +129,9 @@ TEST(Sleep, WhoHasWokenBeforeWakesWithoutTheHeap) {
   twins.tick(200);
   const auto tired = std::span(twins.dozers).first(20);  // tables that shrink by much give memory back
   for (int round = 0; round < 4; ++round) {
-    ASSERT_GT(simulation.sleep(tired).value(), 10U);
+    ASSERT_GT(simulation.set_state(tired, PersonState::asleep).value(), 10U);
     const std::size_t before = heap_requests;
-    const bool woken = simulation.wake(tired).has_value();
+    const bool woken = simulation.set_state(tired, PersonState::full).has_value();
     const std::size_t requests = heap_requests - before;
     ASSERT_TRUE(woken);
     if (round > 0) {
@@ -144,13 +150,13 @@ struct Mark {
 TEST(Sleep, AHostsOwnPartsStay) {
   Simulation simulation({.modules = {{.name = "marks", .parts = {component_part<Mark>()}}}});
   const Entity human = *simulation.spawn({});
-  ASSERT_TRUE(simulation.add(human, Mark<float>{2.5F, 7}));
-  ASSERT_EQ(simulation.sleep({&human, 1}).value(), 1U);
+  ASSERT_TRUE(simulation.parts().add(human, Mark<float>{2.5F, 7}));
+  ASSERT_EQ(simulation.set_state({&human, 1}, PersonState::asleep).value(), 1U);
   EXPECT_EQ(simulation.get<Mark>(human)->value, 2.5F);
-  ASSERT_TRUE(simulation.set(human, Mark<float>{3.5F, 8}));
+  ASSERT_TRUE(simulation.parts().set(human, Mark<float>{3.5F, 8}));
   simulation.tick();
-  ASSERT_TRUE(simulation.wake({&human, 1}));
-  EXPECT_FALSE(simulation.is_asleep(human));
+  ASSERT_TRUE(simulation.set_state({&human, 1}, PersonState::full));
+  EXPECT_NE(simulation.state(human), PersonState::asleep);
   EXPECT_EQ(simulation.get<Mark>(human)->value, 3.5F);
   EXPECT_EQ(simulation.get<Mark>(human)->count, 8U);
 }
@@ -162,18 +168,18 @@ TEST(Sleep, ForcesAndMusclesComeBack) {
   choice.method = Method::reduced;
   choice.inertia = true;
   choice.muscles = MuscleSet(5);
-  ASSERT_TRUE(simulation.add_forces(human));
-  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  ASSERT_TRUE(simulation.enable(human, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(human, choice));
   const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::right);
   for (int i = 0; i < 30; ++i) simulation.tick();
-  ASSERT_EQ(simulation.sleep({&human, 1}).value(), 1U);
+  ASSERT_EQ(simulation.set_state({&human, 1}, PersonState::asleep).value(), 1U);
   EXPECT_TRUE(simulation.is_person(human));
   EXPECT_EQ(simulation.people(), std::vector{human});
   EXPECT_TRUE(simulation.muscles(human).empty());
   EXPECT_FALSE(simulation.get<LineOfAction>(muscle));
   EXPECT_EQ(simulation.human(human)->leg_muscles, choice);
   simulation.tick();
-  ASSERT_TRUE(simulation.wake({&human, 1}));
+  ASSERT_TRUE(simulation.set_state({&human, 1}, PersonState::full));
   EXPECT_TRUE(simulation.get<GroundReaction>(human));
   EXPECT_EQ(simulation.human(human)->leg_muscles, choice);
   EXPECT_EQ(simulation.muscles(human).size(), 2U);
@@ -190,7 +196,7 @@ struct MuscleTwins {
       EXPECT_TRUE(simulation->spawn({&request, 1}, {human, 1}));
       for (int i = 0; i < 120; ++i) simulation->tick();
     }
-    EXPECT_EQ(dozes.sleep({&sleeper, 1}).value(), 1U);
+    EXPECT_EQ(dozes.set_state({&sleeper, 1}, PersonState::asleep).value(), 1U);
     tick(303);
   }
   void tick(int count) {
@@ -201,8 +207,8 @@ struct MuscleTwins {
     double most = 0;
     for (const OwnMuscle& own : wakes.muscles(waker)) {
       for (const Side side : {Side::right, Side::left}) {
-        const NodalView a = dozes.nodal_displacement(dozes.muscle(sleeper, own.muscle, side));
-        const NodalView b = wakes.nodal_displacement(own.entity[side]);
+        const NodalView a = nodal_displacement(dozes.world(), dozes.muscle(sleeper, own.muscle, side));
+        const NodalView b = nodal_displacement(wakes.world(), own.entity[side]);
         EXPECT_EQ(a.nodes, b.nodes);
         for (std::size_t w = 0; w < std::size_t{3} * b.nodes; ++w)
           most = std::max(most, std::abs(double{a.first[w * lane_count]} - double{b.first[w * lane_count]}));
@@ -221,7 +227,7 @@ SpawnRequest with_muscles(std::uint64_t number, Method method) {
 
 TEST(Sleep, MusclesThatBeginAtRestOnWakingAreSoonThoseOfWhoNeverSlept) {
   MuscleTwins twins(with_muscles(1, Method::reduced));
-  ASSERT_TRUE(twins.dozes.wake({&twins.sleeper, 1}, 1));
+  ASSERT_TRUE(twins.dozes.set_state({&twins.sleeper, 1}, PersonState::full, 1));
   EXPECT_GT(twins.off_m(), 1e-4);
   EXPECT_LT(twins.off_m(), 0.015);
   twins.tick(30);
@@ -236,7 +242,7 @@ TEST(Sleep, MusclesWarmUpToWhatIsAsked) {
   for (const std::uint64_t number : {2U, 8U}) {
     for (const float within_m : {0.005F, 0.001F, 4e-6F}) {
       MuscleTwins twins(with_muscles(number, Method::reduced));
-      ASSERT_TRUE(twins.dozes.wake({&twins.sleeper, 1}, within_m));
+      ASSERT_TRUE(twins.dozes.set_state({&twins.sleeper, 1}, PersonState::full, within_m));
       EXPECT_LT(twins.off_m(), double{within_m}) << "person " << number;
       const double first = twins.off_m();
       twins.tick(1);
@@ -245,14 +251,14 @@ TEST(Sleep, MusclesWarmUpToWhatIsAsked) {
   }
   // Any method: here the whole mesh, step by step.
   MuscleTwins twins(with_muscles(4, Method::ecd));
-  ASSERT_TRUE(twins.dozes.wake({&twins.sleeper, 1}, 0.001F));
+  ASSERT_TRUE(twins.dozes.set_state({&twins.sleeper, 1}, PersonState::full, 0.001F));
   EXPECT_LT(twins.off_m(), 0.001);
 }
 
 TEST(Sleep, ASnapshotHasSleepersInIt) {
   Twins twins(64);
   twins.tick(60);
-  ASSERT_TRUE(twins.dozing.sleep(twins.dozers));
+  ASSERT_TRUE(twins.dozing.set_state(twins.dozers, PersonState::asleep));
   for (std::size_t i = 0; i < 64; i += 2) twins.change(i);
   twins.tick(5);
   std::vector<std::byte> bytes(twins.dozing.snapshot_bytes());
@@ -264,7 +270,7 @@ TEST(Sleep, ASnapshotHasSleepersInIt) {
   for (int i = 0; i < 200; ++i) other.tick();
   twins.tick(200);
   EXPECT_EQ(other.state_hash(), twins.dozing.state_hash());
-  ASSERT_TRUE(other.wake(twins.dozers));
+  ASSERT_TRUE(other.set_state(twins.dozers, PersonState::full));
   EXPECT_EQ(other.state_hash(), twins.waking.state_hash());
   EXPECT_LT(bytes.size(), 64U * 400);
 }
@@ -280,50 +286,50 @@ TEST(Sleep, WhoCannotSleepStaysAwake) {
   const Entity unlike = *simulation.spawn({});
   LegMuscles choice;
   choice.method = Method::reduced;
-  ASSERT_TRUE(simulation.add_leg_muscles(unlike, choice));
+  ASSERT_TRUE(simulation.set_muscles(unlike, choice));
   ASSERT_TRUE(simulation.set_method(unlike, Muscle::hamstrings, {Method::statics}));
   for (int i = 0; i < 3; ++i) simulation.tick();
   const std::vector<Entity> all = {posed, uneven, turning, unlike};
-  EXPECT_EQ(simulation.sleep(all).value(), 0U);
-  for (const Entity human : all) EXPECT_FALSE(simulation.is_asleep(human));
+  EXPECT_EQ(simulation.set_state(all, PersonState::asleep).value(), 0U);
+  for (const Entity human : all) EXPECT_NE(simulation.state(human), PersonState::asleep);
   const std::vector<Entity> twice = {turning, turning};
-  EXPECT_FALSE(simulation.sleep(twice));
-  EXPECT_FALSE(simulation.wake(twice));
+  EXPECT_FALSE(simulation.set_state(twice, PersonState::asleep));
+  EXPECT_FALSE(simulation.set_state(twice, PersonState::full));
   ASSERT_TRUE(simulation.despawn(turning));
-  EXPECT_FALSE(simulation.sleep(all));
-  EXPECT_FALSE(simulation.is_asleep(turning));
+  EXPECT_FALSE(simulation.set_state(all, PersonState::asleep));
+  EXPECT_NE(simulation.state(turning), PersonState::asleep);
 }
 
 TEST(Sleep, WhatASleeperCannotFollowWakesThem) {
   Simulation simulation(sharing());
   const auto asleep = [&] {
     const Entity human = *simulation.spawn({}, {.speed_m_s = 0.0F});
-    EXPECT_EQ(simulation.sleep({&human, 1}).value(), 1U);
+    EXPECT_EQ(simulation.set_state({&human, 1}, PersonState::asleep).value(), 1U);
     return human;
   };
   Entity human = asleep();
   ASSERT_TRUE(simulation.step_aside(human, 0.1F, 0));
-  EXPECT_FALSE(simulation.is_asleep(human));
+  EXPECT_NE(simulation.state(human), PersonState::asleep);
   human = asleep();
   ASSERT_TRUE(simulation.place(human, 3, 4, 1));  // this they follow
-  EXPECT_TRUE(simulation.is_asleep(human));
+  EXPECT_EQ(simulation.state(human), PersonState::asleep);
   human = asleep();
   GaitChange lopsided;
   lopsided.style = GaitStyle{.toe_out_deg = 9};
   ASSERT_TRUE(simulation.change_gait(human, lopsided));
-  EXPECT_FALSE(simulation.is_asleep(human));
+  EXPECT_NE(simulation.state(human), PersonState::asleep);
   human = asleep();
   ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.2F}));
-  EXPECT_TRUE(simulation.is_asleep(human));
+  EXPECT_EQ(simulation.state(human), PersonState::asleep);
   ASSERT_TRUE(simulation.turn_to(human, 1));  // at once: still the same request
-  EXPECT_TRUE(simulation.is_asleep(human));
+  EXPECT_EQ(simulation.state(human), PersonState::asleep);
   simulation.tick();
   ASSERT_TRUE(simulation.turn_to(human, 2));
-  EXPECT_FALSE(simulation.is_asleep(human));
+  EXPECT_NE(simulation.state(human), PersonState::asleep);
   human = asleep();
   ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.2F}));
   EXPECT_FALSE(simulation.change_gait(human, {.speed_m_s = 12.0F}));
-  EXPECT_TRUE(simulation.is_asleep(human));
+  EXPECT_EQ(simulation.state(human), PersonState::asleep);
   EXPECT_FLOAT_EQ(*simulation.gait_request(human)->speed_m_s, 1.2F);
   ASSERT_TRUE(simulation.despawn(human));
   EXPECT_FALSE(simulation.is_person(human));

@@ -33,7 +33,7 @@ void fill(Simulation& simulation) {
   for (int i = 0; i < 6; ++i) {
     const auto human = simulation.spawn(person(i).body, person(i).gait);
     ASSERT_TRUE(human);
-    ASSERT_TRUE(simulation.add_leg_muscles(*human, play::choice_of(static_cast<std::uint64_t>(i))));
+    ASSERT_TRUE(simulation.set_muscles(*human, play::choice_of(static_cast<std::uint64_t>(i))));
   }
 }
 

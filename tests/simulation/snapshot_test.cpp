@@ -7,7 +7,10 @@
 #include <vector>
 
 #include <mobil/components/gait.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "engine/snapshot.h"
 #include "engine/snapshot_bytes.h"
 #include "systems/snapshot/snapshot_records.h"
@@ -47,7 +50,7 @@ void disturb(Simulation& simulation, std::vector<Entity>& people, std::uint64_t 
     ASSERT_TRUE(human);
     people.push_back(*human);
     if (what % 5 != 0) {
-      ASSERT_TRUE(simulation.add_leg_muscles(*human, play::choice_of(how / 7)));
+      ASSERT_TRUE(simulation.set_muscles(*human, play::choice_of(how / 7)));
     }
   }
   if (people.size() < 5) return;
@@ -65,8 +68,8 @@ void disturb(Simulation& simulation, std::vector<Entity>& people, std::uint64_t 
   if (what % 6 == 3 && walks) {
     ASSERT_TRUE(simulation.turn_to(other, static_cast<float>(how % 6) - 3));
   }
-  if (what % 6 == 4) simulation.add_forces(other);
-  if (what % 6 == 5) simulation.remove_leg_muscles(other);
+  if (what % 6 == 4) simulation.enable(other, Feature::forces);
+  if (what % 6 == 5) simulation.set_muscles(other, std::nullopt);
 }
 
 struct Told {
@@ -117,7 +120,7 @@ std::vector<Entity> few(Simulation& simulation) {
   std::vector<Entity> people;
   for (int i = 0; i < 9; ++i) {
     people.push_back(join(simulation, person(i), false));
-    EXPECT_TRUE(simulation.add_leg_muscles(people.back(), play::choice_of(static_cast<std::uint64_t>(i))));
+    EXPECT_TRUE(simulation.set_muscles(people.back(), play::choice_of(static_cast<std::uint64_t>(i))));
   }
   simulation.tick();
   EXPECT_TRUE(simulation.set_method(people[0], Muscle::hamstrings, {Method::statics}));
@@ -238,14 +241,14 @@ TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
     choice.method = Method::reduced;
     choice.reduced.moving = i % 3 != 0;
     choice.inertia = i % 2 == 0;
-    ASSERT_TRUE(simulation.add_leg_muscles(people.back(), choice));
+    ASSERT_TRUE(simulation.set_muscles(people.back(), choice));
   }
   const auto expect_same = [&](const char* when) {
     Simulation other(sharing());
     restore(other, saved(simulation));
     EXPECT_EQ(other.state_hash(), simulation.state_hash()) << when;
     const Entity one = simulation.muscle(people[1], Muscle::quadriceps, Side::left);
-    const NodalView ours = simulation.nodal_displacement(one), theirs = other.nodal_displacement(one);
+    const NodalView ours = nodal_displacement(simulation.world(), one), theirs = nodal_displacement(other.world(), one);
     ASSERT_GT(ours.nodes, 0U);
     for (std::size_t w = 0; w < 3 * std::size_t{ours.nodes}; ++w)
       ASSERT_EQ(ours.first[w * lane_count], theirs.first[w * lane_count]) << when;
@@ -275,7 +278,7 @@ TEST(Snapshot, OnlyWhatIsMadeAgainMayBeLeftOut) {
   const Entity one = *simulation.spawn(person(1).body, person(1).gait);
   LegMuscles choice;
   choice.method = Method::reduced;
-  ASSERT_TRUE(simulation.add_leg_muscles(one, choice));
+  ASSERT_TRUE(simulation.set_muscles(one, choice));
   simulation.tick(3);
   const Bytes bytes = saved(simulation);
   std::uint64_t world_at = 0;

@@ -7,7 +7,10 @@
 #include <map>
 #include <vector>
 
+#include <mobil/engine/world.h>
+#include <mobil/muscle_library.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
@@ -42,7 +45,7 @@ Entity spawn_alone(Simulation& simulation, const SpawnRequest& request) {
   const auto human = simulation.spawn(request.body, request.gait);
   EXPECT_TRUE(human) << human.error().message;
   if (human && request.muscles) {
-    EXPECT_TRUE(simulation.add_leg_muscles(*human, *request.muscles));
+    EXPECT_TRUE(simulation.set_muscles(*human, *request.muscles));
   }
   return human.value_or(Entity{});
 }
@@ -167,7 +170,7 @@ TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
 TEST(SpawnBatch, PreparingChangesNobodysBits) {
   for (const int kind : {2, 3}) {
     Simulation simulation(sharing({.threads = 2}));
-    ASSERT_TRUE(simulation.prepare(muscles_of_kind(kind)));
+    ASSERT_TRUE(simulation.muscle_library().prepare(muscles_of_kind(kind)));
     std::vector<SpawnRequest> people = {request(kind), request(8 + kind), request(16 + kind)};
     std::vector<Entity> made(people.size());
     ASSERT_TRUE(simulation.spawn(people, made));
@@ -182,13 +185,13 @@ TEST(SpawnBatch, NothingIsPreparedForAChoiceOutOfRange) {
   Simulation simulation(sharing());
   LegMuscles wrong = muscles_of_kind(1);
   wrong.reduced.vectors = 40;
-  const auto refused = simulation.prepare(wrong);
+  const auto refused = simulation.muscle_library().prepare(wrong);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message.rfind("prepare: ", 0), 0U);
   EXPECT_EQ(refused.error().message.find('\n'), std::string::npos);
   wrong = muscles_of_kind(0);
   wrong.muscles = 0;
-  EXPECT_FALSE(simulation.prepare(wrong));
+  EXPECT_FALSE(simulation.muscle_library().prepare(wrong));
 }
 
 RC_GTEST_PROP(SpawnBatch, ComingAndGoingLeavesThoseWhoStayAlone, ()) {

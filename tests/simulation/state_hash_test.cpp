@@ -9,10 +9,10 @@
 
 #include <mobil/simulation.h>
 #include "engine/row_hash.h"
-#include "systems/simulation_world.h"
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
+#include "tests/world_of.h"
 
 MOBIL_TEST_LABELS("threads");
 
@@ -22,8 +22,8 @@ std::vector<Entity> come(Simulation& simulation, const std::vector<int>& order) 
   std::vector<Entity> people(order.size());
   for (const int who : order) {
     people[static_cast<std::size_t>(who)] = *simulation.spawn(person(who).body, person(who).gait);
-    const auto done = simulation.add_leg_muscles(people[static_cast<std::size_t>(who)],
-                                                 play::choice_of(static_cast<std::uint64_t>(who)));
+    const auto done =
+        simulation.set_muscles(people[static_cast<std::size_t>(who)], play::choice_of(static_cast<std::uint64_t>(who)));
     EXPECT_TRUE(done) << done.error().message;
   }
   return people;

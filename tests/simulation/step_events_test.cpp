@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
 #include "systems/people/pose_measures.h"
@@ -83,7 +84,7 @@ struct Told {
 Told watch(const Person& who) {
   Simulation now({.tick_s = fine_s}), before({.tick_s = fine_s});
   const Entity human = *now.spawn(who.body, who.gait), twin = *before.spawn(who.body, who.gait);
-  EXPECT_TRUE(now.watch_steps({&human, 1}));
+  EXPECT_TRUE(now.enable({&human, 1}, Feature::step_events));
   Told told;
   std::array<std::optional<StepEvent>, 2> down;  // and not looked at while flat yet
   std::array<bool, 2> in_air{};
@@ -163,7 +164,7 @@ TEST(StepEvents, EachIsToldOnceWhereTheFootStands) {
 TEST(StepEvents, TheInstantIsTheClocks) {
   Simulation simulation;
   const Entity human = *simulation.spawn({}, {.speed_m_s = 1.3F});
-  ASSERT_TRUE(simulation.watch_steps({&human, 1}));
+  ASSERT_TRUE(simulation.enable({&human, 1}, Feature::step_events));
   std::optional<double> last;
   double most = 0;
   int strikes = 0;
@@ -206,7 +207,7 @@ struct Watched {
     people.resize(requests.size());
     EXPECT_TRUE(simulation.spawn(requests, people));
     if (watched) {
-      EXPECT_TRUE(simulation.watch_steps(people));
+      EXPECT_TRUE(simulation.enable(people, Feature::step_events));
     }
   }
   void ask_some(int tick) {
@@ -280,7 +281,7 @@ TEST(StepEvents, TicksOfAnyLengthTellTheSame) {
   const auto walk = [](double length_s) {
     Simulation simulation({.tick_s = length_s, .max_frame_s = 2});
     const Entity human = *simulation.spawn({}, {.speed_m_s = 1.1F});
-    EXPECT_TRUE(simulation.watch_steps({&human, 1}));
+    EXPECT_TRUE(simulation.enable({&human, 1}, Feature::step_events));
     std::vector<StepEvent> told;
     const auto run = [&](double until_s) {
       while (simulation.time_s() < until_s - 1e-9) {
@@ -315,8 +316,8 @@ TEST(StepEvents, CompactPeopleAreToldOfAndSleepersNot) {
   Watched whole({}, 40), mixed({}, 40);
   const std::span small = std::span(mixed.people).first(20), sleepers = std::span(mixed.people).subspan(20, 10);
   for (Watched* const crowd : {&whole, &mixed}) crowd->simulation.tick();
-  EXPECT_EQ(*mixed.simulation.compact(small), 20U);
-  EXPECT_EQ(*mixed.simulation.sleep(sleepers), 10U);
+  EXPECT_EQ(*mixed.simulation.set_state(small, PersonState::compact), 20U);
+  EXPECT_EQ(*mixed.simulation.set_state(sleepers, PersonState::asleep), 10U);
   const auto compare = [&](int count, bool asleep) {
     for (int t = 0; t < count; ++t) {
       whole.simulation.tick();
@@ -330,16 +331,16 @@ TEST(StepEvents, CompactPeopleAreToldOfAndSleepersNot) {
     }
   };
   compare(120, true);
-  EXPECT_TRUE(mixed.simulation.wake(sleepers));
+  EXPECT_TRUE(mixed.simulation.set_state(sleepers, PersonState::full));
   compare(120, false);
-  EXPECT_TRUE(mixed.simulation.expand(small));
+  EXPECT_TRUE(mixed.simulation.set_state(small, PersonState::full));
   compare(60, false);
   EXPECT_EQ(mixed.simulation.state_hash(), whole.simulation.state_hash());
 }
 
 TEST(StepEvents, AreNoStateButGoOnFromASnapshot) {
   Watched crowd({}, 30);
-  ASSERT_EQ(*crowd.simulation.sleep(std::span(crowd.people).first(5)), 5U);
+  ASSERT_EQ(*crowd.simulation.set_state(std::span(crowd.people).first(5), PersonState::asleep), 5U);
   crowd.tick(100);
   std::vector<std::byte> bytes(crowd.simulation.snapshot_bytes());
   ASSERT_TRUE(crowd.simulation.save(bytes));
@@ -365,17 +366,18 @@ TEST(StepEvents, WhoCannotBeWatchedIsRefusedWithAll) {
   Simulation& simulation = crowd.simulation;
   const Entity posed = *simulation.spawn_posed({});
   const std::uint64_t before = simulation.state_hash();
-  EXPECT_EQ(simulation.watch_steps(std::array{crowd.people[0], posed}), Status::missing);
-  EXPECT_EQ(simulation.watch_steps(std::array{crowd.people[0], Entity{}}), Status::stale_entity);
-  EXPECT_EQ(simulation.watch_steps(std::array{crowd.people[0], crowd.people[0]}), Status::stale_entity);
+  EXPECT_EQ(simulation.enable(std::array{crowd.people[0], posed}, Feature::step_events), Status::missing);
+  EXPECT_EQ(simulation.enable(std::array{crowd.people[0], Entity{}}, Feature::step_events), Status::stale_entity);
+  EXPECT_EQ(simulation.enable(std::array{crowd.people[0], crowd.people[0]}, Feature::step_events),
+            Status::stale_entity);
   EXPECT_EQ(simulation.state_hash(), before);
   crowd.tick(60);
   EXPECT_TRUE(crowd.told.empty());
-  ASSERT_TRUE(simulation.watch_steps(crowd.people));
-  ASSERT_TRUE(simulation.watch_steps({&crowd.people[0], 1}));  // is so already
+  ASSERT_TRUE(simulation.enable(crowd.people, Feature::step_events));
+  ASSERT_TRUE(simulation.enable({&crowd.people[0], 1}, Feature::step_events));  // is so already
   crowd.tick(60);
   EXPECT_FALSE(crowd.told.empty());
-  ASSERT_TRUE(simulation.watch_steps(crowd.people, false));
+  ASSERT_TRUE(simulation.enable(crowd.people, Feature::step_events, false));
   crowd.told.clear();
   crowd.tick(60);
   EXPECT_TRUE(crowd.told.empty());

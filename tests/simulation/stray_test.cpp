@@ -13,8 +13,10 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 
@@ -105,8 +107,8 @@ std::vector<LegMuscles> every_choice(Method method) {
   return all;
 }
 
-/// At the ends of what joints allow and between, at rest: each angle of a joint with each angle of any other joint. With
-/// MOBIL_LONG all triples of angles.
+/// At the ends of what joints allow and between, at rest: each angle of a joint with each angle of any other joint.
+/// With MOBIL_LONG all triples of angles.
 TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
   MOBIL_SLOW();
   const bool longer = std::getenv("MOBIL_LONG") != nullptr;
@@ -124,7 +126,7 @@ TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
         for (Shown* one : {&shown, &lines}) {
           const Entity person = *one->simulation.spawn_posed(somebody);
           ASSERT_TRUE(one->simulation.set_pose(person, bent(*make_body(somebody), hip, knee, ankle)));
-          const auto added = one->simulation.add_leg_muscles(
+          const auto added = one->simulation.set_muscles(
               person, one == &shown ? choice : LegMuscles{.muscles = choice.muscles, .method = Method::none});
           ASSERT_TRUE(added) << added.error().message;
           one->simulation.tick();
@@ -147,8 +149,8 @@ TEST(Stray, NoMuscleLeavesItsLineInAWalk) {
       Shown shown(choice), lines({.muscles = choice.muscles, .method = Method::none});
       const Entity person = *shown.simulation.spawn(somebody, {.speed_m_s = 1.4F});
       const Entity same = *lines.simulation.spawn(somebody, {.speed_m_s = 1.4F});
-      ASSERT_TRUE(shown.simulation.add_leg_muscles(person, choice));
-      ASSERT_TRUE(lines.simulation.add_leg_muscles(same, {.muscles = choice.muscles, .method = Method::none}));
+      ASSERT_TRUE(shown.simulation.set_muscles(person, choice));
+      ASSERT_TRUE(lines.simulation.set_muscles(same, {.muscles = choice.muscles, .method = Method::none}));
       Farthest farthest;
       for (int tick = 0; tick < 90; ++tick) {
         shown.simulation.tick();

@@ -17,10 +17,10 @@
 #include <mobil/anthropometry.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/people/style_limits.h>
-#include <mobil/systems/people/walk_limits.h>
+#include <mobil/systems/limits/style_limits.h>
+#include <mobil/systems/limits/walk_limits.h>
 #include "systems/gait/gait.h"
-#include "systems/people/style_estimate.h"
+#include "systems/limits/style_estimate.h"
 #include "tests/labels.h"
 #include "tests/simulation/walk_watch.h"
 
@@ -44,7 +44,7 @@ TEST(StyleLimits, WalksOfAnyStyleKeepThem) {
     for (std::size_t i = 0; i < asked.size(); ++i) {
       EXPECT_TRUE(walked[i].keeps_limits()) << told(asked[i], walked[i]);
       for (std::size_t m = 0; m < measures; ++m) worst.note(static_cast<Measure>(m), walked[i].worst[m]);
-      if (count <= 1000 && !Simulation::style_changes(asked[i].body, asked[i].gait)->empty()) ++moved;
+      if (count <= 1000 && !style_changes(asked[i].body, asked[i].gait)->empty()) ++moved;
     }
   }
   for (std::size_t m = 0; m < measures; ++m)
@@ -59,7 +59,7 @@ RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
   Dice dice{std::mt19937(seed)};
   Asked asked = anyone(dice, 0, false);
   asked.gait.style = {};
-  RC_ASSERT(Simulation::style_changes(asked.body, asked.gait)->empty());
+  RC_ASSERT(style_changes(asked.body, asked.gait)->empty());
   RC_ASSERT(walk({asked}, 2).front().keeps_limits());
 }
 
@@ -175,10 +175,10 @@ TEST(StyleLimits, WhoStandsOnCalmFeetEvensThem) {
       EXPECT_EQ(plan.trailing_toe_out, plan.from.toe_out);
       EXPECT_EQ(plan.trailing_half_width_m, plan.from.half_width_m);
       EXPECT_EQ(plan.to.own_style, 1);
-      EXPECT_EQ(simulation.sleep({&person, 1}).value(), 1U);
+      EXPECT_EQ(simulation.set_state({&person, 1}, PersonState::asleep).value(), 1U);
       ASSERT_TRUE(simulation.turn_to(person, turn + 2));
       simulation.tick(900);
-      EXPECT_TRUE(simulation.is_asleep(person)) << turn << " rad, " << ticks << " ticks of walking";
+      EXPECT_EQ(simulation.state(person), PersonState::asleep) << turn << " rad, " << ticks << " ticks of walking";
     }
   }
 }
@@ -197,7 +197,7 @@ TEST(StyleLimits, WhoStandsInAnotherStyleStandsAsItHasFeet) {
   EXPECT_EQ(plan.from.half_width_m, own.from.half_width_m);
   EXPECT_EQ(plan.trailing_half_width_m, own.trailing_half_width_m);
   EXPECT_EQ(plan.from.toe_out, own.from.toe_out);
-  EXPECT_EQ(simulation.sleep({&person, 1}).value(), 1U);
+  EXPECT_EQ(simulation.set_state({&person, 1}, PersonState::asleep).value(), 1U);
 }
 
 /// Steps that turn far last as long as each other, right and left, whatever the style's halting.
@@ -234,7 +234,7 @@ TEST(StyleLimits, AreTheSameForOneAndForMany) {
   for (std::size_t i = 0; i < asked.size(); ++i) {
     GaitStyle expected = asked[i].gait.style;
     std::optional<float> step_m;
-    const auto changes = Simulation::style_changes(asked[i].body, asked[i].gait);
+    const auto changes = style_changes(asked[i].body, asked[i].gait);
     ASSERT_TRUE(changes);
     for (const StyleChange& change : *changes) {
       EXPECT_NE(described(change).find(" m/s"), std::string::npos);
@@ -272,13 +272,13 @@ TEST(StyleLimits, OneNumberMovesWhereThatIsEnough) {
     GaitRequest walk{.speed_m_s = dice.single(1.2, 1.75)};
     for (const GaitParameter& p : gait_parameters)
       walk.style.*p.value = std::clamp(walk.style.*p.value * dice.single(0.9, 1.1), p.low, p.high);
-    const auto changes = Simulation::style_changes(body, walk);
+    const auto changes = style_changes(body, walk);
     if (!changes || changes->empty()) continue;
     std::optional<float GaitStyle::*> enough;
     for (const auto number : numbers) {
       GaitRequest without = walk;
       without.style.*number = GaitStyle{}.*number;
-      if (!enough && Simulation::style_changes(body, without)->empty()) enough = number;
+      if (!enough && style_changes(body, without)->empty()) enough = number;
     }
     if (!enough) continue;
     ++found;
@@ -344,10 +344,10 @@ TEST(StyleLimits, HoldForSleepers) {
     WalkChange change = faster;
     change.human = person;
     if (world == &simulation) {
-      ASSERT_EQ(world->sleep({&person, 1}).value(), 1U);
+      ASSERT_EQ(world->set_state({&person, 1}, PersonState::asleep).value(), 1U);
       ASSERT_TRUE(world->change_gait(person, *change.gait));
     } else {
-      ASSERT_EQ(world->change_walks({&change, 1}).value(), 0U);
+      ASSERT_EQ(world->change_gait({&change, 1}).value(), 0U);
     }
     after.push_back(world->gait_request(person)->style);
     EXPECT_GT(after.back().foot_flat_cycle, slow.style.foot_flat_cycle);

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include <mobil/components/activation.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "systems/deformation/belly_motion.h"
 #include "tests/labels.h"
 #include "tests/refused.h"
@@ -43,9 +45,9 @@ TEST(TunedPeople, WithoutActivationItIsRefused) {
   const Entity human = *simulation.spawn({});
   LegMuscles choice = pulling(true);
   choice.activation = ExcitationSource::none;
-  EXPECT_TRUE(is_refused(simulation.add_leg_muscles(human, choice), "LegMuscles::activation"));
+  EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "LegMuscles::activation"));
   choice.reduced.tuned = false;
-  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  ASSERT_TRUE(simulation.set_muscles(human, choice));
   const auto before = simulation.state_hash();
   MuscleMethod tuned{Method::reduced, choice.reduced};
   tuned.reduced.tuned = true;
@@ -66,14 +68,14 @@ TEST(TunedPeople, CoarseMeshesPullAsWell) {
     choice.reduced.vectors = vectors;
     choice.activation = ExcitationSource::host;
     choice.muscles = LegMuscles{}.muscles;
-    ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+    ASSERT_TRUE(simulation.set_muscles(human, choice));
     for (int tick = 0; tick < 60; ++tick) {
       for (const OwnMuscle& own : simulation.muscles(human)) {
         ASSERT_TRUE(simulation.set_excitation(human, own.muscle, Side::right, tick % 2 == 0 ? 1.0F : 0.01F));
       }
       simulation.tick();
       for (const OwnMuscle& own : simulation.muscles(human)) {
-        const NodalView nodes = simulation.nodal_displacement(own.entity[Side::right]);
+        const NodalView nodes = nodal_displacement(simulation.world(), own.entity[Side::right]);
         for (std::uint32_t i = 0; i < 3 * nodes.nodes; ++i) {
           ASSERT_LT(std::fabs(nodes.first[i * lane_count]), 0.1F) << vectors << " vectors, tick " << tick;
         }
@@ -93,7 +95,7 @@ Shaken shaken(bool tuned, float level) {
   LegMuscles choice = pulling(tuned);
   choice.activation = ExcitationSource::host;
   choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
-  EXPECT_TRUE(simulation.add_leg_muscles(human, choice));
+  EXPECT_TRUE(simulation.set_muscles(human, choice));
   EXPECT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, level));
   run(simulation, 180);
   const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
@@ -132,7 +134,7 @@ TEST(TunedPeople, WhoJoinsIsAtRest) {
     choice.reduced.control_points = seen;
     choice.reduced.reported = seen;
     const Entity human = *simulation.spawn_posed({});
-    ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+    ASSERT_TRUE(simulation.set_muscles(human, choice));
     const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::left);
     const auto before = field_of<ReducedState>(simulation.world(), muscle);
     run(simulation, 20);

@@ -14,6 +14,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
 #include "systems/gait/gait.h"
@@ -166,7 +167,7 @@ class Watch {
     out.joint_at("elbow flexion", double{angles_.elbow_flexion[side]} / degree, 0, 150);
   }
 
-  /// Bending; turns are left out (mobil/systems/people/walk_limits.h).
+  /// Bending; turns are left out (mobil/systems/limits/walk_limits.h).
   void column(Walked& out) const {
     Quat<double> below = level_pelvis();
     for (std::size_t v = 0; v < vertebra_limits.size(); ++v) {

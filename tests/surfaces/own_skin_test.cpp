@@ -9,8 +9,8 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/export/recorded_skin.h>
-#include <mobil/assets/skin/own_skin.h>
-#include <mobil/systems/skinning/follow_skin.h>
+#include <mobil/assets/surfaces/own_skin.h>
+#include <mobil/systems/surfaces/follow_skin.h>
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/labels.h"
 #include "tests/surfaces/skin_placed.h"

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
-#include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 #include "assets/body/bent_legs.h"
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
@@ -208,7 +210,7 @@ TEST(SkinCover, HoldsTheMusclesThroughAStride) {
     walker.body = somebody.body();
     std::array<Entity, 1> one{};
     ASSERT_TRUE(simulation.spawn({&walker, 1}, one));
-    ASSERT_TRUE(simulation.add_leg_muscles(one[0]));
+    ASSERT_TRUE(simulation.set_muscles(one[0]));
     Watched watched(simulation, one[0], 0.5);
     Outside found;
     for (int tick = 0; tick < 130; ++tick) {
@@ -230,7 +232,7 @@ TEST(SkinCover, HoldsTheMusclesInAnyPose) {
     const Entity one = *simulation.spawn_posed(somebody.body());
     LegMuscles choice;
     choice.method = Method::statics;
-    ASSERT_TRUE(simulation.add_leg_muscles(one, choice));
+    ASSERT_TRUE(simulation.set_muscles(one, choice));
     Watched watched(simulation, one, 0.2);
     Outside found;
     for (int i = 0; i < poses; ++i) {

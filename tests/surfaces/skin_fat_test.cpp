@@ -7,8 +7,9 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
-#include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/components/fat.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/skin_writer.h>
 #include "systems/kinematics/fat_motion.h"
@@ -92,7 +93,7 @@ TEST(SkinFat, IsShownOfWhoHasItAndIsAwakeAndWhole) {
   const BodyRequest body{.height_m = 1.75F, .mass_kg = 100};
   const std::array people = {*simulation.spawn(body, {.speed_m_s = 1.5F}),
                              *simulation.spawn(body, {.speed_m_s = 1.5F})};
-  ASSERT_TRUE(simulation.set_fat_wobble({people.data(), 1}));
+  ASSERT_TRUE(simulation.enable({people.data(), 1}, Feature::fat));
   simulation.tick(150);
   BodySkins skins;
   const SkinShape shape = *skins.of(body, SkinDetail::far);
@@ -124,10 +125,10 @@ TEST(SkinFat, IsShownOfWhoHasItAndIsAwakeAndWhole) {
   EXPECT_GT(most, 0.001F);
   EXPECT_GT(farthest(), 0.8F * most);
   EXPECT_LT(farthest(), 1.2F * most);
-  ASSERT_TRUE(simulation.compact(people));
+  ASSERT_TRUE(simulation.set_state(people, PersonState::compact));
   write();
   EXPECT_EQ(farthest(), 0);
-  ASSERT_TRUE(simulation.sleep(people));
+  ASSERT_TRUE(simulation.set_state(people, PersonState::asleep));
   write();
   EXPECT_EQ(farthest(), 0);
 

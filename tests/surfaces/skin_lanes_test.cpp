@@ -11,8 +11,10 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 #include "assets/body/bent_legs.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/simulation/people.h"
@@ -30,7 +32,7 @@ double length_of(const Vec3<double>& v) {
 TEST(SkinLanes, IsWhatOneVertexAtATimeComesTo) {
   Simulation simulation(sharing());
   const Entity one = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.6F});
-  ASSERT_TRUE(simulation.add_leg_muscles(one));
+  ASSERT_TRUE(simulation.set_muscles(one));
   const Human human = *simulation.human(one);
   const auto bound = bind_surfaces(human.body, {.bones = false, .sides = {true, false}, .detail = 0.1});
   ASSERT_TRUE(bound);

@@ -1,5 +1,5 @@
 #pragma once
-// Skin one vertex at a time, as plain code: what the kernels of systems/skinning are held to.
+// Skin one vertex at a time, as plain code: what the kernels of systems/surfaces are held to.
 
 #include <algorithm>
 #include <array>
@@ -10,11 +10,11 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
-#include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/components/pose.h>
 #include <mobil/components/segments.h>
 #include <mobil/engine/geometry.h>
-#include <mobil/systems/skinning/cover_muscles.h>
+#include <mobil/systems/surfaces/cover_muscles.h>
 
 namespace mobil::skin_oracle {
 using namespace geometry;

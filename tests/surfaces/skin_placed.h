@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
-#include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/engine/geometry.h>
-#include <mobil/systems/skinning/place_skin.h>
+#include <mobil/systems/surfaces/place_skin.h>
 
 namespace mobil::skin_test {
 using namespace geometry;

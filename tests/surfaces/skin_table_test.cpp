@@ -9,11 +9,13 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/skin_tables.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/skinning/cover_muscles.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/cover_muscles.h>
 #include "assets/body/bent_legs.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/labels.h"
@@ -40,7 +42,7 @@ TEST(SkinTable, IsNearTheSkinOverMusclesInWalks) {
     EXPECT_EQ(*tables.of(body), *table);
     Simulation simulation(sharing());
     const Entity person = *simulation.spawn(body, {.speed_m_s = walker.speed_m_s});
-    ASSERT_TRUE(simulation.add_leg_muscles(person));
+    ASSERT_TRUE(simulation.set_muscles(person));
     const Human human = *simulation.human(person);
     const auto bound = bind_surfaces(human.body, {.bones = false, .sides = {true, false}});
     ASSERT_TRUE(bound);

@@ -12,13 +12,15 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/body/body_measures.h>
-#include <mobil/assets/skin/body_form.h>
-#include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/surfaces/body_form.h>
+#include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/skinning/place_skin.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/place_skin.h>
 #include "assets/surfaces/bone_surfaces.h"
 #include "tests/labels.h"
 #include "tests/refused.h"

@@ -14,9 +14,9 @@
 #include <mobil/components/pose.h>
 #include <mobil/components/surface.h>
 #include <mobil/engine/geometry.h>
-#include <mobil/systems/skinning/write_vertices.h>
 #include <mobil/systems/surfaces/nodal_view.h>
-#include "systems/skinning/place_vertices.h"
+#include <mobil/systems/surfaces/write_vertices.h>
+#include "systems/surfaces/place_vertices.h"
 
 namespace mobil {
 

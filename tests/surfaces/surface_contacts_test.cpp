@@ -9,9 +9,11 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 #include <mobil/systems/surfaces/surface_contacts.h>
 #include "assets/body/bent_legs.h"
 
@@ -26,7 +28,7 @@ class PosedLeg {
     choice.method = Method::statics;
     choice.muscles = muscle_members();
     person_ = *simulation_.spawn_posed({.height_m = 1.75F, .mass_kg = 75});
-    EXPECT_TRUE(simulation_.add_leg_muscles(person_, choice));
+    EXPECT_TRUE(simulation_.set_muscles(person_, choice));
     const Human human = *simulation_.human(person_);
     body_ = human.body;
     bound = *bind_surfaces(body_, {.sides = {true, false}, .simulated = choice.muscles, .detail = 0.2});

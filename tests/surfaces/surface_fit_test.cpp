@@ -6,8 +6,10 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 #include "tests/refused.h"
 #include "tests/simulation/people.h"
 
@@ -24,7 +26,7 @@ struct Walker {
 
   explicit Walker(const BodyRequest& body) {
     person = *simulation.spawn(body, {.speed_m_s = 1.3F});
-    EXPECT_TRUE(simulation.add_leg_muscles(person));
+    EXPECT_TRUE(simulation.set_muscles(person));
     for (int i = 0; i < 40; ++i) simulation.tick();
     human = *simulation.human(person);
     for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});

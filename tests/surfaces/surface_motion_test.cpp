@@ -15,10 +15,13 @@
 #include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/assets/surfaces/surface_binding.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/fit_anatomy.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
 #include <mobil/systems/surfaces/body_surfaces.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/files/reference_data.h"
 #include "tests/labels.h"
@@ -61,7 +64,7 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
   LegMuscles choice;
   choice.muscles = muscles;
   choice.method = Method::statics;
-  if (const auto added = simulation.add_leg_muscles(entity, choice); !added) {
+  if (const auto added = simulation.set_muscles(entity, choice); !added) {
     ADD_FAILURE() << added.error().message;
     return {};
   }
@@ -101,7 +104,7 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
     for (std::size_t i = 0; i < stride_ticks / phases; ++i) simulation.tick();
     const Pose<float> pose = *simulation.get<Pose>(entity);
     for (auto& [moving, muscle] : all) {
-      const auto u = displacements(simulation.nodal_displacement(muscle));
+      const auto u = displacements(nodal_displacement(simulation.world(), muscle));
       moving.line[phase] = *simulation.get<LineOfAction>(muscle);
       moving.now[phase] = skinned(moving.surface, Side::right, human.body, pose, moving.line[phase], u);
       MuscleSurface alone = moving.surface;

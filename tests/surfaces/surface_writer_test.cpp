@@ -9,9 +9,12 @@
 
 #include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/components/fade.h>
+#include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/instruction_sets.h"
@@ -65,7 +68,7 @@ SurfaceChoice choice_of(const LegMuscles& muscles, bool bones) {
 Shown show(Simulation& simulation, const BodyRequest& body, const LegMuscles& muscles = {}, bool bones = true) {
   Shown shown;
   shown.person = simulation.spawn(body).value();
-  EXPECT_TRUE(simulation.add_leg_muscles(shown.person, muscles));
+  EXPECT_TRUE(simulation.set_muscles(shown.person, muscles));
   shown.human = *simulation.human(shown.person);
   for (const HumanMuscle& own : shown.human.muscles) shown.muscles.push_back({own.plan.muscle, own.entity});
   shown.surfaces = bind_surfaces(shown.human.body, choice_of(muscles, bones)).value();
@@ -93,7 +96,7 @@ void expect_formula(const Simulation& simulation, const Shown& shown, const LegM
     for (const Side side : {Side::right, Side::left}) {
       const SurfacePart& part = shown.surfaces.part[next++];
       const Entity entity = simulation.muscle(shown.person, muscle.driver, side);
-      const auto u = displacements(simulation.nodal_displacement(entity));
+      const auto u = displacements(nodal_displacement(simulation.world(), entity));
       ASSERT_FALSE(u.empty());
       const auto expected =
           skinned_one_by_one(muscle.surface, side, shown.human.body, pose, *simulation.get<LineOfAction>(entity), u);
@@ -255,7 +258,7 @@ TEST(SurfaceWriter, AMuscleWithoutControlPointsIsDrawnAsLongAsItsLine) {
     for (const Side side : {Side::right, Side::left}) {
       const SurfacePart& part = shown.surfaces.part[next++];
       const Entity entity = simulation.muscle(shown.person, muscle.driver, side);
-      if (simulation.nodal_displacement(entity).first != nullptr) continue;
+      if (nodal_displacement(simulation.world(), entity).first != nullptr) continue;
       ++seen;
       const auto line = *simulation.get<LineOfAction>(entity);
       const auto node = rest_mesh(shown.human.body, muscle.driver, muscles.cells)->cage.node;
@@ -330,7 +333,7 @@ TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
   refused(gone.request(), "stale");
   Shown asleep = show(simulation, bodies()[0]);
   for (int i = 0; i < 900; ++i) simulation.tick();
-  ASSERT_TRUE(simulation.sleep({&asleep.person, 1}));
+  ASSERT_TRUE(simulation.set_state({&asleep.person, 1}, PersonState::asleep));
   refused(asleep.request(), "no pose");
   const auto no_pose = writer.write(simulation.world(), std::array{asleep.request()});
   EXPECT_EQ(no_pose.error().status, Status::missing);
@@ -361,9 +364,9 @@ TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
   refused(request, "other side");
   LegMuscles finer;
   finer.cells = {3, 3, 9};
-  ASSERT_TRUE(simulation.change_leg_muscles(shown.person, finer));
+  ASSERT_TRUE(simulation.set_muscles(shown.person, finer));
   refused(shown.request(), "nodes");
-  ASSERT_EQ(simulation.remove_leg_muscles(shown.person), Status::ok);
+  ASSERT_EQ(simulation.set_muscles(shown.person, std::nullopt), Status::ok);
   refused(shown.request(), "stale");
   EXPECT_FALSE(bind_surfaces(shown.human.body, choice_of({.cells = {0, 2, 8}}, false)));
 }

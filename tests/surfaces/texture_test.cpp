@@ -11,10 +11,12 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/far_figure.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/skinning/write_vertices.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/write_vertices.h>
 #include "tests/engine/instruction_sets.h"
 #include "tests/refused.h"
 #include "tests/simulation/people.h"
@@ -112,7 +114,7 @@ struct Walker {
 
   Walker() {
     person = *simulation.spawn({.height_m = 1.72F, .mass_kg = 70}, {.speed_m_s = 1.3F});
-    EXPECT_TRUE(simulation.add_leg_muscles(person));
+    EXPECT_TRUE(simulation.set_muscles(person));
     for (int i = 0; i < 47; ++i) simulation.tick();
     human = *simulation.human(person);
     for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});

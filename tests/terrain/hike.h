@@ -13,6 +13,7 @@
 #include <mobil/forces.h>
 #include <mobil/simulation.h>
 #include <mobil/terrain.h>
+#include "tests/interfaces.h"
 
 namespace mobil {
 
@@ -44,17 +45,16 @@ struct Hike {
 
   Hike(HeightOf on, const GaitRequest& gait, const BodyRequest& body = {.height_m = 1.75F, .mass_kg = 75},
        double tick_s = 1.0 / 60, float start_z_m = 0, const TerrainOptions& options = {})
-      : ground(std::move(on)), simulation({.tick_s = tick_s}), terrain(simulation, answering(ground), options) {
+      : ground(std::move(on)),
+        simulation({.tick_s = tick_s}),
+        terrain(terrain_of(simulation, answering(ground), options)) {
     human = simulation.spawn(body, gait).value();
     EXPECT_TRUE(simulation.place(human, 0, start_z_m, 0));
-    EXPECT_TRUE(simulation.add_forces(human));
+    EXPECT_TRUE(simulation.enable(human, Feature::forces));
     EXPECT_TRUE(terrain.manage({&human, 1}));
     tick();
   }
-  void tick() {
-    terrain.update();
-    simulation.tick();
-  }
+  void tick() { simulation.tick(); }
   template <template <class> class C>
   C<float> get() const {
     return simulation.get<C>(human).value();

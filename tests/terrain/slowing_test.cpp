@@ -10,9 +10,10 @@
 #include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/components/gait.h>
-#include <mobil/systems/people/style_limits.h>
+#include <mobil/systems/limits/style_limits.h>
 #include "assets/gait/slope_pace.h"
 #include "systems/gait/gait.h"
+#include "tests/interfaces.h"
 #include "tests/terrain/hike.h"
 
 namespace mobil {
@@ -37,13 +38,10 @@ struct Avoider {
   Avoidance avoidance;
 
   Avoider(HeightOf ground, const GaitRequest& gait)
-      : hike(hike_on(std::move(ground), gait)), avoidance(hike.simulation) {
+      : hike(hike_on(std::move(ground), gait)), avoidance(hike.simulation.avoidance()) {
     EXPECT_TRUE(avoidance.manage(hike.human));
   }
-  void tick() {
-    avoidance.update();
-    hike.tick();
-  }
+  void tick() { hike.tick(); }
   void walk_to(float z_m) {
     for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < z_m; ++i) tick();
     ASSERT_GE(hike.get<GaitState>().line_z_m, z_m);
@@ -161,7 +159,7 @@ TEST(Slowing, WhatIsRefusedMakesNoRequestOfTheHostsASlowedOne) {
   Slowed hike;
   ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.0F}));
   const WalkChange refused[] = {{hike.human, GaitChange{}, 1e9F}};
-  EXPECT_EQ(hike.simulation.change_walks(refused).value(), 1U);
+  EXPECT_EQ(hike.simulation.change_gait(refused).value(), 1U);
   walk_to(hike, last_m + 6);
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.0F);
 }
@@ -208,11 +206,11 @@ TEST(Slowing, WhoAvoidsOthersSlowsDownToo) {
 
 TEST(Slowing, AWishIsKeptWhereAvoidanceBeginsAndEndsOnASlope) {
   Slowed hike;
-  Avoidance avoidance(hike.simulation);
+  Avoidance avoidance = hike.simulation.avoidance();
   ASSERT_TRUE(avoidance.manage(hike.human));
   EXPECT_EQ(hike.get<Course>().speed_m_s, 1.3F);
   EXPECT_NEAR(hike.get<Course>().usual, 1, 1e-3F);
-  for (int i = 0; i < 180; ++i) avoidance.update(), hike.tick();
+  for (int i = 0; i < 180; ++i) hike.tick();
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
   ASSERT_TRUE(avoidance.release(hike.human));
   walk_to(hike, last_m - 4);
@@ -308,13 +306,13 @@ TEST(Slowing, SleepersAreReleasedToTheWalkOnLevelGround) {
   Hike hike = hike_on(plane(0, 0.15F), {.speed_m_s = 1.3F});
   walk_to(hike, 12);
   ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
-  ASSERT_EQ(hike.simulation.sleep({&hike.human, 1}).value(), 1U);
+  ASSERT_EQ(hike.simulation.set_state({&hike.human, 1}, PersonState::asleep).value(), 1U);
   ASSERT_TRUE(hike.terrain.release({&hike.human, 1}));
-  ASSERT_TRUE(hike.simulation.wake({&hike.human, 1}));
+  ASSERT_TRUE(hike.simulation.set_state({&hike.human, 1}, PersonState::full));
   EXPECT_FLOAT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
 }
 
-/// With Relevance, who wakes on a hill is seen where they are, not below it.
+/// With level of detail, who wakes on a hill is seen where they are, not below it.
 TEST(Slowing, SleepersAreAsHighAsTheGroundThatTheyFellAsleepOn) {
   Hike hike = hike_on([](float, float) { return TerrainHeight{50, 0, 0}; }, {.speed_m_s = 1.3F});
   walk_to(hike, 4);
@@ -324,9 +322,9 @@ TEST(Slowing, SleepersAreAsHighAsTheGroundThatTheyFellAsleepOn) {
     EXPECT_NEAR(hike.get<Feet>().toe_m[Side::left].y, 50.1F, 0.15F) << when;
   };
   high("awake");
-  ASSERT_EQ(hike.simulation.sleep({&hike.human, 1}).value(), 1U);
+  ASSERT_EQ(hike.simulation.set_state({&hike.human, 1}, PersonState::asleep).value(), 1U);
   high("asleep");
-  ASSERT_TRUE(hike.simulation.wake({&hike.human, 1}));
+  ASSERT_TRUE(hike.simulation.set_state({&hike.human, 1}, PersonState::full));
   high("woken");
   for (int i = 0; i < 60; ++i) {
     hike.tick();
@@ -334,10 +332,10 @@ TEST(Slowing, SleepersAreAsHighAsTheGroundThatTheyFellAsleepOn) {
   }
 }
 
-TEST(Slowing, EndsWhereAnotherTerrainDoesNotSlowDown) {
+TEST(Slowing, EndsWhereOptionsNoLongerSaySo) {
   Slowed hike;
-  Terrain other(hike.simulation, answering(hike.ground));
-  for (int i = 0; i < 120; ++i) other.update(), hike.simulation.tick();
+  hike.terrain.set_options({.slows_down = false});
+  for (int i = 0; i < 120; ++i) hike.simulation.tick();
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
   EXPECT_EQ(hike.get<Footing>().slows_for, 0);
 }

@@ -12,10 +12,11 @@
 #include <vector>
 
 #include <mobil/forces.h>
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/simulation.h>
 #include "engine/row_hash.h"
 #include "tests/engine/counting_heap.h"
+#include "tests/interfaces.h"
 #include "tests/labels.h"
 #include "tests/simulation/reseal.h"
 #include "tests/terrain/hike.h"
@@ -109,19 +110,19 @@ TEST(Terrain, OneFootHigherThanTheOtherNothingJumps) {
 
 TEST(Terrain, WhoIsOnItIsNotMadeCompact) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
-  ASSERT_TRUE(hike.simulation.remove_forces(hike.human));
-  EXPECT_EQ(hike.simulation.compact({&hike.human, 1}).value(), 0U);
+  ASSERT_TRUE(hike.simulation.enable(hike.human, Feature::forces, false));
+  EXPECT_EQ(hike.simulation.set_state({&hike.human, 1}, PersonState::compact).value(), 0U);
 }
 
 /// Nor do those who cannot be keep others from it.
-TEST(Terrain, RelevanceMakesTheOthersCompact) {
+TEST(Terrain, LodMakesTheOthersCompact) {
   Simulation simulation;
-  Terrain terrain(simulation, answering([](float, float) { return TerrainHeight{50, 0, 0}; }));
-  RelevanceOptions options;
+  Terrain terrain = terrain_of(simulation, answering([](float, float) { return TerrainHeight{50, 0, 0}; }));
+  LodOptions options;
   options.machine_factor = 1;
   options.leg_muscles.muscles = 1;
   options.compacts = 1;
-  Relevance relevance(simulation, options);
+  Lod relevance = lod_of(simulation, options);
   std::vector<Entity> people;
   for (int i = 0; i < 8; ++i) {
     people.push_back(simulation.spawn({}, {.speed_m_s = 1.0F}).value());
@@ -135,32 +136,42 @@ TEST(Terrain, RelevanceMakesTheOthersCompact) {
   needs.camera = Viewpoint{.position_m = {0, 51, 0}, .forward = {0, 0, -1}};
   ASSERT_TRUE(relevance.set_scene(needs));
   const auto go = [&](int ticks) {
-    for (int t = 0; t < ticks; ++t) relevance.update(), terrain.update(), simulation.tick();
+    for (int t = 0; t < ticks; ++t) simulation.tick();
   };
   go(120);
-  for (std::size_t i = 0; i < people.size(); ++i) EXPECT_EQ(simulation.is_compact(people[i]), i >= 4) << i;
+  for (std::size_t i = 0; i < people.size(); ++i)
+    EXPECT_EQ((simulation.state(people[i]) == PersonState::compact), i >= 4) << i;
 }
 
-/// Hosts may let several ticks pass between two updates: the ground is then asked for later, and once more where nobody
-/// asked in time.
+/// Hosts that answer themselves may let several ticks pass: the ground is then asked for later, and once more where
+/// nobody asked in time.
 TEST(Terrain, WhoIsAskedForLateStandsOnTheGroundAgain) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
+  hike.terrain.set_heights({});
+  std::vector<TerrainHeight> answers;
+  const auto answer_and_tick = [&](std::uint32_t ticks) {
+    const auto at = hike.terrain.ask();
+    answers.assign(at.size(), {});
+    answering(hike.ground)(at, answers);
+    ASSERT_TRUE(hike.terrain.answer(answers));
+    hike.simulation.tick(ticks);
+  };
   ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 0.0F}));
-  for (int k = 0; k < 60; ++k) hike.terrain.update(), hike.simulation.tick(2);
+  for (int k = 0; k < 60; ++k) answer_and_tick(2);
   ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.2F}));
   for (int k = 0; k < 100; ++k) {
-    hike.terrain.update(), hike.simulation.tick(2);
+    answer_and_tick(2);
     for (const std::size_t side : {0U, 1U}) EXPECT_GT(lowest_m(hike, side), -0.004F);
   }
   hike.simulation.tick(90);
-  hike.tick();
-  hike.tick();
+  answer_and_tick(1);
+  answer_and_tick(1);
   EXPECT_NEAR(lowest_m(hike, hike.get<GaitState>().stance_side), 0, 0.01F);
 }
 
 TEST(Terrain, StepsAreReportedWhereTheGroundIs) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
-  ASSERT_TRUE(hike.simulation.watch_steps({&hike.human, 1}));
+  ASSERT_TRUE(hike.simulation.enable({&hike.human, 1}, Feature::step_events));
   std::size_t count = 0;
   for (int t = 0; t < 200; ++t) {
     hike.tick();
@@ -180,10 +191,10 @@ struct Crowd {
 
   explicit Crowd(int threads, bool slows_down = false)
       : simulation({.threads = threads}),
-        terrain(simulation, answering([](float x, float z) {
-                  return TerrainHeight{0.3F * std::sin(x) + 0.1F * z, 0.3F * std::cos(x), 0.1F};
-                }),
-                {.slows_down = slows_down}) {
+        terrain(terrain_of(simulation, answering([](float x, float z) {
+                             return TerrainHeight{0.3F * std::sin(x) + 0.1F * z, 0.3F * std::cos(x), 0.1F};
+                           }),
+                           {.slows_down = slows_down})) {
     for (int i = 0; i < 50; ++i) {
       GaitRequest gait{.speed_m_s = 0.5F + 0.02F * static_cast<float>(i)};
       if (i % 4 == 0) gait.style.time_asymmetry = 0.1F;
@@ -192,10 +203,7 @@ struct Crowd {
     }
     EXPECT_TRUE(terrain.manage(people));
   }
-  void tick() {
-    terrain.update();
-    simulation.tick();
-  }
+  void tick() { simulation.tick(); }
 };
 
 TEST(Terrain, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {
@@ -225,9 +233,9 @@ TEST(Terrain, TheGroundIsAskedForOnceAStepAndWithoutTakingMemory) {
     for (const Entity human : crowd.people) steps -= crowd.simulation.get<GaitState>(human)->steps;
     for (int k = 0; k < 240; ++k) {
       const std::size_t before = heap_requests;
-      asked += crowd.terrain.update().asked;
-      requests += heap_requests - before;
       crowd.simulation.tick();
+      requests += heap_requests - before;
+      asked += crowd.terrain.report().asked;
     }
     for (const Entity human : crowd.people) steps += crowd.simulation.get<GaitState>(human)->steps;
     EXPECT_NEAR(static_cast<double>(asked), static_cast<double>(steps), 50);
@@ -238,6 +246,7 @@ TEST(Terrain, TheGroundIsAskedForOnceAStepAndWithoutTakingMemory) {
 /// Who answers in halves has what others have; asking changes nothing.
 TEST(Terrain, TheHalvesOfAnUpdateAreTheWhole) {
   Crowd whole(1), halves(1);
+  halves.terrain.set_heights({});
   std::vector<TerrainHeight> answers;
   for (int k = 0; k < 200; ++k) {
     whole.tick();
@@ -259,13 +268,14 @@ TEST(Terrain, TheHalvesOfAnUpdateAreTheWhole) {
 TEST(Terrain, AnswersForWhoHasGoneOnAreLeftOut) {
   Crowd crowd(1);
   crowd.tick();
+  crowd.terrain.set_heights({});
   for (int k = 0; k < 40; ++k) {
     std::vector<TerrainHeight> answers(crowd.terrain.ask().size());
     if (k == 10) {
       ASSERT_TRUE(crowd.simulation.despawn(crowd.people.back()));
       crowd.people.pop_back();
     }
-    if (k == 20) (void)crowd.simulation.add_forces(crowd.people.front());
+    if (k == 20) (void)crowd.simulation.enable(crowd.people.front(), Feature::forces);
     if (k == 25) (void)crowd.terrain.release({&crowd.people[1], 1});
     crowd.simulation.tick(7);
     ASSERT_TRUE(crowd.terrain.answer(answers));
@@ -282,12 +292,12 @@ TEST(Terrain, WhoIsPlacedElsewhereOrWakesStandsOnTheGroundThere) {
   ASSERT_TRUE(hike.simulation.place(hike.human, 3, 200, 0));
   hike.tick();
   EXPECT_NEAR(lowest_m(hike, hike.get<GaitState>().stance_side), 0, 0.01F);
-  ASSERT_TRUE(hike.simulation.remove_forces(hike.human));
+  ASSERT_TRUE(hike.simulation.enable(hike.human, Feature::forces, false));
   for (int k = 0; k < 120; ++k) hike.tick();
-  ASSERT_TRUE(hike.simulation.sleep({&hike.human, 1}));
-  ASSERT_TRUE(hike.simulation.is_asleep(hike.human));
+  ASSERT_TRUE(hike.simulation.set_state({&hike.human, 1}, PersonState::asleep));
+  ASSERT_EQ(hike.simulation.state(hike.human), PersonState::asleep);
   for (int k = 0; k < 600; ++k) hike.tick();
-  ASSERT_TRUE(hike.simulation.wake({&hike.human, 1}));
+  ASSERT_TRUE(hike.simulation.set_state({&hike.human, 1}, PersonState::full));
   hike.tick();
   EXPECT_GT(hike.get<Pose>().position_m[0].z, 210);
   for (const std::size_t side : {0U, 1U}) {
@@ -299,7 +309,7 @@ TEST(Terrain, WhoIsPlacedElsewhereOrWakesStandsOnTheGroundThere) {
 TEST(Terrain, AnswersThatAreNoNumbersHarmNobody) {
   int calls = 0;
   Simulation simulation;
-  Terrain terrain(simulation, [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+  Terrain terrain = terrain_of(simulation, [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
     ++calls;
     for (std::size_t i = 0; i < at.size(); ++i) {
       const float wild[] = {std::nanf(""), std::numeric_limits<float>::infinity(), -1e30F, 0.1F, 50, -50};
@@ -311,8 +321,8 @@ TEST(Terrain, AnswersThatAreNoNumbersHarmNobody) {
   ASSERT_TRUE(terrain.manage({&human, 1}));
   std::size_t unusable = 0;
   for (int k = 0; k < 400; ++k) {
-    unusable += terrain.update().unusable;
     simulation.tick();
+    unusable += terrain.report().unusable;
     const Pose<float> pose = simulation.get<Pose>(human).value();
     for (const Vec3<float>& p : pose.position_m) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
   }
@@ -340,7 +350,7 @@ TEST(Terrain, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
 
 TEST(Terrain, SaysWhatIsWrong) {
   Simulation simulation;
-  Terrain terrain(simulation, answering(plane(0, 0)));
+  Terrain terrain = terrain_of(simulation, answering(plane(0, 0)));
   const Entity walker = simulation.spawn({}).value(), posed = simulation.spawn_posed({}).value();
   const Entity both[] = {walker, posed}, stale[] = {walker, Entity{}};
   EXPECT_EQ(terrain.manage(both).error().status, Status::missing);
@@ -349,7 +359,8 @@ TEST(Terrain, SaysWhatIsWrong) {
   ASSERT_TRUE(terrain.manage({&walker, 1}));
   ASSERT_TRUE(terrain.manage({&walker, 1})) << "again";
   ASSERT_TRUE(terrain.release({&walker, 1}));
-  EXPECT_EQ(terrain.update().people, 0U);
+  simulation.tick();
+  EXPECT_EQ(terrain.report().people, 0U);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ import test from 'node:test';
 import { pathToFileURL } from 'node:url';
 
 const folder = path.resolve(process.argv[2]);
-const { METHODS, MobilError, constants: c, load } = await import(pathToFileURL(path.join(folder, 'mobil.js')));
+const { FEATURES, METHODS, MobilError, STATES, constants: c, load } = await import(pathToFileURL(path.join(folder, 'mobil.js')));
 const mobil = await load(new Uint8Array(readFileSync(path.join(folder, 'mobil.wasm'))), true);
 
 // Every block of the library's memory that JavaScript takes, and that it gives back.
@@ -54,7 +54,7 @@ test('a slice owns nothing, and what has gone is refused', () => {
   world.despawn(others);
   assert.throws(() => world.despawn(others), gone);
   for (const old of [view, of_view]) assert.throws(() => world.matrices(old), gone);
-  for (const call of [() => world.walk(view), () => world.surfaces(view), () => world.want(others, [[1, 0], [1, 0], [1, 0]]), () => world.watch(others)]) assert.throws(call, gone);
+  for (const call of [() => world.walk(view), () => world.surfaces(view), () => world.avoidance.want(others, [[1, 0], [1, 0], [1, 0]]), () => world.enable(others, FEATURES.fat)]) assert.throws(call, gone);
   others.forget();
   assert.equal(live.size, before);
   assert.equal(wrongly, 0);
@@ -113,7 +113,7 @@ test('fields that hold several numbers come back as arrays', () => {
 
 test('events say where feet strike', () => {
   const world = mobil.world(), people = spawned(world, 1);
-  world.watch(people);
+  world.enable(people, FEATURES.stepEvents);
   const places = [];
   for (let i = 0; i < 120; ++i) {
     world.tick();
@@ -176,17 +176,60 @@ test('a walk is read back as it is asked for', () => {
 
 test('the origin moves, and rows have the length that the library reads', () => {
   const world = mobil.world(), people = spawned(world, 2);
-  world.startAvoidance();
-  world.avoid(people);
+  world.avoidance.manage(people);
   world.shiftOrigin([64, 0, 0]);
   const roots = world.roots(people);
   assert.deepEqual([roots[0], roots[4]], [-64, -62]);
   const before = world.hash();
-  for (const call of [() => world.shiftOrigin([1, 2]), () => world.place(people, [1, 2, 3, 4], 0), () => world.want(people, [[1], [1, 0, 0]]),
-    () => world.setWalls([[0, 0, 0]]), () => world.setDiscs([[0, 0, 0, 0]]), () => world.changeWalk(people, { speed_m_s: 1, nothing: 2 })]) {
+  for (const call of [() => world.shiftOrigin([1, 2]), () => world.place(people, [1, 2, 3, 4], 0), () => world.avoidance.want(people, [[1], [1, 0, 0]]),
+    () => world.avoidance.setWalls([[0, 0, 0]]), () => world.avoidance.setDiscs([[0, 0, 0, 0]]), () => world.changeWalk(people, { speed_m_s: 1, nothing: 2 })]) {
     assert.throws(call, refused(/number|has no/, c.MOBIL_REFUSED));
   }
   assert.equal(world.hash(), before);
-  world.want(people, [new Float32Array([1, 0]), [1, 0]]);
+  world.avoidance.want(people, [new Float32Array([1, 0]), [1, 0]]);
+  world.destroy();
+});
+
+test('one advance a frame chooses, steers and asks for the ground', () => {
+  const world = mobil.world(), people = spawned(world);
+  world.lod.setOptions({ machine_factor: 1 });
+  world.lod.setScene({ tolerance_m: 0.002 });
+  world.lod.manage(people.slice(0, 2));
+  world.avoidance.manage(people);
+  world.terrain.setHeights((places, count) => Float32Array.from({ length: 4 * count }, (_, i) => (i % 4 === 0 ? 0.1 * places[3 * (i >> 2) + 2] : [0, 0, 1, -0.1][i % 4])));
+  world.terrain.manage(people);
+  const sums = { looked: 0, chose: 0, places: 0 };
+  for (let frame = 0; frame < 40; ++frame) {
+    assert.ok([2, 3].includes(world.advance(0.04).count));
+    sums.looked += world.lod.report.looked_at;
+    sums.chose += world.avoidance.report.chose;
+    sums.places += world.terrain.report.places;
+  }
+  assert.ok(Object.values(sums).every((n) => n > 0), JSON.stringify(sums));
+  assert.ok(world.matrices(people.slice(4))[7] > 1.1);  // hips have gone up the slope
+  const { unusable } = world.terrain.report;
+  assert.equal(unusable, 0);
+  world.terrain.setHeights(() => { throw new RangeError('away'); });
+  assert.throws(() => world.tick(60), RangeError);
+  world.terrain.setHeights(null);
+  world.tick(10);
+  assert.equal(world.terrain.report.places, 0);
+  world.destroy();
+});
+
+test('states, and old names', () => {
+  const world = mobil.world(), people = spawned(world, 4);
+  world.tick(120);
+  assert.equal(world.setState(people.slice(0, 2), STATES.asleep), 2);
+  assert.equal(world.state(people.slice(1)), STATES.asleep);
+  assert.equal(world.compact(people.slice(2, 4)), 2);
+  world.expand(people);
+  assert.equal(world.state(people.slice(3)), STATES.full);
+  world.setForces(people);
+  world.startAvoidance();
+  world.avoid(people);
+  world.tick();
+  assert.equal(world.steer().people, 4);
+  assert.equal(world.read(c.MOBIL_GROUND, people).length, 48);
   world.destroy();
 });

@@ -142,7 +142,7 @@ await test('methods are chosen for the camera, and cost is shown', async () => {
   await page.screenshot({ path: `${shots}/heat.png` });
   assert.ok(differ(plain, await tiles(page)) > 0.01);
   assert.ok(await page.evaluate(() => mobilPage.did.compacted + mobilPage.did.looked_at) > 0);
-  const near = await page.evaluate(() => mobilPage.world.why(mobilPage.person, 1));
+  const near = await page.evaluate(() => mobilPage.world.lod.why(mobilPage.person, 1));
   assert.ok(near.error_m > 0 && near.cost_us > 0, near.why);
   assert.equal(await set(page, 'heat', false) + await set(page, 'choose', false), '');
   await look(page, 2);

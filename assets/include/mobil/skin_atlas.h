@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
 
 namespace mobil::inline v0_3 {
 

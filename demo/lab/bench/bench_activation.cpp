@@ -10,6 +10,8 @@
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_plan.h>
 #include <mobil/engine/access.h>
+#include <mobil/engine/world.h>
+#include <mobil/systems/muscles/human.h>
 #include "assets/finite/shape_tables.h"
 #include "assets/reduction/reduced_rows.h"
 #include "demo/lab/bench/bench.h"

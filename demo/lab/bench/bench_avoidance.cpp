@@ -12,6 +12,7 @@
 #include <mobil/components/avoidance.h>
 #include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
+#include "demo/measure/phase_time.h"
 #include "engine/row_hash.h"
 
 namespace mobil {
@@ -31,8 +32,8 @@ float drawn(std::uint64_t number, std::uint64_t what) {
 /// come in again at the other as soon as there is room.
 class FlowScene {
  public:
-  FlowScene(Flow flow, float people_a_m2, const AvoidanceOptions& options = {})
-      : flow_(flow), avoidance_(simulation_, options) {
+  FlowScene(Flow flow, float people_a_m2, const AvoidanceOptions& options = {}) : flow_(flow) {
+    avoidance_.set_options(options);
     across_m_ = flow == Flow::crossing ? square_m : wide_m;
     along_m_ = flow == Flow::crossing ? square_m : flow == Flow::door ? 30 : round_m;
     const auto count = static_cast<int>(people_a_m2 * along_m_ * across_m_);
@@ -83,16 +84,13 @@ class FlowScene {
         wishes_[i] = {people_[i].entity, people_[i].speed_m_s, heading(people_[i])};
       avoidance_.want(wishes_);
     }
-    const auto start = std::chrono::steady_clock::now();
-    avoidance_.update();
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     simulation_.tick();
     simulation_.roots(entities_, roots_);
     for (std::size_t i = 0; i < people_.size(); ++i) move(people_[i], roots_[i], counts);
     come_in_again();
     if (!counts) return;
     if (flow_ == Flow::crossing) in_middle += static_cast<double>(count_in_middle());
-    choosing_s += spent.count();
+    choosing_s += phase_s(simulation_, "avoidance");
     person_s += simulation_.tick_s() * static_cast<double>(people_.size());
     if (now % 6 == 0) look_who_is_near();
   }
@@ -251,7 +249,7 @@ class FlowScene {
   Flow flow_;
   float across_m_, along_m_;
   Simulation simulation_;
-  Avoidance avoidance_;
+  Avoidance avoidance_ = simulation_.avoidance();
   std::vector<Person> people_;
   std::vector<Entity> entities_;
   std::vector<Root> roots_;

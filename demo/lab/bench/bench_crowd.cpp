@@ -4,6 +4,8 @@
 #include <optional>
 
 #include <mobil/engine/access.h>
+#include <mobil/engine/world.h>
+#include <mobil/schedule.h>
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
 

@@ -9,7 +9,9 @@
 #include <span>
 
 #include <mobil/components/gait.h>
+#include <mobil/engine/world.h>
 #include <mobil/pose_writer.h>
+#include <mobil/schedule.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd.h"
 

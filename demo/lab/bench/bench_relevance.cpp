@@ -1,8 +1,8 @@
-// What a change of method takes: the figures that Relevance plans its updates by (switch_us, accuracy_table.h).
+// Cost of a change of method: the figures by which level of detail plans its switches (switch_us, accuracy_table.h).
 
 #include <algorithm>
 
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
 
@@ -22,7 +22,7 @@ void bench_ladder(BenchRun& run, bool living) {
   if (living) choice.activation = ExcitationSource::phase;
   for (std::size_t i = 0; i < people; ++i) {
     const auto walker = must(simulation.spawn({}, {.speed_m_s = 1 + 0.01F * static_cast<float>(i)}));
-    must(simulation.add_leg_muscles(walker, choice));
+    must(simulation.set_muscles(walker, choice));
     walkers.push_back(walker);
   }
   const auto all_to = [&](std::size_t rung) {

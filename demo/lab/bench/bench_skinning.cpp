@@ -8,10 +8,12 @@
 #include <span>
 
 #include <mobil/anthropometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/skin_tables.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/muscles/human.h>
 #include "demo/lab/bench/bench.h"
 
 namespace mobil {
@@ -62,7 +64,7 @@ double bytes_of(const BodySurfaces& surfaces) {
 void gather(Scene& scene, std::size_t count, bool shared, const SurfaceChoice& choice) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto entity = must(scene.simulation.spawn({}));
-    must(scene.simulation.add_leg_muscles(entity));
+    must(scene.simulation.set_muscles(entity));
     const Human human = *scene.simulation.human(entity);
     if (i == 0) {
       scene.surfaces.push_back(must(bind_surfaces(human.body, choice)));
@@ -136,7 +138,7 @@ void time_skin(BenchRun& run, const std::string& name, std::size_t count, SkinDe
 void time_cover(BenchRun& run) {
   Simulation simulation;
   const auto entity = must(simulation.spawn({}));
-  must(simulation.add_leg_muscles(entity));
+  must(simulation.set_muscles(entity));
   const Human human = *simulation.human(entity);
   const auto bound = must(bind_surfaces(human.body, {.bones = false, .sides = {true, false}}));
   std::vector<SurfaceMuscle> muscles;

@@ -11,6 +11,8 @@
 #include <numeric>
 
 #include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
+#include <mobil/muscle_library.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
 #include "demo/lab/bench/bench.h"
@@ -52,7 +54,7 @@ class BenchScene {
   /// simulation refuses.
   void grow_to(std::size_t humans) {
     constexpr std::size_t at_once = 1000;
-    must(simulation_.prepare(choice_));
+    must(simulation_.muscle_library().prepare(choice_));
     std::vector<SpawnRequest> requests;
     std::vector<Entity> entities;
     double spent_s = 0;
@@ -73,12 +75,13 @@ class BenchScene {
     if (people_.size() > before) spawn_s_ = spent_s / static_cast<double>(people_.size() - before);
     for (int i = 0; i < settling_ticks; ++i) simulation_.tick();
   }
-  /// Everybody becomes compact (Simulation::compact), and whole again.
+  /// All people become compact (PersonState::compact), and full again.
   void compact() {
-    if (must(simulation_.compact(people_)) < people_.size()) throw Stopped("somebody does not become compact");
+    if (must(simulation_.set_state(people_, PersonState::compact)) < people_.size())
+      throw Stopped("somebody does not become compact");
     simulation_.tick();
   }
-  void expand() { must(simulation_.expand(people_)); }
+  void expand() { must(simulation_.set_state(people_, PersonState::full)); }
 
   std::size_t size() const { return people_.size(); }
   /// Seconds of processor time that the last people took to spawn, each.

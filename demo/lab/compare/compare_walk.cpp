@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <mobil/engine/geometry.h>
+#include <mobil/systems/muscles/human.h>
 #include "assets/body/segment_inertia.h"
 #include "demo/program/must.h"
 
@@ -61,7 +62,7 @@ UnbalancedMoment walk_scene(const BodyRequest& body, GaitStyle style, const Scen
     return gait;
   };
   const auto person = must(simulation.spawn(body, asked(scene.requests.front())));
-  simulation.add_forces(person);
+  simulation.enable(person, Feature::forces);
   BalanceMeter meter(simulation.human(person)->body);
   std::size_t next = 1;
   while (simulation.time_s() < scene.seconds) {
@@ -299,7 +300,7 @@ WalkedStride walk_stride(const BodyRequest& body, const GaitRequest& gait) {
   options.tick_s = tick_s;
   Simulation simulation(options);
   const auto entity = must(simulation.spawn(body, gait));
-  simulation.add_forces(entity);
+  simulation.enable(entity, Feature::forces);
 
   TickRows rows;
   bool with_forces = true;

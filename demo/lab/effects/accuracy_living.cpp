@@ -9,15 +9,18 @@
 #include <utility>
 
 #include <mobil/engine/jobs.h>
+#include <mobil/engine/world.h>
+#include <mobil/lod.h>
 #include <mobil/muscle_table.h>
-#include <mobil/relevance.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/finite/control_points.h"
 #include "assets/finite/shape_tables.h"
 #include "demo/program/commands.h"
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
+#include "systems/bellies/belly_library.h"
 #include "systems/deformation/reduced.h"
-#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {
@@ -85,7 +88,7 @@ std::vector<MuscleTrack> walk_with_rungs(const AccuracyPlan& plan, std::size_t b
       auto& shown = track.shown.emplace_back();
       for (std::size_t r = 0; r < rung_count; ++r) {
         const Entity one = simulation.muscle(copies[r], muscle, Side::right);
-        shown[r] = points_of(simulation.nodal_displacement(one), 3 * node_count(point_cells));
+        shown[r] = points_of(nodal_displacement(simulation.world(), one), 3 * node_count(point_cells));
       }
     }
   }
@@ -229,7 +232,7 @@ std::array<TrackErrors, 2> compare(const std::array<const MuscleTrack*, 2>& trac
   return errors;
 }
 
-/// The rows of systems/relevance/accuracy_table.cpp, and its costs.
+/// The rows of systems/accuracy/accuracy_table.cpp, and its costs.
 void print_accuracy() {
   std::string rows, costs;
   for (const bool inertia : {false, true}) {
@@ -322,7 +325,7 @@ std::vector<AccuracyRow> measure_living_errors(const AccuracyPlan& plan) {
 Subcommand fit_accuracy_command() {
   Subcommand command{.name = "fit-accuracy"};
   command.footer =
-      "For those who change the library: prints rows and costs as systems/relevance/accuracy_table.cpp has them. "
+      "For those who change the library: prints rows and costs as systems/accuracy/accuracy_table.cpp has them. "
       "Minutes.\n"
       "Example: mobil fit-accuracy > accuracy.txt";
   command.run = [] { return exit_status_of("fit-accuracy", attempt(print_accuracy)); };

@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <mobil/relevance.h>
+#include <mobil/engine/world.h>
+#include <mobil/lod.h>
 #include <mobil/rows.h>
 #include <mobil/schedule.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/surfaces/muscle_cage.h"
 #include "demo/program/must.h"
+#include "systems/bellies/belly_library.h"
 #include "systems/deformation/reduced.h"
-#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {
@@ -36,7 +39,7 @@ void follow(const Simulation& simulation, const AccuracyPlan& plan, Walk& walk, 
       if (!counted) continue;
       for (std::size_t r = 0; r < rung_count; ++r) {
         const Entity muscle = simulation.muscle(walk.human[r], plan.muscles[m], side);
-        walk.error_m[m][r].push_back(reference.largest_error_m(simulation.nodal_displacement(muscle)));
+        walk.error_m[m][r].push_back(reference.largest_error_m(nodal_displacement(simulation.world(), muscle)));
       }
     }
   }
@@ -129,7 +132,7 @@ std::array<Entity, rung_count> spawn_copies(Simulation& simulation, const BodyRe
   std::array<Entity, rung_count> all{};
   for (std::size_t r = 0; r < rung_count; ++r) {
     const Entity human = all[r] = must(simulation.spawn(body, {.speed_m_s = speed_m_s}));
-    must(simulation.add_leg_muscles(human, choice));
+    must(simulation.set_muscles(human, choice));
     for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
       if (!choice.muscles[m]) continue;
       must(simulation.set_method(human, static_cast<Muscle>(m), rung_method(r, true, living)));
@@ -221,7 +224,7 @@ RungCost measure_costs(std::size_t humans, bool inertia, bool living) {
   LegMuscles choice;
   choice.inertia = inertia;
   if (living) choice.activation = ExcitationSource::phase;
-  for (const Entity human : crowd.people()) must(simulation.add_leg_muscles(human, choice));
+  for (const Entity human : crowd.people()) must(simulation.set_muscles(human, choice));
   const auto measure = [&](std::size_t rung, bool points) {
     for (const Entity human : crowd.people()) {
       for (std::size_t g = 0; g < muscle_group_count; ++g)

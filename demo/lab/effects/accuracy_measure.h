@@ -1,5 +1,5 @@
 #pragma once
-// Measures the accuracy table (mobil/systems/relevance/accuracy_table.h): people walk with each rung, beside
+// Measures the accuracy table (mobil/systems/accuracy/accuracy_table.h): people walk with each rung, beside
 // references.
 
 #include <array>
@@ -12,9 +12,12 @@
 #include <mobil/components/body.h>
 #include <mobil/components/lanes.h>
 #include <mobil/components/muscle.h>
+#include <mobil/each.h>
 #include <mobil/engine/error.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/relevance/accuracy_table.h>
+#include <mobil/systems/accuracy/accuracy_table.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/reduction/reduced_basis.h"
 #include "demo/lab/bench/bench_crowd.h"
 
@@ -71,7 +74,7 @@ std::vector<AccuracyRow> measure_errors(const AccuracyPlan& plan, bool inertia);
 /// What rungs cost in a crowd, processor time.
 RungCost measure_costs(std::size_t humans, bool inertia, bool living);
 
-/// Rows and costs as systems/relevance/accuracy_table.cpp has them.
+/// Rows and costs as systems/accuracy/accuracy_table.cpp has them.
 std::string accuracy_source(const std::vector<AccuracyRow>& rows);
 std::string cost_source(const RungCost& cost);
 

@@ -6,8 +6,10 @@
 #include <string_view>
 
 #include <mobil/assets/export/walk_recording.h>
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/schedule.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/muscles/human.h>
 #include "demo/lab/effects/accuracy_measure.h"
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
@@ -108,20 +110,20 @@ EffectAccount measure_effects(std::size_t humans, const std::function<void(const
   us = meter(named({"kinematics", "centre of mass"}), &systems);
   add("kinematics", "the skeleton's 48 segments", "gait, or a host's own poses (spawn_posed())", us, systems);
 
-  for (const Entity human : people) simulation.add_forces(human);
+  for (const Entity human : people) simulation.enable(human, Feature::forces);
   us = meter(named({"forces"}), &systems);
-  add("forces", "ground reactions and joint moments (nothing to see)", "kinematics; add_forces()", us, systems);
-  for (const Entity human : people) simulation.remove_forces(human);
+  add("forces", "ground reactions and joint moments (nothing to see)", "kinematics; Feature::forces", us, systems);
+  for (const Entity human : people) simulation.enable(human, Feature::forces, false);
 
   progress("muscles");
   LegMuscles choice;
   choice.method = Method::none;
-  for (const Entity human : people) must(simulation.add_leg_muscles(human, choice));
+  for (const Entity human : people) must(simulation.set_muscles(human, choice));
   const auto change_all = [&] {
-    for (const Entity human : people) must(simulation.change_leg_muscles(human, choice));
+    for (const Entity human : people) must(simulation.set_muscles(human, choice));
   };
   us = meter(named({"leg frames", "lines of action"}), &systems);
-  add("lines of action", "where muscles run, how long they are", "kinematics; add_leg_muscles()", us, systems);
+  add("lines of action", "where muscles run, how long they are", "kinematics; set_muscles()", us, systems);
 
   choice.line_motion = true;
   change_all();
@@ -133,14 +135,14 @@ EffectAccount measure_effects(std::size_t humans, const std::function<void(const
   change_all();
   us = meter(named({"activation"}), &systems);
   add("activation", "muscles pull as the walk asks, tendons stretch", "lines; LegMuscles::activation", us, systems);
-  for (const Entity human : people) simulation.add_forces(human);
+  for (const Entity human : people) simulation.enable(human, Feature::forces);
   choice.activation = ExcitationSource::moments;
   change_all();
   us = meter(named({"leg moments"}), &systems);
   add("moments", "muscles share the walk's own moments as costs them least", "activation; forces", us, systems);
   choice.activation = ExcitationSource::none;
   change_all();
-  for (const Entity human : people) simulation.remove_forces(human);
+  for (const Entity human : people) simulation.enable(human, Feature::forces, false);
 
   const auto set_all = [&](std::size_t rung, bool points, bool tuned = false) {
     MuscleMethod method = rung_method(rung, points);
@@ -290,9 +292,9 @@ Subcommand effects_command() {
       "a scene does not ask for costs nothing. Columns: microseconds a human and tick of 1/60 s on one core (of the\n"
       "least busy moment), what it adds to what one sees, what it needs. Muscles come in rungs: a few vectors of a\n"
       "fine mesh (reduced-N), their static answer alone, or the paper's explicit mesh (full); `mobil frontier` shows\n"
-      "how far off each is. A Relevance (mobil/relevance.h) chooses among them: from a tolerance in metres, a\n"
-      "camera and a tolerance in pixels, or a time budget a tick; its why() tells for each muscle what was chosen and "
-      "why.\n"
+      "how far off each is. Level of detail (mobil/lod.h) chooses among them: from a tolerance in metres, a\n"
+      "camera and a tolerance in pixels, or a time budget a tick; its why() gives each muscle's method and the "
+      "reason.\n"
       "\n"
       "Examples: mobil effects\n"
       "          mobil effects --json effects.json";

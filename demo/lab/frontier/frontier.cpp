@@ -9,7 +9,7 @@
 #include <mobil/engine/jobs.h>
 #include <mobil/muscle_table.h>
 #include "demo/program/must.h"
-#include "systems/muscles/belly_library.h"
+#include "systems/bellies/belly_library.h"
 
 namespace mobil {
 namespace {

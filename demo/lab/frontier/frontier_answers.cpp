@@ -13,9 +13,9 @@
 #include "demo/lab/effects/accuracy_measure.h"
 #include "demo/lab/frontier/frontier.h"
 #include "demo/program/must.h"
+#include "systems/bellies/belly_library.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"
-#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {

@@ -18,11 +18,11 @@
 #include "demo/lab/effects/accuracy_living.h"
 #include "demo/measure/measure.h"
 #include "demo/program/must.h"
+#include "systems/bellies/belly_library.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/finite.h"
 #include "systems/deformation/finite_shape.h"
 #include "systems/deformation/reduced.h"
-#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {

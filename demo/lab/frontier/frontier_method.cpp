@@ -8,6 +8,7 @@
 
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/muscles/human.h>
 #include "assets/surfaces/muscle_cage.h"
 #include "demo/program/must.h"
 
@@ -62,7 +63,7 @@ void record(const FrontierWalk& walk, std::size_t lane, std::vector<FrontierDriv
   choice.muscles.reset();
   for (const FrontierDrive& drive : drives) choice.muscles.set(static_cast<std::size_t>(drive.muscle));
   choice.inertia = true;
-  must(simulation.add_leg_muscles(human, choice));
+  must(simulation.set_muscles(human, choice));
   const Human who = *simulation.human(human);
   for (FrontierDrive& drive : drives) {
     const auto own = std::ranges::find(who.muscles, drive.muscle, [](const HumanMuscle& m) { return m.plan.muscle; });

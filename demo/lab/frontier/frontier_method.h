@@ -16,7 +16,7 @@
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
-#include "systems/muscles/belly_library.h"
+#include "systems/bellies/belly_library.h"
 
 namespace mobil {
 

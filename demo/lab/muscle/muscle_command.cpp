@@ -16,7 +16,10 @@
 #include <mobil/components/activation.h>
 #include <mobil/components/muscle.h>
 #include <mobil/engine/error.h>
+#include <mobil/engine/world.h>
+#include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "demo/lab/muscle/muscle_run.h"
 #include "demo/program/commands.h"
 #include "demo/program/units.h"
@@ -43,7 +46,7 @@ constexpr double on_at = 0.1, off_at = 0.6;  // of the time
 double middle_section(const Simulation& simulation, Entity muscle) {
   const HexahedralMesh& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
   const BellyScale<float> scale = *simulation.get<BellyScale>(muscle);
-  const NodalView moved = simulation.nodal_displacement(muscle);
+  const NodalView moved = nodal_displacement(simulation.world(), muscle);
   const std::uint32_t below = (mesh.cells[2] - mesh.cells[2] / 2) * plane_nodes(mesh.cells);
   std::array<double, 2> area{};
   for (const Quad& quad : insertion_quads(mesh.cells)) {
@@ -96,7 +99,7 @@ Result<Contraction> contract_muscle(const ContractionRequest& request) {
   choice.muscles.set(static_cast<std::size_t>(request.muscle));
   choice.method = Method::reduced;
   choice.activation = ExcitationSource::host;
-  if (auto added = simulation.add_leg_muscles(*human, choice); !added) return tl::unexpected(added.error());
+  if (auto added = simulation.set_muscles(*human, choice); !added) return tl::unexpected(added.error());
   const Entity muscle = simulation.muscle(*human, request.muscle, Side::right);
   const auto ticks = static_cast<int>(std::lround(request.seconds / contraction_tick_s));
   Contraction made;

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include <mobil/components/activation.h>
+#include <mobil/each.h>
+#include <mobil/systems/muscles/human.h>
 #include "assets/body/bent_legs.h"
 #include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/paper/paper.h"
@@ -38,7 +40,7 @@ ShownWalk standing(const LegBend& bend, float level) {
   simulation.tick();
   LegMuscles choice = pulling(ExcitationSource::host, Method::reduced);
   choice.reduced.moving = false;
-  must(simulation.add_leg_muscles(entity, choice));
+  must(simulation.set_muscles(entity, choice));
   for (const OwnMuscle& own : simulation.muscles(entity)) {
     for (const Side side : {Side::right, Side::left}) must(simulation.set_excitation(entity, own.muscle, side, level));
   }
@@ -98,7 +100,7 @@ std::vector<MuscleCurves> stride() {
   Simulation simulation(options);
   const auto entity = must(simulation.spawn(paper_body(), paper_gait()));
   const LegMuscles choice = pulling(ExcitationSource::phase, Method::none);
-  must(simulation.add_leg_muscles(entity, choice));
+  must(simulation.set_muscles(entity, choice));
   struct Rows {
     std::vector<double> activation, line, fibre, tendon, force;
   };

@@ -11,9 +11,12 @@
 
 #include <mobil/assets/files/csv_table.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/forces.h>
 #include <mobil/renderer.h>
 #include <mobil/systems/capture/matrix.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/fem/muscle_template.h"
 #include "demo/anatomy/real_figure.h"
 #include "demo/lab/compare/compare_walk.h"
@@ -77,7 +80,7 @@ double rest_thickness(const MusclePlan& plan) {
 
 double thickness(const Simulation& simulation, const MusclePlan& plan, Entity muscle) {
   const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
-  const double now = largest_section(mesh, plan.scale, simulation.nodal_displacement(muscle));
+  const double now = largest_section(mesh, plan.scale, nodal_displacement(simulation.world(), muscle));
   return rest_thickness(plan) * std::sqrt(now / largest_section(mesh, plan.scale, {}));
 }
 
@@ -210,8 +213,8 @@ PaperCycle walk_cycle(const CycleRequest& request) {
   options.tick_s = cycle_tick_s;
   Simulation simulation(options);
   const auto entity = must(simulation.spawn(request.body, request.gait));
-  simulation.add_forces(entity);
-  if (request.muscles) must(simulation.add_leg_muscles(entity, *request.muscles));
+  simulation.enable(entity, Feature::forces);
+  if (request.muscles) must(simulation.set_muscles(entity, *request.muscles));
   const Human human = *simulation.human(entity);
   Figure figure;
   if (!request.shown_at.empty())

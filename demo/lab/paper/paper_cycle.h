@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <mobil/assets/export/walk_recording.h>
+#include <mobil/assets/muscles/muscle_plan.h>
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/engine/error.h>

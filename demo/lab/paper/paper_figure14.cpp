@@ -11,7 +11,10 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
+#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/fem/muscle_template.h"
 #include "demo/lab/compare/compare_judge.h"
 #include "demo/lab/compare/compare_reference.h"
@@ -67,7 +70,7 @@ Mesh mesh_at_rest(const HexahedralMesh& mesh, const BellyScale<float>& scale) {
 /// Of the node in the middle of the far face, and of the whole mesh.
 Row row_now(const Simulation& simulation, Entity muscle, const BellyScale<float>& scale, double phase) {
   const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
-  const NodalView moved = simulation.nodal_displacement(muscle);
+  const NodalView moved = nodal_displacement(simulation.world(), muscle);
   const auto u = [&](std::uint32_t node, std::size_t axis) {
     return static_cast<double>(moved.first[(3 * std::size_t{node} + axis) * lane_count]);
   };
@@ -322,7 +325,7 @@ void paper_figure14(PaperRun& run) {
   choice.method = Method::caa;
   choice.cells = paper_mesh;
   choice.dt_s = step_s;
-  must(simulation.add_leg_muscles(entity, choice));
+  must(simulation.set_muscles(entity, choice));
   const Entity muscle = simulation.muscle(entity, Muscle::hamstrings, Side::right);
   const BellyScale<float> scale = simulation.human(entity)->muscles.front().plan.scale;
   std::vector<Row> rows;

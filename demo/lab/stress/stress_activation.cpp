@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include <mobil/components/activation.h>
+#include <mobil/systems/muscles/human.h>
 #include "assets/body/bent_legs.h"
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
@@ -63,7 +64,7 @@ void stress_tuned(StressRun& run) {
     choice.inertia = true;
     const auto walker = must(simulation.spawn({}, {.speed_m_s = 1.8F}));
     const auto stands = must(simulation.spawn_posed({}));
-    for (const Entity human : {walker, stands}) must(simulation.add_leg_muscles(human, choice));
+    for (const Entity human : {walker, stands}) must(simulation.set_muscles(human, choice));
     const int ticks = run.quick ? 300 : 3600;
     std::array<double, 2> most_j{};  // in the first second, and later
     for (int tick = 0; tick < ticks; ++tick) {
@@ -92,7 +93,7 @@ void stress_tuned(StressRun& run) {
 void stress_excitation(StressRun& run) {
   Simulation simulation;
   const auto human = must(simulation.spawn({}, {.speed_m_s = 1.3F}));
-  must(simulation.add_leg_muscles(human, hosted(Method::ecd)));
+  must(simulation.set_muscles(human, hosted(Method::ecd)));
   for (int tick = 0; tick < 30; ++tick) simulation.tick();
   const auto before = world_words(simulation);
   std::size_t refused = 0, asked = 0;
@@ -123,7 +124,7 @@ void stress_excitation(StressRun& run) {
 
   Simulation still;
   const auto stands = must(still.spawn_posed({}));
-  must(still.add_leg_muscles(stands, hosted(Method::reduced)));
+  must(still.set_muscles(stands, hosted(Method::reduced)));
   excite_all(still, stands, 1);
   const int minutes = run.quick ? 1 : 10;
   const auto belly = [&](std::size_t m) {
@@ -157,7 +158,7 @@ void stress_contraction(StressRun& run) {
     const bool flickers = m == methods.size();
     Simulation simulation;
     const auto human = must(simulation.spawn_posed({}));
-    must(simulation.add_leg_muscles(human, hosted(flickers ? Method::ecd : methods[m])));
+    must(simulation.set_muscles(human, hosted(flickers ? Method::ecd : methods[m])));
     excite_all(simulation, human, 1);
     const Body body = simulation.human(human)->body;
     const int ticks = run.quick ? 120 : 480;

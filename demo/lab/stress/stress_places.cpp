@@ -1,4 +1,5 @@
-// Far from the origin, for a day, in ticks of any length; relevance under cameras that flicker and budgets of nothing.
+// Far from the origin, for a day, in ticks of any length; level of detail under cameras that flicker and budgets of
+// nothing.
 
 #include <fmt/format.h>
 
@@ -8,7 +9,8 @@
 
 #include <mobil/components/fade.h>
 #include <mobil/engine/geometry.h>
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
+#include <mobil/step_report.h>
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
 
@@ -42,7 +44,7 @@ Entity walker(Simulation& simulation, float speed_m_s, bool muscles, Method meth
   LegMuscles choice;
   choice.method = method;
   choice.reduced.cells = {2, 2, 8};
-  must(simulation.add_leg_muscles(human, choice));
+  must(simulation.set_muscles(human, choice));
   return human;
 }
 
@@ -108,7 +110,7 @@ void stress_day(StressRun& run) {
   }
   const Vec3<float> from = awake.get<Pose>(walks)->position_m[0];
   const std::uint32_t steps_before = awake.get<GaitState>(walks)->steps;
-  must(asleep.sleep({&sleeps, 1}));
+  must(asleep.set_state({&sleeps, 1}, PersonState::asleep));
   const double duration_s = double{awake.get<StepPlan>(walks)->duration_s};
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {
     awake.tick();
@@ -125,7 +127,7 @@ void stress_day(StressRun& run) {
               "the clock counts whole units of 2^-15 ticks");
   run.at_most(tried, "off the line aside, m", 1, std::abs(double{to.x} - double{from.x}),
               "a straight line is anchor + k chord, not a sum");
-  must(asleep.wake({&sleeps, 1}));
+  must(asleep.set_state({&sleeps, 1}, PersonState::full));
   for (int tick = 0; tick < 60; ++tick) {
     awake.tick();
     asleep.tick();
@@ -185,9 +187,10 @@ void stress_relevance(StressRun& run) {
   for (const Scene& scene : scenes) {
     Simulation simulation;
     const auto people = rows_of_walkers(simulation, crowd);
-    RelevanceOptions options;
+    LodOptions options;
     options.machine_factor = 1;
-    auto relevance = must(Relevance::make(simulation, options));
+    Lod relevance = simulation.lod();
+    must(relevance.set_options(options));
     SceneNeeds needs;
     needs.muscles.reset();
     needs.muscles.set(static_cast<std::size_t>(Muscle::triceps_surae));
@@ -204,10 +207,10 @@ void stress_relevance(StressRun& run) {
         needs.camera->forward.z = -needs.camera->forward.z;
         must(relevance.set_scene(needs));
       }
-      const RelevanceReport report = relevance.update();
+      simulation.tick();
+      const LodReport& report = relevance.report();
       refused += report.refused;
       cheapest_s = std::min(cheapest_s, report.predicted_s);
-      simulation.tick();
       for (const Entity human : people) keep_worst(worst_m, largest(control_points(simulation, human)));
     }
     run.at_most(scene.name, "refusals", 0, static_cast<double>(refused),

@@ -7,9 +7,10 @@
 //   schedule->run(world, {1.0F / 60, 0}, threads.jobs());
 //
 // Order: who reads a component runs after who writes it; who reads it as Previous runs before. Where `after` says
-// otherwise, `after` wins. Two writers of one component need an `after`, be it on different tables. Ties go by the
-// order of adding, so that the order is always the same. That is so of each block: systems that need nothing of other
-// blocks (no Lookup between them) go over one block after the other together, while it is in a cache.
+// otherwise, `after` wins. Two writers of one component need an `after`, be it on different tables, or are
+// alternatives. Ties go by the order of adding, so that the order is always the same. That is so of each block: systems
+// that need nothing of other blocks (no Lookup between them) go over one block after the other together, while it is in
+// a cache.
 
 #include <algorithm>
 #include <atomic>
@@ -40,7 +41,8 @@ struct System {
   std::string module{};          // that it belongs to (mobil/engine/module.h); may be empty
   std::vector<Access> accesses;  // of its parameters
   std::size_t parameters = 0;
-  std::vector<std::string> after;  // names of systems that must have run
+  std::vector<std::string> after;  // names of systems, or of alternatives, that must have run
+  std::string alternatives{};      // name of a set of systems of which no table has two that write one component
   bool (*bind)(const World&, const Table&, Bound*) = nullptr;
   std::function<void(const BlockView&, const Bound*)> run;
   /// Packed systems only: which lanes of a block, as bits; and the work on at most sixteen rows.
@@ -89,8 +91,10 @@ class Schedule {
   void run(World& world, Tick tick, const Jobs& jobs = {});
 
   /// A whole tick: phases before the systems, `run`, and phases after them. `tick.index` grows by one once the systems
-  /// have run. Throws what phases throw (mobil/engine/phase.h).
+  /// have run. Throws what phases throw (mobil/engine/phase.h); the next tick then begins with the phase that threw.
   void tick(World& world, Tick& tick, Workspace& workspace, const Jobs& jobs = {});
+  /// After the world became another one, as by a restored snapshot: the next tick begins with its first phase.
+  void begin_anew() { phases_done_ = 0; }
 
   /// In the order of running.
   std::span<const System> systems() const { return systems_; }
@@ -142,13 +146,15 @@ class Schedule {
 
   Schedule(std::vector<System> systems, std::vector<TimedPhase> before, std::vector<TimedPhase> after,
            std::pmr::memory_resource* memory);
-  void run_phases(std::span<TimedPhase> phases, Frame frame);
+  void run_phase(TimedPhase& one, const Frame& frame);
   void match(World& world);
+  void check_alternatives(const Table& table) const;
   void order_tiles(std::size_t pass, std::size_t threads);
   Counted tally(std::uint64_t tag) const;
 
   std::vector<System> systems_;
   std::vector<TimedPhase> before_, after_;
+  std::size_t phases_done_ = 0;  // of those before the systems, in a tick that did not get further
   std::vector<SystemRange> passes_;
   std::vector<Timing> timings_;
   std::vector<Counted> counted_;                           // by system
@@ -188,9 +194,16 @@ class ScheduleBuilder {
     systems_.back().module = module_;
     return *this;
   }
-  /// The system added last runs after that one.
+  /// The system added last runs after that one, or after all alternatives of that name.
   ScheduleBuilder& after(std::string name) {
     systems_.back().after.push_back(std::move(name));
+    return *this;
+  }
+  /// The system added last is one of the alternatives of that name: they may write one component without an order among
+  /// each other, for no table has two of them. A tick that finds such a table throws std::logic_error, which names
+  /// both.
+  ScheduleBuilder& one_of(std::string alternatives) {
+    systems_.back().alternatives = std::move(alternatives);
     return *this;
   }
 
@@ -205,8 +218,9 @@ class ScheduleBuilder {
   }
 
   /// Fails on two systems or phases of one name, on an `after` that names no system, on a system that takes a component
-  /// twice and writes it, on two writers without an order and on cycles. `memory` serves the systems' scratch memory and the
-  /// lists of chosen rows; it is asked by one thread at a time, perhaps during a run, and must outlive the schedule.
+  /// twice and writes it, on two writers without an order that are no alternatives, and on cycles. `memory` serves the
+  /// systems' scratch memory and the lists of chosen rows; it is asked by one thread at a time, perhaps during a run,
+  /// and must outlive the schedule.
   Result<Schedule> build(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const;
 
  private:
@@ -260,6 +274,7 @@ class ScheduleBuilder {
 
   std::vector<System> systems_;
   std::vector<TimedPhase> before_, after_;
+  std::size_t phases_done_ = 0;  // of those before the systems, in a tick that did not get further
   std::string module_;
 };
 

@@ -3,30 +3,29 @@
 // the next step toward there, of those that are clear of everybody else.
 //
 //   Simulation simulation;
-//   Avoidance avoidance(simulation);
-//   avoidance.manage(human);                                  // goes on as it was asked to
-//   avoidance.set_walls({{{-5, 2.5F}, {5, 2.5F}}});
-//   avoidance.want({{human, 1.3F, heading_rad}});             // whenever the wish changes
-//   avoidance.update();                                       // before each tick
-//   simulation.tick();
+//   simulation.avoidance().manage(human);                     // goes on as it was asked to
+//   simulation.avoidance().set_walls({{{-5, 2.5F}, {5, 2.5F}}});
+//   simulation.avoidance().want({{human, 1.3F, heading_rad}});  // whenever the wish changes
+//   simulation.advance(frame_seconds);
 //
 // Everybody's *claim* is where they will be through the step under way and the quickest stop after it. A step is taken
 // only where it and the stop after it are clear of all claims; else a walker does what its claim says, which everybody
 // else has kept clear of. So by induction nobody walks into anybody, in whatever order they choose.
 //
-// Requests are state on the person's row (mobil/components/avoidance.h); claims follow from the world.
+// Requests are state on the person's row (mobil/components/avoidance.h); claims follow from the world. Walls, discs and
+// options are no state: a simulation that restores a snapshot keeps its own. People whose ground is more than 1.5 m
+// higher or lower are on another floor, and in nobody's way.
 // Decisions depend on the world, walls and discs alone, not on threads or rows. Who is managed is asked for speed and
 // heading through Avoidance: what change_gait and turn_to ask lasts until the next step.
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
-#include <vector>
 
 #include <mobil/components/avoidance.h>
+#include <mobil/engine/entity.h>
 #include <mobil/engine/error.h>
-#include <mobil/simulation.h>
+#include <mobil/engine/phase.h>
 #include <mobil/systems/avoidance/obstacles.h>
 
 namespace mobil::inline v0_3 {
@@ -50,21 +49,23 @@ struct AvoidanceOptions {
   float shoulders_h = 0.128F;
 };
 
-/// What an update did: people looked at; who chose a step; of these who kept to their claim, and who gave way to
-/// somebody that chose at the same time; who stands though they want to walk.
+/// What was chosen in all ticks of the last `advance` or `tick`: people looked at in the last of them; how often a step
+/// was chosen; of these by whom who kept to their claim, and who gave way to somebody that chose at the same time; who
+/// stood though they want to walk.
 struct AvoidanceReport {
   std::size_t people = 0, chose = 0, kept_claim = 0, gave_way = 0, waiting = 0;
 };
 
-/// Chooses the steps of those it manages, before each tick.
+struct AvoidanceWork;  // systems/avoidance/avoidance.cpp
+
+/// What keeps people of a simulation out of each other's way (Simulation::avoidance). Each tick chooses for those whose
+/// next step begins in it, and how far shoulders turn. Takes memory only as crowds grow.
 class Avoidance {
  public:
-  /// Works on `simulation`, which must outlive it and stay where it is.
-  explicit Avoidance(Simulation& simulation, const AvoidanceOptions& options = {});
-  ~Avoidance();
-  Avoidance(Avoidance&&) noexcept;
-  Avoidance(const Avoidance&) = delete;
-  Avoidance& operator=(const Avoidance&) = delete;
+  explicit Avoidance(const Frame& frame) : frame_(frame) {}
+
+  /// Of people managed from now on their room; of all others the rest.
+  void set_options(const AvoidanceOptions& options);
 
   /// From now on this walker avoids others, and wants what it was last asked to do; who is managed already goes on to
   /// want what they want, with the room of these options. Errors: a stale handle, a posed person (Status::missing);
@@ -85,19 +86,12 @@ class Avoidance {
   Result<void> set_walls(std::span<const Wall> walls);
   Result<void> set_discs(std::span<const Disc> discs);
 
-  /// Chooses for those whose next step begins in the tick to come, and how far shoulders turn, which they keep to where
-  /// it is called no more. Call it before each tick. Takes memory only as
-  /// crowds grow.
-  AvoidanceReport update();
+  const AvoidanceReport& report() const;
 
  private:
-  struct Work;
-  Course<float> first_course(const World& world, Entity human) const;
+  AvoidanceWork& work() const;
 
-  Simulation& simulation_;
-  AvoidanceOptions options_;
-  std::vector<Disc> discs_;
-  std::unique_ptr<Work> work_;
+  Frame frame_;
 };
 
 }  // namespace mobil::inline v0_3

@@ -11,7 +11,7 @@
 
 #include <mobil/components/body.h>
 #include <mobil/engine/error.h>
-#include <mobil/systems/skinning/skin_table.h>
+#include <mobil/systems/surfaces/skin_table.h>
 
 namespace mobil::inline v0_3 {
 

@@ -7,7 +7,7 @@
 //   SkinRequest one{person, shape, {buffer, 24}, {buffer.subspan(12), 24}};
 //   writer.write(simulation.world(), {&one, 1}, jobs);           // each frame
 //
-// Triangles are skin_mesh(sex, detail)'s (mobil/assets/skin/body_skin.h), the same for all men and for all women.
+// Triangles are skin_mesh(sex, detail)'s (mobil/assets/surfaces/body_skin.h), the same for all men and for all women.
 
 #include <array>
 #include <map>
@@ -17,13 +17,13 @@
 #include <span>
 #include <tuple>
 
-#include <mobil/assets/skin/body_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/scratch.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/skinning/cover_muscles.h>
-#include <mobil/systems/skinning/skin_table.h>
+#include <mobil/systems/surfaces/cover_muscles.h>
+#include <mobil/systems/surfaces/skin_table.h>
 #include <mobil/systems/surfaces/vertex_stream.h>
 
 namespace mobil::inline v0_3 {
@@ -52,7 +52,7 @@ class BodySkins {
   std::map<std::tuple<Sex, SkinDetail, int>, std::unique_ptr<BodySkin>> skin_;
 };
 
-/// One person with a skin, whose fat wobbles where they have the effect (Simulation::set_fat_wobble) and are awake and
+/// One person with a skin, whose fat wobbles where they have the effect (Feature::fat) and are awake and
 /// whole. Positions in m, world axes, from `origin_m`, as of SurfaceRequest; normals may be left out.
 struct SkinRequest {
   Entity person;

@@ -16,6 +16,8 @@ SI units, radians. People are numpy arrays of handles; what is read goes into nu
 
 from ._library import Error, MissingError, OutOfMemoryError, RefusedError, StaleError, lib, text
 from .arrays import EVENT, PERSON, ROOT
+from .deprecated import Avoidance, Terrain
+from .lod import Choice, Lod
 from .names import (
     ACTIVATION,
     EVENTS,
@@ -35,14 +37,15 @@ from .plots import plot_walk
 from .skin import OwnSkin, Skin
 from .structs import method, muscles
 from .surfaces import Part, Surfaces
-from .surroundings import Avoidance, Steered, Terrain
+from .surroundings import AvoidanceReport, TerrainReport
 from .walks import Walk, walk
-from .world import Choice, SystemCost, Ticks, World
+from .world import PhaseCost, SystemCost, Ticks, World
 
 __version__ = text(lib.mobil_library_version())
 __all__ = [
     "ACTIVATION",
     "Avoidance",
+    "AvoidanceReport",
     "Choice",
     "EVENT",
     "EVENTS",
@@ -50,6 +53,7 @@ __all__ = [
     "JOINTS",
     "LINE",
     "LINE_MOTION",
+    "Lod",
     "MOMENTS",
     "MUSCLES",
     "MissingError",
@@ -57,6 +61,7 @@ __all__ = [
     "OwnSkin",
     "PARENTS",
     "PERSON",
+    "PhaseCost",
     "Part",
     "REPORT",
     "ROOT",
@@ -65,12 +70,12 @@ __all__ = [
     "STYLE",
     "Skin",
     "StaleError",
-    "Steered",
     "StyleParameter",
     "Surfaces",
     "SystemCost",
     "TENDON",
     "Terrain",
+    "TerrainReport",
     "Ticks",
     "Walk",
     "World",

@@ -16,6 +16,7 @@ MASSES = ("lumped", "consistent")
 DRIVES = ("displacement", "force")
 ACTIVATIONS = ("none", "phase", "host", "moments")
 AXES = ("y_up", "unity", "unreal", "godot", "z_up")
+FEATURES = ("step_events", "fat", "forces")
 EVENTS = ("heel_strike", "toe_off", "stopped", "started")
 """What events of steps are: `kind` of mobil.EVENT."""
 FORMS = ("quaternion", "matrix", "dual_quaternion")

@@ -52,7 +52,7 @@ def walk(*, seconds: float = 2.4, settle_s: float = 2.0, muscles: Any = None, ti
     """
     world = World(tick_s=tick_s)
     who = world.spawn(1, muscles=muscles, **person)
-    world.set_forces(who)
+    world.enable(who, "forces")
     world.tick(round(settle_s / tick_s))
     ticks = round(seconds / tick_s) + 1
     chosen = [name for name in names.MUSCLES if muscles is not None and muscles.muscles >> names.MUSCLES.index(name) & 1]

@@ -11,8 +11,18 @@ from . import names
 from ._library import fail, ffi, lib, struct, text
 from .arrays import EVENT, PERSON, ROOT, Floats, People
 from .arrays import _all, _floats, _ids, _one, _out, _people, _stride, _style_rows
+from .deprecated import OldWorld
+from .lod import Lod
 from .names import number_of
-from .structs import _fill
+from .surroundings import Avoidance, Terrain
+
+
+_STATES = {
+    "full": lib.MOBIL_FULL,
+    "compact": lib.MOBIL_COMPACT,
+    "asleep": lib.MOBIL_ASLEEP,
+    "posed": lib.MOBIL_POSED,
+}
 
 
 class Ticks(NamedTuple):
@@ -32,13 +42,16 @@ class SystemCost(NamedTuple):
     entities: int
 
 
-class Choice(NamedTuple):
-    why: str
-    error_m: float
-    cost_us: float
+class PhaseCost(NamedTuple):
+    name: str
+    module: str
+    after: bool
+    """The systems; else before them."""
+    seconds: float
+    """In the last tick, of the thread that ticks."""
 
 
-class World:
+class World(OldWorld):
     """People who walk, in fixed ticks.
 
     tick_s: 1e-5 to 1 s. threads: 0 for all. axes: of places, directions and rotations: "y_up" (x left, y up, z ahead),
@@ -61,10 +74,33 @@ class World:
         if code != 0:
             fail(code, text(line))
         self._sim = ffi.gc(made[0], lib.mobil_destroy)
+        self._heights: Any = None  # of terrain
+        self._raised: list[BaseException] = []  # by it
 
     def _do(self, code: int) -> None:
         if code < 0:
             fail(code, text(lib.mobil_message(self._sim)))
+
+    def _ran(self, code: int) -> None:
+        """The end of a call that ticks: what terrain's function raised is raised here."""
+        if self._raised:
+            raise self._raised.pop()
+        self._do(code)
+
+    @property
+    def lod(self) -> Lod:
+        """How finely whose muscles are computed."""
+        return Lod(self)
+
+    @property
+    def avoidance(self) -> Avoidance:
+        """Who keep out of each other's way."""
+        return Avoidance(self)
+
+    @property
+    def terrain(self) -> Terrain:
+        """Where the ground is."""
+        return Terrain(self)
 
     # People
 
@@ -227,36 +263,26 @@ class World:
             raise ValueError(f"the origin moves to a place of three numbers, and this has the shape {at.shape}")
         self._do(lib.mobil_shift_origin(self._sim, _floats(at)))
 
-    def watch(self, people: People, on: bool = True) -> None:
-        """Their steps are watched from the next tick on, or no more: events() tells of them."""
-        self._do(lib.mobil_watch(self._sim, *_all(people), int(on)))
+    def enable(self, people: People, feature: str, on: bool = True) -> None:
+        """They have a feature from the next tick on, or no more: "step_events" (events() tells of their steps), "fat" that
+        wobbles under the skin (Skin), or "forces" (ground reactions and joint moments)."""
+        self._do(lib.mobil_enable(self._sim, *_all(people), number_of(feature, names.FEATURES, "feature"), int(on)))
 
-    def set_forces(self, people: People, on: bool = True) -> None:
-        """Ground reactions and joint moments, or not."""
-        self._do(lib.mobil_set_forces(self._sim, *_all(people), int(on)))
+    def set_state(self, people: People, state: str, within_m: float = 0.005) -> int:
+        """How many of them are "full", "compact" (nobody looks at them) or "asleep" (nobody sees them) now.
 
-    def set_fat_wobble(self, people: People, on: bool = True) -> None:
-        """Fat that wobbles under the skin (Skin), or not."""
-        self._do(lib.mobil_set_fat_wobble(self._sim, *_all(people), int(on)))
-
-    def sleep(self, people: People) -> int:
-        """How many of them are asleep now."""
-        return self._changed(lib.mobil_sleep, people)
-
-    def wake(self, people: People, within_m: float = 0.005) -> None:
-        self._do(lib.mobil_wake(self._sim, *_all(people), within_m))
-
-    def compact(self, people: People) -> int:
-        """How many of them are compact now."""
-        return self._changed(lib.mobil_compact, people)
-
-    def expand(self, people: People) -> None:
-        self._do(lib.mobil_expand(self._sim, *_all(people)))
-
-    def _changed(self, call: Any, people: People) -> int:
+        within_m: of who wakes, control points of muscles are so near to where they would be.
+        """
         count = ffi.new("size_t*")
-        self._do(call(self._sim, *_all(people), count))
+        number_of(state, tuple(_STATES), "state")  # says which there are
+        self._do(lib.mobil_set_state(self._sim, *_all(people), _STATES[state], within_m, count))
         return int(count[0])
+
+    def state(self, person: People) -> str:
+        """"full", "compact", "asleep" or "posed"."""
+        state = ffi.new("int*")
+        self._do(lib.mobil_get_state(self._sim, _one(person), state))
+        return next(name for name, number in _STATES.items() if number == state[0])
 
     # Muscles
 
@@ -306,52 +332,15 @@ class World:
         data = ffi.from_buffer(baked)  # len() of it is bytes, and of an array rows
         self._do(lib.mobil_load_baked(self._sim, data, len(data)))
 
-    # Choosing
-
-    def start_choosing(self, *, muscles: Any = None, **options: Any) -> None:
-        """Methods follow from the scene from now on; options: those of mobil_choosing."""
-        muscles = ffi.NULL if muscles is None else muscles
-        self._do(lib.mobil_start_choosing(self._sim, _fill("choosing", options), muscles))
-
-    def set_scene(self, **fields: Any) -> None:
-        """What is good enough: the fields of mobil_scene; a camera where `eye` and `gaze` are given."""
-        if "eye" in fields:
-            fields = {"has_camera": 1, **fields}
-        self._do(lib.mobil_set_scene(self._sim, _fill("scene", fields)))
-
-    def prepare_scene(self) -> None:
-        self._do(lib.mobil_prepare_scene(self._sim))
-
-    def manage(self, people: People, **needs: Any) -> None:
-        """Their muscles are chosen from the next choose() on; needs of their own: the fields of mobil_needs."""
-        self._do(lib.mobil_manage(self._sim, *_all(people), _fill("needs", needs)))
-
-    def release(self, people: People) -> None:
-        self._do(lib.mobil_release(self._sim, *_all(people)))
-
-    def choose(self) -> dict[str, float]:
-        """Before a tick; what it did."""
-        did = struct("chosen")
-        self._do(lib.mobil_choose(self._sim, did))
-        return {name: getattr(did, name) for name, _ in ffi.typeof(did).item.fields if name != "size"}
-
-    def why(self, person: People, muscle: str) -> Choice:
-        """Why a muscle has its method; its predicted error and cost, of one leg and tick."""
-        line = ffi.new("char[512]")
-        error, cost = ffi.new("float*"), ffi.new("double*")
-        number = number_of(muscle, names.MUSCLES, "muscle")
-        self._do(lib.mobil_why(self._sim, _one(person), number, line, 512, error, cost))
-        return Choice(text(line), error[0], cost[0])
-
     # Time and state
 
     def tick(self, ticks: int = 1) -> None:
-        self._do(lib.mobil_tick(self._sim, ticks))
+        self._ran(lib.mobil_tick(self._sim, ticks))
 
     def advance(self, seconds: float) -> Ticks:
         """As many ticks as the time fed so far makes."""
         ticks = ffi.new("mobil_ticks*")
-        self._do(lib.mobil_advance(self._sim, seconds, ticks))
+        self._ran(lib.mobil_advance(self._sim, seconds, ticks))
         return Ticks(ticks.count, ticks.alpha, ticks.dropped_s)
 
     @property
@@ -387,6 +376,14 @@ class World:
             found.append(SystemCost(text(one.name), text(one.module), one.seconds, int(one.entities)))
         return found
 
+    def phases(self) -> list[PhaseCost]:
+        """What each phase of the last tick cost: lod, avoidance and terrain among them, in the order of running."""
+        found: list[PhaseCost] = []
+        one = ffi.new("mobil_phase*")
+        while lib.mobil_phase_cost(self._sim, len(found), one) == lib.MOBIL_OK:
+            found.append(PhaseCost(text(one.name), text(one.module), bool(one.after), one.seconds))
+        return found
+
     # Reading
 
     def poses(
@@ -419,7 +416,7 @@ class World:
         return out
 
     def events(self) -> People:
-        """What happened in all ticks of the last advance or tick in the steps of who is watched: an array of EVENT."""
+        """What happened in all ticks of the last advance or tick in the steps of who has "step_events": an array of EVENT."""
         count = ffi.new("size_t*")
         self._do(lib.mobil_events(self._sim, ffi.NULL, 0, count))
         found = np.zeros(count[0], EVENT)

@@ -1,4 +1,5 @@
 // SAYS: an Entity is two Whole<F>, index and generation
+#include <mobil/host_parts.h>
 #include <mobil/simulation.h>
 
 template <class F>
@@ -9,5 +10,5 @@ struct Target {
 
 int main() {
   mobil::Simulation simulation;
-  simulation.add(*simulation.spawn({}), Target<float>{});
+  simulation.parts().add(*simulation.spawn({}), Target<float>{});
 }

@@ -1,4 +1,5 @@
 // SAYS: a component is a template over its number type
+#include <mobil/host_parts.h>
 #include <mobil/simulation.h>
 
 struct Fatigue {
@@ -7,5 +8,5 @@ struct Fatigue {
 
 int main() {
   mobil::Simulation simulation;
-  simulation.add(*simulation.spawn({}), Fatigue{1});
+  simulation.parts().add(*simulation.spawn({}), Fatigue{1});
 }

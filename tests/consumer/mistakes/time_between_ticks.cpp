@@ -1,7 +1,8 @@
 // SAYS: between ticks there is neither a tick nor scratch memory
+#include <mobil/host_parts.h>
 #include <mobil/simulation.h>
 
 int main() {
   const mobil::Simulation simulation;
-  simulation.each([](const mobil::Pose<mobil::Lanes<float>>&, float) {});
+  simulation.parts().each([](const mobil::Pose<mobil::Lanes<float>>&, float) {});
 }

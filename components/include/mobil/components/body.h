@@ -11,7 +11,8 @@ namespace mobil::inline v0_3 {
 
 /// Build, as a caller says it; what it does to muscle volume: `physique_factor` (mobil/body_composition.h).
 enum class Constitution : std::uint8_t { thin, average, athletic, heavy };
-/// Whose girths the skin has (assets/skin). Skeleton, masses and muscles are a man's of that height and mass so far.
+/// Whose girths the skin has (assets/surfaces). Skeleton, masses and muscles are a man's of that height and mass so
+/// far.
 enum class Sex : std::uint8_t { man, woman };
 
 /// Heath–Carter somatotype, each part from 1 (little) to about 7 (much): fat, muscle and bone, slenderness. With

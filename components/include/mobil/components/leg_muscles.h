@@ -71,7 +71,7 @@ struct LegMuscles {
   bool inertia = false;             // gravity and the acceleration of the muscle's frame
   bool line_motion = false;         // lengthening speed and moment arms: component LineMotion
   /// Muscles that pull: components Activation, Musculotendon. The tendon stretches, and the belly gets what it leaves.
-  /// ExcitationSource::moments needs the person's forces (add_forces), and gives its row MomentReserve.
+  /// ExcitationSource::moments needs the person's forces (Feature::forces), and gives its row MomentReserve.
   ExcitationSource activation = ExcitationSource::none;
   /// Control points are where tissue at finite strain has them (nearly incompressible, short and thick where it pulls),
   /// not where linear statics do; the method's vibration goes on about that. Left out: where there is activation.

@@ -51,8 +51,8 @@ struct Unsettled {
 /// Of who does not walk steadily within some steps: they are to be woken.
 inline constexpr std::uint32_t never_settles = 0xFFFFFFFF;
 
-/// Tags of a sleeper's table: ground reaction and joint moments are there again on waking; Relevance goes on choosing
-/// muscles then; steps are watched again; fat wobbles again, from rest.
+/// Tags of a sleeper's table: ground reaction and joint moments are there again on waking; level of detail still
+/// chooses muscles then; steps are watched again; fat wobbles again, from rest.
 struct SleepsWithForces {};
 struct SleepsManaged {};
 struct SleepsWatched {};

@@ -26,16 +26,11 @@
 #include <string_view>
 #include <type_traits>
 
+#include <mobil/engine/clock.h>
 #include <mobil/engine/key.h>
 #include <mobil/engine/world.h>
 
 namespace mobil::inline v0_3 {
-
-/// The tick under way: its length, s, and its number from 0 on.
-struct Tick {
-  float dt_s = 0;
-  std::uint32_t index = 0;
-};
 
 /// The lanes of one block: sixteen entities, of which the first `live` are rows and the rest parked copies of the
 /// first.

@@ -8,6 +8,12 @@
 
 namespace mobil::inline v0_3 {
 
+/// The tick under way: its length, s, and its number from 0 on.
+struct Tick {
+  float dt_s = 0;
+  std::uint32_t index = 0;
+};
+
 /// What a frame amounts to.
 struct Ticks {
   std::uint32_t count = 0;  ///< ticks to run now

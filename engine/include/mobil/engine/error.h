@@ -36,6 +36,13 @@ tl::unexpected<Error> fail(Status status) noexcept;
 /// A status with its line, which names the call that was refused; without where there is no memory for it.
 Result<void> result_of(const char* call, Status status) noexcept;
 
+/// An error with the name of the call that was refused before its message.
+template <class T>
+Result<T> named(const char* call, Result<T> result) {
+  if (result) return result;
+  return fail(std::string(call) + ": " + result.error().message, result.error().status);
+}
+
 /// Whether it ended like that: simulation.despawn(person) == Status::ok.
 template <class T>
 bool operator==(const tl::expected<T, Error>& result, Status status) {

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <mobil/engine/error.h>
+#include <mobil/engine/globals.h>
 #include <mobil/engine/key.h>
 #include <mobil/engine/phase.h>
 
@@ -54,6 +55,8 @@ struct Module {
   std::vector<KeyPart> parts{};
   /// Resources that its rows may share. A snapshot keeps their names; what it does not know here is refused.
   std::vector<NamedResource> resources{};
+  /// Values that are state, but no entity's (mobil/engine/globals.h). Each is one module's.
+  std::vector<GlobalPart> globals{};
   /// The part of a table whose column follows from the table's other columns, so that snapshots leave it out: its id,
   /// or 0; one a table at most. `make` makes it of blocks [begin, end) of such a table, with the bits that the last
   /// tick gave it; from any thread. Both or neither. What another system writes into such a column is not in snapshots:

@@ -4,7 +4,7 @@
 //
 //   Module arrivals() {
 //     return {.name = "arrivals",
-//             .before = {{"arrivals", [](Frame& frame) { frame.world.create(…); }}}};
+//             .before = {{"arrivals", [](const Frame& frame) { frame.world.create(…); }}}};
 //   }
 
 #include <concepts>
@@ -16,12 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include <mobil/engine/access.h>
+#include <mobil/engine/clock.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/key.h>
 
 namespace mobil::inline v0_3 {
 
+class Schedule;
 class World;
 
 /// Values kept from one tick to the next, one of each type: memory that phases work in, and results that hosts read
@@ -52,21 +53,23 @@ class Workspace {
   std::vector<std::pair<std::uint64_t, std::shared_ptr<void>>> values_;
 };
 
-/// One phase's view of the tick. `tick.index` counts finished ticks: an `after` phase finds this one among them.
+/// What a simulation consists of, as its phases see it. `tick.index` counts finished ticks: an `after` phase finds this
+/// one among them. The schedule's timings are those of the last tick.
 struct Frame {
   World& world;
   const Jobs& jobs;
-  Tick tick;
+  const Tick& tick;
   Workspace& workspace;
+  const Schedule& schedule;
 };
 
 /// A phase of a module (Module::before, Module::after). A `before` phase that throws ends the tick before its systems
-/// run, and the tick does not count; what earlier phases did stays. A phase that may lack memory takes it before it
-/// changes anything, or works within a World::Attempt. A phase can call the simulation that runs it, except `tick` and
-/// `advance`.
+/// run, and the tick does not count. What earlier phases did stays, and the next tick begins with the phase that threw.
+/// A phase that may lack memory takes it before it changes anything, or works within a World::Attempt. A phase can call
+/// the simulation that runs it, except `tick` and `advance`.
 struct Phase {
   std::string name;
-  std::function<void(Frame& frame)> run;
+  std::function<void(const Frame& frame)> run;
 };
 
 }  // namespace mobil::inline v0_3

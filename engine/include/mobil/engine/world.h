@@ -19,12 +19,14 @@
 #include <initializer_list>
 #include <memory>
 #include <memory_resource>
+#include <new>
 #include <span>
 #include <tl/expected.hpp>
 #include <utility>
 #include <vector>
 
 #include <mobil/engine/entity.h>
+#include <mobil/engine/globals.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/key.h>
 #include <mobil/engine/members.h>
@@ -220,6 +222,18 @@ class World {
   std::uint64_t resource_count() const { return resources_.size(); }
   std::uint64_t resource_content(std::uint64_t index) const { return resource_content_[index]; }
 
+  /// The value of a type that a module names as a global (mobil/engine/globals.h), or that `globals().add` was given.
+  template <class T>
+  T& global() {
+    return *std::launder(reinterpret_cast<T*>(globals_.find(type_id<T>()).data()));
+  }
+  template <class T>
+  const T& global() const {
+    return *std::launder(reinterpret_cast<const T*>(globals_.find(type_id<T>()).data()));
+  }
+  Globals& globals() { return globals_; }
+  const Globals& globals() const { return globals_; }
+
   /// The number of its table among `tables()`, and its row; null when stale. Until the next change of structure.
   const EntityRegister::Location* locate(Entity entity) const { return entities_.find(entity); }
   /// Fetches what `locate` reads.
@@ -282,6 +296,7 @@ class World {
   std::pmr::vector<std::uint64_t> table_hash_;  // of their keys
   std::pmr::vector<std::shared_ptr<const void>> resources_;
   std::pmr::vector<std::uint64_t> resource_content_;
+  Globals globals_;
   Members members_;
   std::uint64_t owner_part_ = 0;
   TableKey scratch_;  // the key being put together, kept for its memory

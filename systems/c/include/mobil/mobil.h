@@ -14,11 +14,12 @@
  *
  * Calls. Every function that can fail returns MOBIL_OK (0) or a code below 0, and leaves one line that says what was
  * wrong, the valid range and how to mend it: mobil_message. What failed has changed nothing. Nothing is global, nothing
- * is thrown, nobody is called back but `jobs` and `memory`. One thread at a time may use a simulation; any number of
- * simulations may live side by side.
+ * is thrown, nobody is called back but `jobs`, `memory` and the ground (mobil_terrain_set_heights). One thread at a
+ * time may use a simulation; any number of simulations may live side by side.
  *
  * Memory. Arrays are the caller's. Rows lie `stride` bytes apart; 0: close together. No pointer is kept after the call
- * but those of mobil_options. Strings are UTF-8; those that come out live as long as the simulation or the library.
+ * but those of mobil_options and mobil_terrain_set_heights. Strings are UTF-8; those that come out live as long as the
+ * simulation or the library.
  *
  * Structs begin with their size, as the caller knows it: mobil_defaults writes it. A program that was built against an
  * older header goes on working, and one built against a newer header is refused only where it asks for something new.
@@ -44,7 +45,7 @@ extern "C" {
 #endif
 
 /* The version of this header. mobil_interface() is the library's: equal or greater serves. */
-#define MOBIL_INTERFACE 3
+#define MOBIL_INTERFACE 4
 MOBIL_API int mobil_interface(void);               /* the library's MOBIL_INTERFACE */
 MOBIL_API const char* mobil_library_version(void); /* "0.3.0" */
 
@@ -116,15 +117,16 @@ enum {
   MOBIL_POSE_LAYOUT,
   MOBIL_SCENE,
   MOBIL_NEEDS,
-  MOBIL_CHOOSING,
-  MOBIL_CHOSEN,
+  MOBIL_LOD_OPTIONS,
+  MOBIL_LOD_COUNTS,
   MOBIL_SURFACE_CHOICE,
   MOBIL_SURFACE_TARGET,
   MOBIL_LIMITS,
   MOBIL_SKIN_TARGET,
-  MOBIL_AVOIDANCE,
-  MOBIL_STEERED,
-  MOBIL_LEG_MESH
+  MOBIL_AVOIDANCE_OPTIONS,
+  MOBIL_AVOIDANCE_COUNTS,
+  MOBIL_LEG_MESH,
+  MOBIL_TERRAIN_COUNTS
 };
 /* Fills a struct of that kind, as large as the caller knows it. */
 MOBIL_API int mobil_defaults(int which, void* filled, size_t size);
@@ -191,21 +193,23 @@ MOBIL_API int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out);
 /* A walker's style, in the order of mobil_style: as it was asked for, or nearer to the usual one, where a foot would go
  * under the ground, or a joint or the pelvis further than people's go. */
 MOBIL_API int mobil_get_style(mobil_sim* sim, mobil_id id, float* out, size_t room);
-/* Bits of what a person is, as mobil_state gives them. What sleepers have they have again on waking. */
+/* How much of a person there is (mobil_get_state); and bits of what a person has (mobil_has): what sleepers have they
+ * have again on waking. */
 enum {
-  MOBIL_POSED = 1,
-  MOBIL_ASLEEP = 2,
-  MOBIL_COMPACT = 4,
+  MOBIL_FULL = 0,
+  MOBIL_POSED = 1,   /* the host animates the skeleton; stays so */
+  MOBIL_ASLEEP = 2,  /* whom nobody sees: some 100 bytes, no muscles, hardly any cost */
+  MOBIL_COMPACT = 4, /* whom nobody looks at: walks, and muscles move, at a part of the cost */
   MOBIL_HAS_MUSCLES = 8,
   MOBIL_HAS_FORCES = 16,
-  MOBIL_MANAGED = 32,
-  MOBIL_WATCHED = 64,
-  MOBIL_AVOIDS = 128,    /* others: mobil_avoid */
-  MOBIL_ON_GROUND = 256, /* mobil_set_on_ground */
-  MOBIL_HAS_FAT = 512    /* that wobbles: mobil_set_fat_wobble */
+  MOBIL_MANAGED = 32,    /* mobil_lod_manage */
+  MOBIL_WATCHED = 64,    /* step events */
+  MOBIL_AVOIDS = 128,    /* mobil_avoidance_manage */
+  MOBIL_ON_GROUND = 256, /* mobil_terrain_manage */
+  MOBIL_HAS_FAT = 512
 };
-/* What a person is now: bits of those above. */
-MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
+MOBIL_API int mobil_get_state(mobil_sim* sim, mobil_id id, int* state);
+MOBIL_API int mobil_has(mobil_sim* sim, mobil_id id, int* bits);
 
 /* Asks people to walk otherwise, from the next step on. Nobody is changed where one of them cannot walk so. */
 MOBIL_API int mobil_change_walks(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_walk* walks,
@@ -222,20 +226,18 @@ MOBIL_API int mobil_shift_origin(mobil_sim* sim, const float to[3]);
  * world. `jumped` 1: muscles and fat feel no inertia of the way there. */
 MOBIL_API int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const float* poses, size_t stride,
                               int jumped);
-/* People whom nobody sees fall asleep: some 100 bytes, no muscles, hardly any cost. `changed` (may be null): how many
- * of these fell asleep. */
-MOBIL_API int mobil_sleep(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed);
-/* They wake, with their muscles' control points within `within_m` of where they would be; usual 0.005. */
-MOBIL_API int mobil_wake(mobil_sim* sim, const mobil_id* ids, size_t count, float within_m);
-/* People whom nobody looks at become compact: they walk, and their muscles move, at a part of the cost. `changed` (may
- * be null): how many of these are compact now. */
-MOBIL_API int mobil_compact(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed);
-/* Compact people are whole again. */
-MOBIL_API int mobil_expand(mobil_sim* sim, const mobil_id* ids, size_t count);
-/* The effect of ground reaction and joint moments, on or off; who has it so already is left alone. */
-MOBIL_API int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
-/* The same of fat that wobbles under the skin (mobil_write_skin). */
-MOBIL_API int mobil_set_fat_wobble(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
+/* People become MOBIL_FULL, MOBIL_ASLEEP or MOBIL_COMPACT, who may. Control points of muscles that begin on waking are
+ * within `within_m` of where they would be; usual 0.005. `changed` (may be null): how many of these are in it now. */
+MOBIL_API int mobil_set_state(mobil_sim* sim, const mobil_id* ids, size_t count, int state, float within_m,
+                              size_t* changed);
+/* What people have on demand. */
+enum {
+  MOBIL_STEP_EVENTS, /* mobil_events; not of posed people. Is part of mobil_hash: peers watch the same people */
+  MOBIL_FAT,         /* that wobbles under the skin (mobil_write_skin) */
+  MOBIL_FORCES       /* ground reaction and joint moments */
+};
+/* From the next tick on they have it, or no more (`on` 0); who has it so already is left alone. All or none. */
+MOBIL_API int mobil_enable(mobil_sim* sim, const mobil_id* ids, size_t count, int feature, int on);
 
 /* ---- Muscles --------------------------------------------------------------------------------------------------- */
 
@@ -247,10 +249,10 @@ enum {
   MOBIL_REDUCED,
   MOBIL_NONE,
   MOBIL_FINITE
-};                                                /* method; the last wants cells of 4, 4, 16 */
-enum { MOBIL_FULL, MOBIL_BBAR, MOBIL_ONE_POINT }; /* element */
-enum { MOBIL_LUMPED, MOBIL_CONSISTENT };          /* mass */
-enum { MOBIL_BY_DISPLACEMENT, MOBIL_BY_FORCE };   /* drive */
+};                                                            /* method; the last wants cells of 4, 4, 16 */
+enum { MOBIL_FULL_INTEGRATION, MOBIL_BBAR, MOBIL_ONE_POINT }; /* element */
+enum { MOBIL_LUMPED, MOBIL_CONSISTENT };                      /* mass */
+enum { MOBIL_BY_DISPLACEMENT, MOBIL_BY_FORCE };               /* drive */
 enum { MOBIL_NO_ACTIVATION, MOBIL_BY_PHASE, MOBIL_BY_HOST, MOBIL_BY_MOMENTS }; /* activation */
 enum {
   MOBIL_HAMSTRINGS,
@@ -306,81 +308,7 @@ MOBIL_API int mobil_get_method(mobil_sim* sim, mobil_id id, int muscle, mobil_me
 MOBIL_API int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle, int side,
                                    const float* excitation, size_t stride);
 
-/* ---- Choosing methods by what a scene calls for ------------------------------------------------------------------ */
-
-/* What is good enough. A number that is not above 0 is left out, where it says so. */
-typedef struct mobil_scene {
-  size_t size;
-  unsigned int muscles;
-  float tolerance_m; /* left out: of the camera, or 1 mm */
-  float tolerance_px;
-  int has_camera; /* 1: what follows counts */
-  float eye[3], gaze[3];
-  float half_angle_rad; /* of the cone round the picture's corners */
-  float radians_per_pixel;
-  float near_m, reach_m; /* unseen but within near_m move on; beyond reach_m nothing does */
-  float asleep_beyond_m; /* who would have to come that near to be seen sleeps; left out: nobody */
-  int compact_unseen;    /* 1: of whom nothing is seen is compact */
-  int looked_at;         /* without a camera: whether control points are placed */
-  double budget_s;       /* processor time a tick for deformation; left out: none */
-} mobil_scene;
-
-/* What one person needs otherwise. */
-typedef struct mobil_needs {
-  size_t size;
-  unsigned int muscles; /* 0: the scene's */
-  float tolerance_m;    /* left out: the scene's */
-  int looked_at;        /* below 0: the scene's */
-} mobil_needs;
-
-/* How methods are chosen, and how much may change in one update. */
-typedef struct mobil_choosing {
-  size_t size;
-  float slack;           /* a cheaper method is taken where it meets this part of the tolerance */
-  unsigned int switches; /* methods changed in one update, at most */
-  double switching_s;    /* and the time that this may take */
-  unsigned int stagger;  /* everybody is looked at every so many updates */
-  float margin;          /* what predicted errors are multiplied by */
-  double machine_factor; /* how much slower this machine is than the table's; left out: measured, so that choices
-                            depend on it */
-} mobil_choosing;
-
-/* What an update did. */
-typedef struct mobil_chosen {
-  size_t size;
-  size_t looked_at, switched, waiting, refused, woken, slept, begun, ended, compacted, expanded;
-  float factor;       /* by which tolerances are missed under the budget */
-  double machine;     /* measured over predicted time */
-  double predicted_s; /* a tick's deformation */
-} mobil_chosen;
-
-/* Begins, or begins anew with other options; `muscles` (null: usual ones) are all but muscles and method of those whom
- * managing gives some. People managed before have to be managed again. */
-MOBIL_API int mobil_start_choosing(mobil_sim* sim, const mobil_choosing* options, const mobil_muscles* muscles);
-/* What the scene needs, from the next update on. */
-MOBIL_API int mobil_set_scene(mobil_sim* sim, const mobil_scene* scene);
-/* Makes what the scene may call for: some seconds, and no update waits later. */
-MOBIL_API int mobil_prepare_scene(mobil_sim* sim);
-/* From the next update on muscles of these people, each named once, are chosen; `needs` may be null. */
-MOBIL_API int mobil_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_needs* needs);
-/* Methods stay as they are and are no longer chosen. Who sleeps wakes; muscles that were to come begin. */
-MOBIL_API int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count);
-/* Before each tick, or less often. `out` may be null. */
-MOBIL_API int mobil_choose(mobil_sim* sim, mobil_chosen* out);
-/* Why a muscle has its method, in one line; its predicted error and cost (both may be null). */
-MOBIL_API int mobil_why(mobil_sim* sim, mobil_id id, int muscle, char* line, size_t room, float* error_m,
-                        double* cost_us);
-
-/* One way to deform a muscle, of those among which is chosen, and what was measured of it. */
-typedef struct mobil_way_figures {
-  const char* name;
-  int method, vectors, moving; /* as in mobil_method */
-  float error_m;               /* of control points, the 99.9th percentile over a walk, in that body */
-  float cost_us; /* of both legs' muscles and their control points, a tick of 1/60 s, on an Intel Xeon of 3 GHz */
-} mobil_way_figures;
-/* Ways from 0 on; MOBIL_MISSING behind the last. `pulling` 1: of muscles with an activation. */
-MOBIL_API int mobil_way(int way, int muscle, float speed_m_s, float height_m, int inertia, int pulling,
-                        mobil_way_figures* out);
+#include <mobil/c/lod.h>
 
 /* ---- Time ------------------------------------------------------------------------------------------------------ */
 
@@ -464,6 +392,14 @@ typedef struct mobil_system {
   double entities; /* worked on */
 } mobil_system;
 MOBIL_API int mobil_cost(mobil_sim* sim, int system, mobil_system* out); /* MOBIL_MISSING behind the last */
+/* What each phase of the last tick cost: work on the thread that ticks, before the systems or after them, as level of
+ * detail, avoidance and terrain do it. */
+typedef struct mobil_phase {
+  const char *name, *module;
+  int after; /* 1: the systems */
+  double seconds;
+} mobil_phase;
+MOBIL_API int mobil_phase_cost(mobil_sim* sim, int phase, mobil_phase* out); /* MOBIL_MISSING behind the last */
 
 #include <mobil/c/surfaces.h>
 
@@ -472,8 +408,8 @@ MOBIL_API int mobil_cost(mobil_sim* sim, int system, mobil_system* out); /* MOBI
 /* A snapshot: how many bytes it takes now, and the bytes (MOBIL_ROOM where `room` is less). */
 MOBIL_API size_t mobil_snapshot_bytes(mobil_sim* sim);
 MOBIL_API int mobil_save(mobil_sim* sim, void* out, size_t room, size_t* bytes); /* `bytes` may be null */
-/* What was saved, to the last bit, handles included. Bytes are never trusted. What is managed is state; how choosing is
- * spread over updates is not. Limits are those of mobil_defaults. */
+/* What was saved, to the last bit, handles included. Bytes are never trusted. What is managed is state; scene, walls,
+ * discs, options and the ground are not. Limits are those of mobil_defaults. */
 MOBIL_API int mobil_restore(mobil_sim* sim, const void* bytes, size_t count);
 /* How much a snapshot may ask for. Its seal tells accidents, not attackers: of bytes from a network the host must know
  * whose they are. */
@@ -493,6 +429,8 @@ MOBIL_API int mobil_hash(mobil_sim* sim, unsigned int out[2]);
 #include <mobil/c/play.h>
 #include <mobil/c/skin.h>
 #include <mobil/c/surroundings.h>
+
+#include <mobil/c/deprecated.h>
 
 #ifdef __cplusplus
 }

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <mobil/relevance.h>
+#include <mobil/lod.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/cluster/shard.h>
 
@@ -39,7 +39,7 @@ struct PeopleShardOptions {
   std::uint32_t shards = 16;  // of the crowd
   /// Of the simulation; give all shards of a rank one library (`library_of`), of a simulation that outlives them.
   SimulationOptions simulation{};
-  /// Of everybody who comes; left out: they have none, and there is no Relevance.
+  /// Of everybody who comes; left out: they have none, and nothing is chosen.
   std::optional<LegMuscles> muscles{};
   SceneNeeds scene{};  // until the first `look`
 };
@@ -48,7 +48,7 @@ class PeopleShard : public Shard {
  public:
   /// Throws std::invalid_argument where options.simulation or options.scene is out of range.
   PeopleShard(std::uint32_t shard, const PeopleShardOptions& options);
-  PeopleShard(const PeopleShard&) = delete;  // its Relevance knows where its simulation is
+  PeopleShard(const PeopleShard&) = delete;
   PeopleShard& operator=(const PeopleShard&) = delete;
 
   /// Nobody: all come by commands.
@@ -79,7 +79,6 @@ class PeopleShard : public Shard {
   std::uint32_t shard_;
   PeopleShardOptions options_;
   Simulation simulation_;
-  std::optional<Relevance> relevance_;
   std::map<std::uint64_t, Entity> people_;
   std::optional<PersonCommand> looked_;  // the last one obeyed
   std::uint64_t refused_ = 0;

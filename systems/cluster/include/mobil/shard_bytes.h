@@ -1,5 +1,5 @@
 #pragma once
-// A shard as bytes: its simulation, what its Relevance remembers, and what its host keeps.
+// A shard as bytes: its simulation, and what its host keeps.
 
 #include <cstddef>
 #include <cstring>
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <mobil/engine/error.h>
-#include <mobil/relevance.h>
 #include <mobil/simulation.h>
 
 namespace mobil::inline v0_3 {
@@ -69,12 +68,10 @@ class PlainReader {
   bool good_ = true;
 };
 
-/// `relevance`: null where there is none. Errors: what Simulation::save refuses.
-Result<std::vector<std::byte>> pack_shard(const Simulation& simulation, const Relevance* relevance,
-                                          std::span<const std::byte> host);
+/// Errors: what Simulation::save refuses.
+Result<std::vector<std::byte>> pack_shard(const Simulation& simulation, std::span<const std::byte> host);
 /// The host's part. Errors: bytes that do not fit; what Simulation::restore refuses. The bytes are taken for one's own:
 /// messages and files are sealed, and limits (RestoreLimits) are none.
-Result<std::vector<std::byte>> unpack_shard(std::span<const std::byte> bytes, Simulation& simulation,
-                                            Relevance* relevance);
+Result<std::vector<std::byte>> unpack_shard(std::span<const std::byte> bytes, Simulation& simulation);
 
 }  // namespace mobil::inline v0_3

@@ -38,13 +38,10 @@ typedef struct mobil_event {
   float place[3];    /* on the ground under the foot's ankle when it lies flat; of who stops or starts on their line */
   float heading_rad; /* where the foot points; of who stops or starts the body */
 } mobil_event;
-/* From the next tick on the steps of these walkers are watched, or no longer. Who sleeps is watched again on waking.
- * Who is watched is part of mobil_hash: peers watch the same people. */
-MOBIL_API int mobil_watch(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
-/* What happened in all ticks of the last mobil_advance or mobil_tick, in order of time. *count is how many
- * there are. Without `out` the call writes nothing else; with too little room it writes nothing else and returns
- * MOBIL_ROOM. Places are those of the tick, before a later mobil_shift_origin or mobil_place. Ticks that run again
- * after going back give their events again. */
+/* What happened to who has MOBIL_STEP_EVENTS, in all ticks of the last mobil_advance or mobil_tick, in order of time.
+ * *count is how many there are. Without `out` the call writes nothing else; with too little room it writes nothing else
+ * and returns MOBIL_ROOM. Places are those of the tick, before a later mobil_shift_origin or mobil_place. Ticks that
+ * run again after going back give their events again. */
 MOBIL_API int mobil_events(mobil_sim* sim, mobil_event* out, size_t room, size_t* count);
 
 /* Where a person is on the ground and heads, smooth along the walking line, without the sway of the hips. */

@@ -7,10 +7,12 @@
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/pose.h>
+#include <mobil/engine/entity.h>
 #include <mobil/engine/error.h>
-#include <mobil/engine/world.h>
 
 namespace mobil::inline v0_3 {
+
+class World;
 
 /// Places beyond are refused, m.
 inline constexpr float farthest_m = 1e6F;

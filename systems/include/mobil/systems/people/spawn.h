@@ -5,15 +5,18 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/leg_muscles.h>
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
-#include <mobil/engine/world.h>
+#include <mobil/engine/key.h>
 
 namespace mobil::inline v0_3 {
+
+class World;
 
 /// One person of many to come, at a place on the ground, walking where they look (rad about +Y, 0 toward +Z, positive
 /// to the left).
@@ -22,11 +25,20 @@ struct SpawnRequest {
   GaitRequest gait{};
   float x_m = 0, z_m = 0, heading_rad = 0;
   std::optional<LegMuscles> muscles{};
-  /// Further parts of the person's row, components of zeros: of a host's own, or `relevance_parts()` where a Relevance
-  /// will manage them, so that nothing moves then. The memory is the caller's.
+  /// Further parts of the person's row, components of zeros: of a host's own, or `managed_parts()` where a level of
+  /// detail will manage them, so that nothing moves then. The memory is the caller's.
   std::span<const KeyPart> parts{};
 };
 
+struct StyleChange;  // mobil/systems/limits/style_limits.h
+struct StyleWork;
+/// What of a walk's manner is otherwise than asked, in that order, because a limit of joints or ground would be broken
+/// or all but reached: Simulation::spawn, change_gait and set_gait keep to it, and Simulation::gait_request then says
+/// what is walked. Empty: nothing. Errors: as of spawn.
+Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& gait);
+/// Moves the gait that a walker is asked for within the limits of walks (mobil/systems/limits/style_limits.h): a
+/// walker, awake or asleep, if it differs from what they are to do.
+void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleWork& work);
 /// What could not be made, and of which of the people.
 struct NotMade {
   std::size_t person = 0;
@@ -34,7 +46,7 @@ struct NotMade {
 };
 
 /// Checks all people, with jobs, finds their bodies' sizes and resolves their gaits, both as long as `people`, gaits
-/// drawn nearer to the usual ones where they break limits (mobil/systems/people/style_limits.h). `each(person, body)`
+/// drawn nearer to the usual ones where they break limits (mobil/systems/limits/style_limits.h). `each(person, body)`
 /// looks at more of each; several threads call it. Errors: those of the first person who has one.
 tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const SpawnRequest> people,
                                          std::span<BodySize<float>> size, std::span<Gait<float>> gait,

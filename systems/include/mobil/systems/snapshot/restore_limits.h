@@ -12,7 +12,7 @@ namespace mobil::inline v0_3 {
 struct RestoreLimits {
   std::size_t rows = 1'000'000;  // people and muscles
   /// Nodes of any one mesh that must be made, because no muscle here has it yet. 0: no mesh is made that this
-  /// simulation has not prepared (Simulation::prepare, load_baked). What sleepers and compact people are to have later
+  /// simulation has not prepared (MuscleLibrary::prepare, load). What sleepers and compact people are to have later
   /// counts, too; it is made when they wake.
   std::size_t mesh_nodes = 500;
   double seconds = 10;           // after which no further mesh, solver or basis is made

@@ -17,7 +17,7 @@
 #include <mobil/components/surface.h>
 #include <mobil/engine/error.h>
 #include <mobil/muscle_table.h>
-#include <mobil/systems/skinning/packed_surface.h>
+#include <mobil/systems/surfaces/packed_surface.h>
 
 namespace mobil::inline v0_3 {
 

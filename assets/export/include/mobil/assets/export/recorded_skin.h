@@ -4,8 +4,8 @@
 #include <span>
 
 #include <mobil/assets/export/walk_recording.h>
-#include <mobil/assets/skin/body_skin.h>
-#include <mobil/assets/skin/own_skin.h>
+#include <mobil/assets/surfaces/body_skin.h>
+#include <mobil/assets/surfaces/own_skin.h>
 
 namespace mobil::inline v0_3 {
 

@@ -1,0 +1,56 @@
+#pragma once
+// Forms of the right leg, foot, arm and hand in the anatomical position, as distances (form_shapes.h), m.
+
+#include <vector>
+
+#include <mobil/assets/body/leg_profile.h>
+#include <mobil/assets/surfaces/form_shapes.h>
+#include <mobil/components/body.h>
+
+namespace mobil::inline v0_3::form {
+
+/// One body's right leg and foot, in m; origin and axes are those of the standing body (mobil/components/body.h).
+class LegForm {
+ public:
+  /// `shod`: a shoe's tip in place of toes. `hip_part`: by what radii are multiplied at the hip; from the middle of
+  /// the thigh on they are the profile's.
+  LegForm(const Body& body, const BodyMeasures& measures, bool shod, double hip_part = 1);
+  /// Of a point of the right leg, standing straight.
+  double distance(const Vec& p) const;
+  /// How far down the leg a height lies: 0 at the hip's centre, 1 at the knee's, 2 at the ankle's.
+  double s(double y) const { return y > knee_y_ ? (hip_.y - y) / (hip_.y - knee_y_) : 1 + (knee_y_ - y) / shank_m_; }
+  double y(double s) const { return s < 1 ? hip_.y - s * (hip_.y - knee_y_) : knee_y_ - (s - 1) * shank_m_; }
+  /// Of the skin about the leg's line; `s` and `turn` as LegProfile has them, m.
+  double radius(double s, double turn) const;
+  const Vec& hip() const { return hip_; }
+  const LegProfile& profile() const { return profile_; }
+
+ private:
+  double foot(const Vec& p) const;
+
+  Vec hip_;
+  double knee_y_, shank_m_, dome_m_;
+  double long_, wide_;  // of the foot, over that of 1.75 m and 75 kg
+  LegProfile profile_;
+  std::vector<Ring> foot_;
+  bool shod_;
+  double hip_part_;
+};
+
+/// One body's right arm and hand, in the same frame.
+class ArmForm {
+ public:
+  ArmForm(const Body& body, const BodyMeasures& measures);
+  /// Of a point of the right arm, hanging, palm forward.
+  double distance(const Vec& p) const;
+  const Vec& shoulder() const { return shoulder_; }
+
+ private:
+  double hand(const Vec& p) const;
+
+  Vec shoulder_;
+  double length_m_, hand_m_, wide_;  // shoulder to wrist; wrist to fingertip; hand's breadth over the usual one
+  std::vector<Ring> ring_;
+};
+
+}  // namespace mobil::inline v0_3::form

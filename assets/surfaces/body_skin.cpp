@@ -1,0 +1,266 @@
+#include <mobil/assets/surfaces/body_skin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <mobil/anthropometry.h>
+#include "assets/surfaces/coarser_surface.h"
+#include "assets/surfaces/form_mesh.h"
+
+namespace mobil::inline v0_3 {
+namespace {
+
+using namespace geometry;
+using form::BodyForm;
+using form::TrunkFit;
+
+constexpr double least_fit = 0.7, most_fit = 1.4, least_thighs = 0.9;  // beyond, a body is no longer one
+
+std::vector<Vec> normals(const std::vector<std::uint32_t>& triangle, const std::vector<Vec>& place) {
+  std::vector<Vec> normal(place.size(), Vec{0, 0, 0});
+  for (std::size_t t = 0; t < triangle.size(); t += 3) {
+    const std::uint32_t* v = &triangle[t];
+    const Vec twice = cross(place[v[1]] - place[v[0]], place[v[2]] - place[v[0]]);
+    for (std::size_t k = 0; k < 3; ++k) normal[v[k]] = normal[v[k]] + twice;
+  }
+  for (Vec& n : normal) n = length(n) > 0 ? normalised(n) : Vec{0, 1, 0};
+  return normal;
+}
+
+constexpr std::array<int, skin_details> shared_turns = {256, 96, 40, 16};  // of a joint's angle, that vertices share
+
+/// How much of a vertex arms carry, from the shoulder's joint on.
+double share_of_arm(const std::vector<SkinFrame>& frames, const SkinVertex& vertex) {
+  double share = 0;
+  for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+    if (vertex.weight[k] == 0) continue;
+    const std::size_t to = segment_of(frames[vertex.frame[k]].to);
+    const bool is_arm = to >= index(Segment::clavicle_right) && to <= index(Segment::thumb_left);
+    share += is_arm ? static_cast<double>(vertex.weight[k]) : 0;
+  }
+  return std::min(share, 1.0);
+}
+
+SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, SkinDetail detail) {
+  SkinMesh mesh;
+  const std::vector<SkinPart> part = cut_clothes(form, surface, detail <= SkinDetail::near);
+  for (const Vec3<float>& p : surface.position) mesh.place.push_back(to_double(p));
+  for (std::size_t one = 0; one < skin_parts; ++one) {
+    mesh.first_triangle[one] = static_cast<std::uint32_t>(mesh.triangle.size() / 3);
+    for (std::size_t t = 0; t < part.size(); ++t) {
+      if (part[t] != static_cast<SkinPart>(one)) continue;
+      for (std::size_t k = 0; k < 3; ++k) mesh.triangle.push_back(surface.triangle[3 * t + k]);
+    }
+  }
+  mesh.first_triangle[skin_parts] = static_cast<std::uint32_t>(mesh.triangle.size() / 3);
+  SkinBinding binding = bind_skin(form, body, mesh.place, shared_turns[static_cast<std::size_t>(detail)]);
+  mesh.frame = std::move(binding.frame);
+  mesh.vertex = std::move(binding.vertex);
+  for (std::size_t v = 0; v < binding.rest.size(); ++v)
+    mesh.fat.push_back(fat_place(form, binding.rest[v], share_of_arm(mesh.frame, mesh.vertex[v])));
+  for (const Vec& r : binding.rest) {
+    // Arms hang beside the legs.
+    const bool is_leg = r.y < 0.55 * form.size() || std::abs(r.x) < 0.19 * form.size();
+    mesh.leg.push_back(leg_place(form.leg(), {-std::abs(r.x), r.y, r.z}, is_leg ? 1 : 0));
+  }
+  return mesh;
+}
+
+std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
+  const Body body = *make_body(skin_body(sex));
+  const BodyForm form(body);
+  const SurfaceMesh surface = mesh_form(form);
+  constexpr std::array<double, skin_details> share = {1, 0.14, 0.035, 0.012}, coarseness = {1, 1.8, 3.5, 6};
+  // Flat skin is bent, too: a coarser mesh must not have edges from the knee to the middle of the thigh.
+  constexpr std::array<double, skin_details> longest_m = {1, 0.042, 0.07, 1};
+  std::array<SkinMesh, skin_details> mesh;
+  for (std::size_t d = 0; d < skin_details; ++d) {
+    SurfaceMesh light = can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]);
+    split_long_edges(form, light, longest_m[d]);
+    mesh[d] = make_mesh(form, body, std::move(light), static_cast<SkinDetail>(d));
+  }
+  return mesh;
+}
+
+TrunkFit part_of(const TrunkFit& fit, double share) {
+  const auto part = [share](double whole) { return 1 + share * (whole - 1); };
+  return {part(fit.hips), part(fit.waist), part(fit.chest), part(fit.neck), part(fit.between), part(fit.thighs)};
+}
+
+/// Makes hips, waist, chest and neck `over` times what the survey has them; what lies between them stays.
+void fit_girths(const Body& body, double over, TrunkFit& fit) {
+  struct Place {
+    double y_m, girth;  // of a body of 1.75 m
+    double TrunkFit::*by;
+  };
+  const BodyMeasures m = body_measures(body.request);
+  const std::array<Place, 3> places = {{{1.057, m.waist_girth, &TrunkFit::waist},
+                                        {1.287, m.chest_girth, &TrunkFit::chest},
+                                        {1.515, m.neck_girth, &TrunkFit::neck}}};
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    const BodyForm form(body, fit);
+    const auto fitted = [over](double now, double girth, double wanted) {
+      return std::clamp(now * over * wanted / girth, least_fit, most_fit);
+    };
+    for (const auto& [y_m, girth, by] : places) fit.*by = fitted(fit.*by, form.girth(y_m * form.size()), girth);
+    double hips = 0;  // where they are widest
+    for (const double y_m : {0.885, 0.905, 0.925}) hips = std::max(hips, form.girth(y_m * form.size()));
+    fit.hips = fitted(fit.hips, hips, m.buttock_girth);
+    if (fit.hips <= least_fit) fit.thighs = std::clamp(fit.thighs * over * m.buttock_girth / hips, least_thighs, 1.0);
+  }
+}
+
+/// The shared surface on the form of another body, by way of bodies between the two.
+std::vector<Vec> drawn_onto(const SkinMesh& mesh, const Body& body, const TrunkFit& fit, bool shod) {
+  constexpr int stages = 4;
+  std::vector<Vec> place = mesh.place;
+  const double size = static_cast<double>(body.request.height_m / skin_body(Sex::man).height_m);
+  for (Vec& p : place) p = size * p;
+  const auto usual_kg = static_cast<double>(skin_body(Sex::man).mass_kg) * size * size;
+  for (int stage = 1; stage <= stages; ++stage) {
+    const double share = static_cast<double>(stage) / stages;
+    BodyRequest between = body.request;
+    between.mass_kg = static_cast<float>(usual_kg + share * (static_cast<double>(body.request.mass_kg) - usual_kg));
+    const BodyForm form(stage == stages ? body : *make_body(between), part_of(fit, share), shod);
+    for (Vec& p : place) p = onto_surface(form, p, stage == stages ? 2 : 1);
+  }
+  return place;
+}
+
+/// Moves the places of a part to the middle of their neighbours and back onto the surface: toes become a shoe's tip.
+void even_out(const SkinMesh& mesh, SkinPart part, const BodyForm& form, std::vector<Vec>& place) {
+  constexpr int rounds = 25;
+  const auto p = static_cast<std::size_t>(part);
+  const std::span triangles = std::span(mesh.triangle)
+                                  .subspan(3 * std::size_t{mesh.first_triangle[p]},
+                                           3 * std::size_t{mesh.first_triangle[p + 1] - mesh.first_triangle[p]});
+  std::vector<bool> moves(place.size(), false);  // not what other parts share
+  for (const std::uint32_t v : triangles) moves[v] = true;
+  for (std::size_t i = 0; i < mesh.triangle.size(); ++i) {
+    if (i < 3 * mesh.first_triangle[p] || i >= 3 * mesh.first_triangle[p + 1]) moves[mesh.triangle[i]] = false;
+  }
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<Vec> mean = neighbour_means(triangles, place);
+    for (std::size_t v = 0; v < place.size(); ++v) {
+      if (moves[v]) place[v] = onto_surface(form, mean[v], 1);
+    }
+  }
+}
+
+/// kg/m³, from the share of fat (Siri 1961); a woman's of 25 years from her body mass index (Gallagher et al. 2000).
+double density(const Body& body) {
+  const auto index = static_cast<double>(body.composition.body_mass_index);
+  const double fat = body.request.sex == Sex::woman
+                         ? std::clamp(0.01 * (64.5 - 848 / index + 0.079 * 25), 0.08, 0.70)
+                         : static_cast<double>(body.composition.fat_kg / body.request.mass_kg);
+  return 1e3 * 4.95 / (fat + 4.50);
+}
+
+/// Air in the lungs at rest, m³ (functional residual capacity at 25 years; Quanjer et al. 1993); of who is heavier than
+/// usual less, by 2.9 % for each kg/m² up to 30 (Jones & Nzekwu 2006: three quarters at 30 of what it is at 20).
+double lung_volume(const Body& body) {
+  constexpr double age = 25, usual_index = 24, last_index = 30, by_index = 0.0288;
+  const auto height = static_cast<double>(body.request.height_m),
+             index = static_cast<double>(body.composition.body_mass_index);
+  const double litres = body.request.sex == Sex::woman ? 2.24 * height + 0.001 * age - 1.00  //
+                                                       : 2.34 * height + 0.01 * age - 1.09;
+  return 1e-3 * litres * std::exp(-by_index * (std::clamp(index, usual_index, last_index) - usual_index));
+}
+
+}  // namespace
+
+double enclosed_volume(const std::vector<std::uint32_t>& triangle, const std::vector<Vec>& place) {
+  double six_fold = 0;
+  for (std::size_t t = 0; t < triangle.size(); t += 3)
+    six_fold += dot(place[triangle[t]], cross(place[triangle[t + 1]], place[triangle[t + 2]]));
+  return six_fold / 6;
+}
+
+SkinBuild skin_build(const BodyRequest& body, float index_step) {
+  constexpr float least_index = 13.5F, most_index = 64.5F, most_kg = 200;
+  const float index = body.mass_kg / (body.height_m * body.height_m);
+  const int step = static_cast<int>(std::clamp(std::round(index / index_step), std::ceil(least_index / index_step),
+                                               std::floor(most_index / index_step)));
+  const float tall = skin_body(body.sex).height_m;
+  BodyRequest usual{.height_m = tall,
+                    .mass_kg = std::min(index_step * static_cast<float>(step) * tall * tall, most_kg)};
+  usual.sex = body.sex;
+  return {step, usual};
+}
+
+const SkinMesh& skin_mesh(Sex sex, SkinDetail detail) {
+  const auto d = static_cast<std::size_t>(detail);
+  if (sex == Sex::woman) {
+    static const std::array<SkinMesh, skin_details> women = make_meshes(Sex::woman);
+    return women[d];
+  }
+  static const std::array<SkinMesh, skin_details> men = make_meshes(Sex::man);
+  return men[d];
+}
+
+TrunkFit fit_trunk(const Body& body) {
+  const SkinMesh &light = skin_mesh(body.request.sex, SkinDetail::far),
+                 &full = skin_mesh(body.request.sex, SkinDetail::hero);
+  // Fewer triangles cut corners.
+  const double rounder = enclosed_volume(full.triangle, full.place) / enclosed_volume(light.triangle, light.place);
+  const double wanted = static_cast<double>(body.request.mass_kg) / density(body) + lung_volume(body);
+  const auto volume = [&](double over, TrunkFit& fit) {
+    fit_girths(body, over, fit);
+    return rounder *
+           enclosed_volume(light.triangle, skin_at_rest(BodyForm(body, fit), drawn_onto(light, body, fit, false)));
+  };
+  // Means of a survey are no one body: girths and volume may each be a little off, and what is left lies between the
+  // places where girths are measured. Volume is near enough linear in so little.
+  constexpr double may = 0.015, trial = 1.05;
+  TrunkFit fit;
+  const double usual = volume(1, fit), sense = wanted > usual ? 1 : -1, need = sense * (wanted - usual);
+  const double over = 1 + sense * may, gain = sense * (volume(over, fit) - usual);
+  if (gain > 0 && need <= gain) {
+    fit_girths(body, 1 + need / gain * (over - 1), fit);
+    return fit;
+  }
+  const double left = need - gain - may * wanted;
+  if (left <= 0) return fit;
+  fit.between = 1 + sense * (trial - 1);
+  const double more = sense * (volume(over, fit) - usual) - gain;
+  const double beyond = more > 0 ? left / more : 1;
+  fit.between = std::clamp(1 + sense * (trial - 1) * beyond, least_fit, most_fit);
+  fit_girths(body, over, fit);
+  return fit;
+}
+
+Result<BodySkin> make_body_skin(const Body& body, SkinDetail detail, const SkinDress& dress) {
+  if (auto ok = check_body(body.request); !ok) return tl::unexpected(ok.error());
+  if (has_own_limbs(body.request))
+    return fail(
+        "a skin for limbs of their own lengths; make one for the body without them, which stretches at the joints");
+  return make_body_skin(body, fit_trunk(body), detail, dress);
+}
+
+BodySkin make_body_skin(const Body& body, const TrunkFit& fit, SkinDetail detail, const SkinDress& dress) {
+  const SkinMesh& mesh = skin_mesh(body.request.sex, detail);
+  std::vector<Vec> place = drawn_onto(mesh, body, fit, dress.dressed);
+  const BodyForm form(body, fit, dress.dressed);
+  if (dress.dressed && detail <= SkinDetail::near) even_out(mesh, SkinPart::shoes, form, place);
+  std::vector<Vec> rest = skin_at_rest(form, place);
+  if (dress.dressed) {
+    const std::vector<Vec> bare = normals(mesh.triangle, rest);
+    const std::vector<double> off = cloth_thickness(form, place);
+    for (std::size_t v = 0; v < rest.size(); ++v) rest[v] = rest[v] + off[v] * bare[v];
+  }
+  BodySkin skin;
+  skin.sex = body.request.sex;
+  skin.detail = detail;
+  skin.standing = standing_pose(body);
+  skin.leg = leg_grid(form, body.composition);
+  const std::vector<Vec> normal = normals(mesh.triangle, rest);
+  for (std::size_t v = 0; v < rest.size(); ++v) {
+    skin.rest.push_back(to_float(rest[v]));
+    skin.normal.push_back(to_float(normal[v]));
+  }
+  return skin;
+}
+
+}  // namespace mobil::inline v0_3

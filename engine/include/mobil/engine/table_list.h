@@ -1,0 +1,39 @@
+#pragma once
+// The tables of a world that have one of some parts. Tables come and stay, so each is looked at once.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <mobil/engine/world.h>
+
+namespace mobil::inline v0_3 {
+
+class TableList {
+ public:
+  /// Ids of the parts.
+  explicit TableList(std::array<std::uint64_t, 2> parts) : parts_(parts) {}
+
+  /// Takes in the world's new tables. The same world each time.
+  const std::vector<Table*>& find(World& world) {
+    for (; seen_ < world.tables().size(); ++seen_) {
+      Table& table = world.tables()[seen_];
+      const auto has = [&](std::uint64_t part) { return find_part(table.key(), part) != nullptr; };
+      if (std::ranges::any_of(parts_, has)) found_.push_back(&table);
+    }
+    return found_;
+  }
+  /// Whether one of them has rows.
+  bool any_rows(World& world) {
+    return std::ranges::any_of(find(world), [](const Table* table) { return table->row_count() > 0; });
+  }
+
+ private:
+  std::array<std::uint64_t, 2> parts_;
+  std::vector<Table*> found_;
+  std::size_t seen_ = 0;
+};
+
+}  // namespace mobil::inline v0_3

@@ -1,0 +1,102 @@
+// What bodies of usual build share, made before it is needed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "systems/bellies/belly_library.h"
+
+namespace mobil::inline v0_3 {
+namespace {
+
+/// A part that jobs make, of that muscle: it, or why not.
+template <class T>
+struct Wanted {
+  Muscle muscle;
+  std::unique_ptr<T> made{};
+  std::string error{};
+
+  void take(Result<T> result) {
+    if (result) {
+      made = std::make_unique<T>(std::move(*result));
+    } else {
+      error = result.error().message;
+    }
+  }
+};
+
+template <class T>
+Result<void> all_made(const std::vector<Wanted<T>>& wanted) {
+  for (const auto& one : wanted) {
+    if (one.made == nullptr) return fail(fmt::format("{}: {}", muscle_name(one.muscle), one.error));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, const Jobs& jobs) {
+  if (auto ok = check_choice(choice, tick_s); !ok) return ok;
+  std::vector<Wanted<std::unique_ptr<BellyTemplate>>> shapes;
+  std::vector<Wanted<Basis>> bases;
+  std::vector<BasisKey> keys;
+  for (std::size_t m = 0; m < muscles().size(); ++m) {
+    if (!choice.muscles[m]) continue;
+    const auto muscle = static_cast<Muscle>(m);
+    if (find_shape(muscle, choice).first == nullptr) shapes.push_back({.muscle = muscle});
+    if (choice.method != Method::reduced) continue;
+    for (const BasisKey& key : usual_bases(choice, muscle)) {
+      if (Basis* const found = find_basis(muscle, choice, key)) {
+        cut(*found, choice.reduced.vectors);
+        found->given = true;
+        continue;
+      }
+      bases.push_back({.muscle = muscle});
+      keys.push_back(key);
+    }
+  }
+  // The dearest first.
+  in_parallel(jobs, bases.size() + shapes.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i < bases.size()) {
+        bases[i].take(make_basis(bases[i].muscle, choice, keys[i]));
+      } else {
+        auto& one = shapes[i - bases.size()];
+        one.take(make_shape(one.muscle, choice, find_shape(one.muscle, choice).second));
+      }
+    }
+  });
+  if (auto ok = all_made(shapes); !ok) return ok;
+  if (auto ok = all_made(bases); !ok) return ok;
+  for (auto& one : shapes) templates_.push_back(std::move(*one.made));
+  for (auto& one : bases) {
+    one.made->given = true;
+    bases_.push_back(std::move(*one.made));
+  }
+  for (std::size_t m = 0; m < muscles().size(); ++m) {
+    if (choice.muscles[m]) prepare_solvers(static_cast<Muscle>(m), choice, tick_s);
+  }
+  return {};
+}
+
+/// A body that a fixed step is too long for has its own refusal.
+void BellyLibrary::prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s) {
+  const bool solves = choice.method == Method::statics || choice.method == Method::icd || choice.method == Method::caa;
+  const bool rests = choice.inertia && (solves || choice.method == Method::ecd || choice.method == Method::finite);
+  if (!solves && !rests) return;
+  constexpr double step = 1.05;  // no range of sizes is narrower
+  MusclePlan plan;
+  plan.muscle = muscle;
+  for (double ratio = usual_sizes::least_ratio; ratio < usual_sizes::most_ratio * step; ratio *= step) {
+    for (double product = usual_sizes::least_product; product < usual_sizes::most_product * step; product *= step) {
+      plan.scale = {static_cast<float>(std::sqrt(product * ratio)), static_cast<float>(std::sqrt(product / ratio))};
+      (void)belly(plan, choice, tick_s);
+    }
+  }
+}
+
+}  // namespace mobil::inline v0_3

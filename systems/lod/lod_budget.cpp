@@ -1,0 +1,150 @@
+#include "systems/lod/lod_round.h"
+
+#include <algorithm>
+
+#include <mobil/anthropometry.h>
+#include <mobil/lod.h>
+#include <mobil/schedule.h>
+#include <mobil/systems/people/person.h>
+#include "systems/accuracy/packed_rungs.h"
+#include "systems/lod/basis_orders.h"
+#include "systems/muscles/finite_shape_effect.h"
+#include "systems/muscles/leg_muscles.h"
+#include "systems/muscles/muscle_parts.h"
+#include "systems/states/muscle_verbs.h"
+
+namespace mobil::inline v0_3 {
+namespace {
+
+constexpr float easing = 0.97F;  // how fast tolerances come back when there is time again, an update
+
+double deformation_s(const Schedule& schedule) {
+  double sum = 0;
+  for (std::size_t i = 0; i < schedule.systems().size(); ++i)
+    if (is_deformation(schedule.systems()[i].module)) sum += schedule.timings()[i].last_seconds;
+  return sum;
+}
+
+}  // namespace
+
+bool is_deformation(std::string_view module) {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = {fade_module().name, finite_shape_effect.module().name};
+    for (const DeformationMethod& method : deformation_methods()) {
+      if (method.module != nullptr) all.push_back(method.module().name);
+    }
+    return all;
+  }();
+  return std::find(names.begin(), names.end(), module) != names.end();
+}
+
+void LodRound::observe_machine() {
+  if (!work_.scene.budget_s) {
+    progress_.factor = 1;
+    return;
+  }
+  if (!work_.options.machine_factor && frame_.tick.index != progress_.last_tick) {
+    progress_.last_tick = frame_.tick.index;
+    const double measured =
+        work_.options.measured_s ? work_.options.measured_s(frame_.schedule) : deformation_s(frame_.schedule);
+    progress_.machine.observe(measured, 1e-12 * static_cast<double>(progress_.cost_ps));
+  }
+  plan_budget();
+}
+
+void LodRound::plan_budget() {
+  progress_.budget_ps =
+      static_cast<std::int64_t>(std::min(*work_.scene.budget_s / machine().pessimistic() * 1e12, 9e18));
+  const float least = work_.scene.tolerance_m || work_.scene.camera ? 1.0F : CostSpectrum::least_factor;
+  const float afforded = std::max(progress_.crowd.factor_within(progress_.budget_ps), least);
+  progress_.factor = afforded > progress_.factor ? afforded : std::max(afforded, easing * progress_.factor);
+}
+
+/// In their order, until the update has spent `most_ps` on changes.
+void LodRound::change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget) {
+  for (const Switch& one : all) {
+    const float us = (one.living ? living_switch_us : switch_us)[one.rung];
+    const auto cost_ps = static_cast<std::int64_t>(1e6 * static_cast<double>(us) * machine().mean());
+    if (switching_ps_ > 0 && switching_ps_ + cost_ps > most_ps) return;
+    if (within_budget && progress_.cost_ps + one.cost_ps > progress_.budget_ps) continue;
+    if (change(one)) switching_ps_ += cost_ps;
+  }
+}
+
+/// Cheaper ones get half of the turns and of the time, or what dearer ones leave, or under too high a cost all.
+void LodRound::carry_out() {
+  const auto first = [](const Switch& a, const Switch& b, bool most) {
+    if (a.excess != b.excess) return most ? a.excess > b.excess : a.excess < b.excess;
+    if (a.human.index != b.human.index) return a.human.index < b.human.index;
+    return a.muscle < b.muscle;
+  };
+  const auto arrange = [&](std::vector<Switch>& all, std::size_t count, bool most) {
+    const auto before = [&](const Switch& a, const Switch& b) { return first(a, b, most); };
+    if (count < all.size())
+      std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(), before);
+    std::sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(count, all.size())), before);
+  };
+  const std::size_t turns = work_.options.switches;
+  const bool over = work_.scene.budget_s && progress_.cost_ps > progress_.budget_ps;
+  const std::size_t left = turns > work_.now.dearer.size() ? turns - work_.now.dearer.size() : 0;
+  const std::size_t down = std::min(work_.now.cheaper.size(), over ? turns : std::max(turns / 2, left));
+  const std::size_t up = std::min(work_.now.dearer.size(), turns - down);
+  arrange(work_.now.cheaper, down, false);
+  arrange(work_.now.dearer, up, true);
+  const auto most_ps = static_cast<std::int64_t>(std::min(1e12 * work_.options.switching_s, 9e18));
+  switching_ps_ = 0;
+  const std::size_t refused_before = report_.refused;
+  change_first(std::span(work_.now.cheaper).first(down), over || up == 0 ? most_ps : most_ps / 2, false);
+  change_first(std::span(work_.now.dearer).first(up), most_ps, work_.scene.budget_s.has_value());
+  report_.waiting =
+      work_.now.cheaper.size() + work_.now.dearer.size() - report_.switched - (report_.refused - refused_before);
+}
+
+/// Whether what a rung shares is there, or time has come for it.
+bool LodRound::at_hand(const Switch& one, std::uint32_t rung, bool order) {
+  const MuscleMethod method = rung_method(rung, one.points, one.living);
+  if (work_.options.background.run == nullptr || method.method != Method::reduced) return true;
+  const auto muscle = static_cast<Muscle>(one.muscle);
+  auto choice = choice_of(world_, one.human);
+  if (!choice) return true;  // set_method says so
+  choice->method = method.method;
+  choice->reduced = method.reduced;
+  const auto plan = make_muscle_plan(*make_body(body_request(world_, one.human)), muscle);
+  return work_.orders.ready(library(), muscle, *choice, plan->scale, frame_.tick.index, order, progress_.ordered);
+}
+
+/// False where it waits for what its method shares.
+bool LodRound::change(const Switch& one) {
+  if (is_compact(world_, one.human)) return false;  // waits to be whole
+  auto tiers = *world_.get<Tiers>(one.human);
+  const std::uint32_t now = rung_at(tiers.rung, one.muscle);
+  const RungCase of = rung_case(tiers, one.muscle, one.points);
+  std::uint32_t rung = one.rung;
+  if (rung != now && !at_hand(one, rung, true)) {
+    const auto& order = work_.ladder.by_cost(of);
+    auto cheaper = std::find(order.begin(), order.end(), static_cast<std::uint8_t>(rung));
+    while (cheaper != order.begin() && !at_hand(one, *cheaper, false)) --cheaper;
+    rung = *cheaper;
+    if (rung == now || work_.ladder.error_m(of, rung) >= work_.ladder.error_m(of, now)) return false;
+  }
+  const auto done =
+      set_method(frame_, {&one.human, 1}, static_cast<Muscle>(one.muscle), rung_method(rung, one.points, one.living));
+  if (done) {
+    RungCase before = of;
+    before.points = bit_at(tiers.points, one.muscle);
+    const std::int64_t more_ps = work_.ladder.cost_ps(of, rung) - work_.ladder.cost_ps(before, now);
+    set_rung(tiers.rung, one.muscle, rung);
+    set_bit(tiers.points, one.muscle, one.points);
+    progress_.cost_ps += more_ps;
+    progress_.counted_ps += more_ps;
+    ++report_.switched;
+  } else {
+    set_rung(tiers.rung, one.muscle, refused_rung);
+    ++report_.refused;
+    report_.refusal = done.error().message;
+  }
+  world_.set(one.human, tiers);
+  return true;
+}
+
+}  // namespace mobil::inline v0_3

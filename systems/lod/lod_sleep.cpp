@@ -1,0 +1,337 @@
+#include "systems/lod/lod_round.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include <mobil/components/footing.h>
+#include <mobil/components/sleep.h>
+#include <mobil/each.h>
+#include <mobil/lod.h>
+#include <mobil/rows.h>
+#include "engine/exact_math.h"
+#include "systems/accuracy/packed_rungs.h"
+#include "systems/bellies/belly_library.h"
+#include "systems/gait/asleep.h"
+#include "systems/lod/sight.h"
+#include "systems/muscles/leg_moments.h"
+#include "systems/muscles/leg_muscles.h"
+#include "systems/muscles/muscle_parts.h"
+#include "systems/states/person_states.h"
+#include "systems/states/sleep.h"
+
+namespace mobil::inline v0_3 {
+namespace {
+
+constexpr float fastest_m_s = 2.6F;  // of walkers
+/// Who turns or changes speed is not yet where the words of a sleeper say: off by this at most.
+constexpr float unsettled_m = 8;
+
+float length(const Vec3<float>& v) {
+  return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+/// How high sleepers' hips are; over the ground that they fell asleep on where it is not level.
+Lanes<float> pelvis_heights(const Table& table, std::size_t block) {
+  Lanes<float> up_m;
+  const TableColumn<Footing> footing(table);
+  constexpr auto stance = index(FootholdOf::stance);
+  for (std::size_t l = 0; l < lane_count; ++l)
+    up_m[l] = footing ? pelvis_m + footing.at(table, block).height_m[stance][l] : pelvis_m;
+  return up_m;
+}
+
+/// How much nearer to being seen anybody can have come as a camera has moved so.
+float camera_moved_m(const Viewpoint& now, const Vec3<float>& eye, const Vec3<float>& gaze) {
+  if (length(gaze) == 0) return INFINITY;
+  const Vec3<float>& p = now.position_m;
+  const float along =
+      (now.forward.x * gaze.x + now.forward.y * gaze.y + now.forward.z * gaze.z) / (length(now.forward) * length(gaze));
+  const float turned = exact::acos(std::clamp(along, -1.0F, 1.0F));
+  return length({p.x - eye.x, p.y - eye.y, p.z - eye.z}) + turned * now.reach_m;
+}
+
+}  // namespace
+
+std::array<float, 4> LodRound::sees() const {
+  const Viewpoint& camera = *work_.scene.camera;
+  return {camera.half_angle_rad, camera.reach_m, camera.near_m, *work_.scene.asleep_beyond_m};
+}
+
+/// Everybody, in the order of their handles.
+void LodRound::list_all_sleepers() {
+  work_.waking.clear();
+  const bool seen = !work_.scene.camera && work_.scene.looked_at;
+  for (const Table* const table : work_.sleeping_tables)
+    for (std::size_t b = 0; b < table->block_count(); ++b)
+      for (std::uint32_t l = 0; l < table->live(b); ++l) work_.waking.push_back({0, table->entities(b)[l], seen});
+}
+
+/// A part of the sleepers, as large as what the camera has moved asks for: each is looked at again before camera and
+/// walkers together can have gone nine tenths of the way within which they are to be awake.
+void LodRound::look_at_sleepers() {
+  const Viewpoint& camera = *work_.scene.camera;
+  work_.sleeping_blocks.clear();
+  std::size_t blocks = 0;
+  for (const Table* const table : work_.sleeping_tables)
+    work_.sleeping_blocks.push_back(blocks += table->block_count());
+  const auto tick_s = frame_.tick.dt_s;
+  // After a change of the angle or of a distance anybody may be in view.
+  const float moved_m = sees() == progress_.saw
+                            ? camera_moved_m(camera, progress_.eye_m, progress_.gaze) + fastest_m_s * tick_s
+                            : INFINITY;
+  const float part = moved_m / (0.9F * *work_.scene.asleep_beyond_m);
+  std::size_t looked = blocks, first = 0;
+  if (!progress_.all_sleepers && part < 1) {
+    looked = std::min(blocks, static_cast<std::size_t>(std::ceil(part * static_cast<float>(blocks))));
+    first = blocks == 0 ? 0 : progress_.sleepers_looked % blocks;
+  }
+  progress_.sleepers_looked = static_cast<std::uint32_t>(blocks == 0 ? 0 : (first + looked) % blocks);
+  const auto place = [&](std::size_t i) {
+    const std::size_t block = (first + i) % blocks;
+    const auto after = std::upper_bound(work_.sleeping_blocks.begin(), work_.sleeping_blocks.end(), block);
+    const auto table = static_cast<std::size_t>(after - work_.sleeping_blocks.begin());
+    return std::pair{work_.sleeping_tables[table], block - (table == 0 ? 0 : work_.sleeping_blocks[table - 1])};
+  };
+  work_.near_lanes.assign(looked, 0);
+  const std::uint32_t tick = frame_.tick.index;
+  const Gap gap(camera, cone_cos_, cone_sin_);
+  in_parallel(frame_.jobs, looked, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [table, block] = place(i);
+      const float within = *work_.scene.asleep_beyond_m + (TableColumn<Unsettled>(*table) ? unsettled_m : 0);
+      Lanes<float> x_m, z_m;
+      steady_places(TableColumn<Asleep>(*table).at(*table, block).walk, tick, tick_s, x_m, z_m);
+      const Lanes<float> up_m = pelvis_heights(*table, block);
+      const float farthest = gap.farthest(within);
+      std::uint32_t lanes = 0;
+      for (std::uint32_t l = 0; l < lane_count; ++l)
+        lanes |= static_cast<std::uint32_t>(gap.squared({x_m[l], up_m[l], z_m[l]}) < farthest * farthest) << l;
+      for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+        const auto l = static_cast<std::uint32_t>(std::countr_zero(left));
+        if (!(gap({x_m[l], up_m[l], z_m[l]}) < within)) lanes &= ~(1U << l);
+      }
+      work_.near_lanes[i] = static_cast<std::uint16_t>(lanes & ((1U << table->live(block)) - 1));
+    }
+  });
+  work_.waking.clear();
+  for (std::size_t i = 0; i < looked; ++i) {
+    if (work_.near_lanes[i] == 0) continue;
+    const auto [table, block] = place(i);
+    Lanes<float> x_m, z_m;
+    steady_places(TableColumn<Asleep>(*table).at(*table, block).walk, tick, tick_s, x_m, z_m);
+    for (std::uint32_t left = work_.near_lanes[i]; left != 0; left &= left - 1) {
+      const auto l = static_cast<std::uint32_t>(std::countr_zero(left));
+      const float dx = x_m[l] - camera.position_m.x, dz = z_m[l] - camera.position_m.z;
+      // Who is seen comes before who is not, then the nearer one.
+      const float unseen_m = std::max(gap({x_m[l], pelvis_heights(*table, block)[l], z_m[l]}), 0.0F);
+      work_.waking.push_back(
+          {std::sqrt(dx * dx + dz * dz) + 1000 * unseen_m, table->entities(block)[l], unseen_m == 0});
+    }
+  }
+}
+
+void LodRound::wake_sleepers() {
+  if (work_.scene.camera && work_.scene.asleep_beyond_m) {
+    look_at_sleepers();
+    progress_.eye_m = work_.scene.camera->position_m;
+    progress_.gaze = work_.scene.camera->forward;
+    progress_.saw = sees();
+  } else {
+    list_all_sleepers();
+    progress_.gaze = {};
+  }
+  const std::size_t now = std::min<std::size_t>(work_.waking.size(), work_.options.wakes);
+  const auto nearer = [](const WakingSleeper& a, const WakingSleeper& b) {
+    return a.order != b.order ? a.order < b.order : a.human.index < b.human.index;
+  };
+  std::partial_sort(work_.waking.begin(), work_.waking.begin() + static_cast<std::ptrdiff_t>(now), work_.waking.end(),
+                    nearer);
+  report_.to_wake = work_.waking.size() - now;
+  progress_.all_sleepers = report_.to_wake > 0;
+  work_.waking.resize(now);
+  // Who is not seen yet has no pose until then; with forces there is one.
+  const auto whole = [&](const WakingSleeper& one) {
+    return !work_.scene.compact_unseen || one.seen || world_.has<SleepsWithForces>(one.human) ||
+           world_.has<Footing>(one.human);
+  };
+  const auto compact = std::partition(work_.waking.begin(), work_.waking.end(), whole);
+  for (const auto& [some, as] : {std::pair{std::span(work_.waking.begin(), compact), Woken::whole},
+                                 std::pair{std::span(compact, work_.waking.end()), Woken::compact}}) {
+    work_.people.clear();
+    for (const WakingSleeper& one : some) work_.people.push_back(one.human);
+    if (work_.people.empty()) continue;
+    if (const auto done = wake_managed(frame_, work_.people, as); !done) {
+      report_.refused += work_.people.size();
+      report_.refusal = done.error().message;
+    }
+    report_.woken += work_.people.size();
+  }
+}
+
+/// Who misses most first.
+void LodRound::make_whole() {
+  const auto first = [](const Expanding& a, const Expanding& b) {
+    return a.excess != b.excess ? a.excess > b.excess : a.human.index < b.human.index;
+  };
+  const std::size_t now = std::min<std::size_t>(work_.now.expanding.size(), work_.options.expands);
+  std::partial_sort(work_.now.expanding.begin(), work_.now.expanding.begin() + static_cast<std::ptrdiff_t>(now),
+                    work_.now.expanding.end(), first);
+  report_.to_expand = work_.now.expanding.size() - now;
+  work_.people.clear();
+  for (std::size_t i = 0; i < now; ++i) work_.people.push_back(work_.now.expanding[i].human);
+  report_.expanded = work_.people.size();
+  if (work_.people.empty()) return;
+  if (const auto done = expand(frame_, work_.people); !done) {
+    report_.refused += work_.people.size();
+    report_.refusal = done.error().message;
+  }
+}
+
+void LodRound::make_compact() {
+  // People who cannot be compact do not count.
+  for (std::span<const Entity> left(work_.now.unseen); !left.empty() && report_.compacted < work_.options.compacts;) {
+    const auto some = left.first(std::min<std::size_t>(left.size(), work_.options.compacts - report_.compacted));
+    report_.compacted += compact(frame_, some);
+    left = left.subspan(some.size());
+  }
+}
+
+/// Of who has woken without muscles; `choice`: what they are to be, null where there will be none.
+Tiers<float> LodRound::begin_tiers(const LegMuscles* choice) const {
+  Tiers<float> tiers{};
+  tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
+  tiers.relative_size = work_.options.margin;
+  tiers.tolerance_m = work_.scene.tolerance_m.value_or(default_tolerance_m);
+  if (choice == nullptr) return tiers;
+  tiers.effects = tier_bare;
+  if (choice->inertia) tiers.effects |= tier_inertia;
+  if (pulls_alive(*choice)) tiers.effects |= tier_living;
+  tiers.muscles = static_cast<std::uint32_t>(choice->muscles.to_ulong());
+  return tiers;
+}
+
+/// The rung that all of a person's muscles begin with: the dearest that one of them calls for.
+void LodRound::decide_bare(Entity human, const Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
+                           Looked& out) const {
+  const auto view = static_cast<View>(tiers.view);
+  const bool looked_at = view == View::seen, simulated = view <= View::near;
+  const float size = tiers.relative_size / tiers.tolerance_m, limit = progress_.factor / size;
+  Bare bare{0, human, 0, looked_at};
+  std::int64_t dearest = -1;
+  for (std::uint32_t left = simulated ? tiers.muscles & wanted_muscles : 0; left != 0; left &= left - 1) {
+    const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
+    const RungCase of = rung_case(tiers, m, looked_at);
+    if (work_.scene.budget_s) out.counting.add(work_.ladder, of, size);
+    const std::uint32_t goal = work_.ladder.cheapest(of, limit);
+    const std::int64_t cost = work_.ladder.cost_ps(of, goal);
+    if (goal == 0 || cost <= dearest) continue;
+    dearest = cost;
+    bare.rung = goal;
+    bare.excess = std::max(bare.excess, work_.ladder.error_m(of, 0) * size);
+  }
+  if (bare.rung != 0) out.bare.push_back(bare);
+  decide_compact(human, compact, tiers, bare.rung == 0, bare.excess, out);
+}
+
+void LodRound::begin_muscles() {
+  const auto first = [](const Bare& a, const Bare& b) {
+    return a.excess != b.excess ? a.excess > b.excess : a.human.index < b.human.index;
+  };
+  const std::size_t count = std::min<std::size_t>(work_.now.bare.size(), work_.options.begins);
+  std::partial_sort(work_.now.bare.begin(), work_.now.bare.begin() + static_cast<std::ptrdiff_t>(count),
+                    work_.now.bare.end(), first);
+  report_.to_begin = work_.now.bare.size() - count;
+  work_.now.bare.resize(count);
+  std::erase_if(work_.now.bare,
+                [&](const Bare& one) { return is_compact(world_, one.human); });  // they wait to be whole
+  // Those of one choice and rung together.
+  for (std::size_t i = 0; i < work_.now.bare.size(); ++i) {
+    if (work_.now.bare[i].rung == 0) continue;
+    const Bare one = work_.now.bare[i];
+    const LegMuscles* const choice = world_.shared<LegMuscles>(one.human);
+    work_.people.clear();
+    for (std::size_t k = i; k < work_.now.bare.size(); ++k) {
+      Bare& other = work_.now.bare[k];
+      if (other.rung != one.rung || other.points != one.points || world_.shared<LegMuscles>(other.human) != choice)
+        continue;
+      work_.people.push_back(other.human);
+      other.rung = 0;
+    }
+    if (const auto done = begin_muscles(work_.people, one.rung, one.points); done) {
+      report_.begun += work_.people.size();
+    } else {
+      report_.refused += work_.people.size();
+      report_.refusal = done.error().message;
+    }
+  }
+}
+
+/// What they are to be is kept on the person's row.
+void LodRound::end_muscles() {
+  std::erase_if(work_.now.idle,
+                [&](Entity human) { return is_compact(world_, human) || !world_.alive(world_.first_member(human)); });
+  work_.now.idle.resize(std::min<std::size_t>(work_.now.idle.size(), work_.options.begins));
+  work_.people.clear();
+  for (const Entity human : work_.now.idle) {
+    // What an earlier end has kept is that of muscles that may have changed since.
+    LegMuscles now = *choice_of(world_, human);
+    const LegMuscles* const kept = world_.shared<LegMuscles>(human);
+    if (kept != nullptr) now.method = kept->method, now.reduced = kept->reduced;
+    if (kept == nullptr || *kept != now) {
+      const std::array part = {part_value(keep_choice(world_, library(), now))};
+      world_.remake_many({&human, 1}, part, std::array{type_id<LegMuscles>()}, frame_.jobs);
+    }
+  }
+  for (const Entity human : work_.now.idle)
+    world_.each_member(human, [&](Entity member) {
+      if (world_.has<MuscleOwner>(member)) work_.people.push_back(member);
+    });
+  for (const Entity human : work_.now.idle) {  // who is marked must have none: nothing fails from here on
+    auto tiers = *world_.get<Tiers>(human);
+    tiers.effects |= tier_bare;
+    world_.set(human, tiers);
+  }
+  world_.destroy_many(work_.people, frame_.jobs);
+  report_.ended = work_.now.idle.size();
+}
+
+Result<void> LodRound::begin_muscles(std::span<const Entity> people, std::uint32_t rung, bool points) {
+  LegMuscles choice = *world_.shared<LegMuscles>(people.front());
+  const MuscleMethod method = rung_method(rung, points, pulls_alive(choice));
+  choice.method = method.method;
+  choice.reduced = method.reduced;
+  // Who is seen already has no time to come within the tolerance.
+  float within_m = INFINITY;
+  for (const Entity human : people)
+    if (points) within_m = std::min(within_m, world_.get<Tiers>(human)->tolerance_m);
+  auto done = mobil::begin_muscles(frame_, people, choice, within_m);
+  for (const Entity human : people) {
+    auto tiers = *world_.get<Tiers>(human);
+    tiers.effects &= ~std::uint32_t{tier_bare};
+    for (std::uint32_t left = tiers.muscles; left != 0; left &= left - 1) {
+      const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
+      set_rung(tiers.rung, m, done ? rung : refused_rung);
+      set_rung(tiers.goal, m, done ? rung : refused_rung);
+      set_bit(tiers.points, m, points && method.method != Method::none);
+    }
+    world_.set(human, tiers);
+  }
+  return done;
+}
+
+void LodRound::put_to_sleep() {
+  if (work_.now.drowsy.empty()) return;
+  constexpr std::array plain = {key_part(TagValue<SleepsManaged>{1})};
+  constexpr std::array needy = {key_part(TagValue<SleepsManaged>{1}), component_part<Needs>()};
+  work_.now.drowsy.resize(std::min<std::size_t>(work_.now.drowsy.size(), work_.options.sleeps));
+  // Who has needs of their own keeps them.
+  const auto own = std::stable_partition(work_.now.drowsy.begin(), work_.now.drowsy.end(),
+                                         [&](Entity human) { return world_.get<Needs>(human)->own == 0; });
+  const auto without = static_cast<std::size_t>(own - work_.now.drowsy.begin());
+  report_.slept = sleep_managed(frame_, std::span(work_.now.drowsy).first(without), plain) +
+                  sleep_managed(frame_, std::span(work_.now.drowsy).subspan(without), needy);
+}
+
+}  // namespace mobil::inline v0_3

@@ -1,0 +1,33 @@
+#pragma once
+// What a simulation consists of. It stays where it is when its Simulation is moved.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
+#include <mobil/systems/people/sleepers.h>
+#include "systems/bellies/belly_library.h"
+
+namespace mobil::inline v0_3 {
+
+struct Simulation::Core {
+  Core(const SimulationOptions& options, const Clock& clock, std::vector<Module> modules, Schedule schedule);
+
+  SleepTime time() const { return {tick.index, tick.dt_s}; }
+
+  World world;
+  Clock clock;
+  std::optional<Threads> threads;
+  Jobs jobs;
+  std::vector<Module> modules;           // the library's, then the host's
+  std::vector<std::uint64_t> our_parts;  // of the library's modules, ascending
+  Schedule schedule;
+  std::shared_ptr<BellyLibrary> library;
+  Workspace workspace;
+  Tick tick;
+  Frame frame{world, jobs, tick, workspace, schedule};
+};
+
+}  // namespace mobil::inline v0_3

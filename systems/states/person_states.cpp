@@ -1,0 +1,207 @@
+#include "systems/states/person_states.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <vector>
+
+#include <mobil/components/lod.h>
+#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/step_watch.h>
+#include <mobil/systems/states/tiers.h>
+#include "systems/people/by_table.h"
+#include "systems/people/fat_wobble.h"
+#include "systems/people/ground_forces.h"
+#include "systems/people/whole.h"
+#include "systems/states/warm_muscles.h"
+
+namespace mobil::inline v0_3 {
+namespace {
+
+SleepTime time_of(const Frame& frame) {
+  return {frame.tick.index, frame.tick.dt_s};
+}
+
+/// Muscles that have just begun get within `within_m` of where they would be.
+void warm(const Frame& frame, std::span<const Entity> people, const LegMuscles& choice, float within_m) {
+  const MuscleScene scene = scene_of(frame);
+  const std::uint32_t ticks = warm_ticks(within_m, scene.time.tick_s);
+  if (ticks == 0) return;
+  auto& room = frame.workspace.get<SleepWork>().warming;
+  if (room == nullptr)
+    room = std::make_unique<WarmingRoom>(frame.workspace.get<MuscleMeans>().modules, frame.workspace.memory());
+  room->warm(scene, people, choice, ticks);
+}
+
+/// Muscles kept on the row of somebody awake and whole (kept_choice) begin.
+Result<void> begin_kept(const Frame& frame, Entity person) {
+  const auto choice = kept_choice(frame.world, person);
+  if (!choice) return {};
+  if (auto done = begin_leg_muscles(scene_of(frame), {&person, 1}, *choice); !done) return done;
+  frame.world.remake_many({&person, 1}, {}, std::array{type_id<LegMuscles>()}, frame.jobs);
+  choose_from_now(frame.world, person);
+  return {};
+}
+
+}  // namespace
+
+MuscleScene scene_of(const Frame& frame) {
+  const auto& means = frame.workspace.get<MuscleMeans>();
+  return {frame.world, *means.library, frame.workspace.get<MuscleWork>(), frame.jobs, {frame.tick.index, means.tick_s}};
+}
+
+Result<void> wake(const Frame& frame, std::span<const Entity> people, float within_m) {
+  World& world = frame.world;
+  auto& work = frame.workspace.get<SleepWork>();
+  World::Attempt attempt(world, frame.jobs);
+  work.asleep.clear();
+  work.managed.clear();
+  for (const Entity one : people)
+    if (is_asleep(world, one)) (world.has<SleepsManaged>(one) ? work.managed : work.asleep).push_back(one);
+  drop_repeated(work.asleep);
+  drop_repeated(work.managed);
+  if (!work.managed.empty()) {
+    if (auto done = wake_managed(frame, work.managed, Woken::whole); !done) return done;
+  }
+  const auto warm_them = [&](std::span<const Entity> some, const LegMuscles& choice) {
+    warm(frame, some, choice, within_m);
+  };
+  auto done = wake_people(scene_of(frame), work.asleep, {}, {}, work.owned, work, std::cref(warm_them));
+  if (done) attempt.keep();
+  return done;
+}
+
+Result<void> wake_managed(const Frame& frame, std::span<const Entity> people, Woken as) {
+  auto& work = frame.workspace.get<SleepWork>();
+  auto done = wake_people(scene_of(frame), people, {WakingMuscles::later, as}, managed_parts(), work.owned, work);
+  Tiers<float> unseen{};
+  unseen.view = static_cast<std::uint32_t>(View::out_of_reach);
+  for (const Entity person : people) frame.world.set(person, unseen);
+  return done;
+}
+
+std::size_t sleep_managed(const Frame& frame, std::span<const Entity> people, std::span<const KeyPart> keeps) {
+  auto& work = frame.workspace.get<SleepWork>();
+  return *sleep_people(scene_of(frame), people, true, keeps, work.owned, work);
+}
+
+Result<std::size_t> set_state(const Frame& frame, std::span<const Entity> people, PersonState state, float within_m) {
+  auto& work = frame.workspace.get<SleepWork>();
+  Result<void> done;
+  if (state == PersonState::posed)
+    return fail("nobody becomes posed; spawn_posed makes people whose host animates the skeleton");
+  if (state == PersonState::compact) compact(frame, people);
+  if (state == PersonState::full) done = make_whole(frame, people, within_m);
+  if (state == PersonState::asleep) {
+    const auto first = [&] { return expand(frame, people); };
+    done = sleep_people(scene_of(frame), people, false, {}, work.owned, work, first).map([](std::size_t) {});
+  }
+  return done.map([&] {
+    const auto is_so = [&](Entity person) { return person_state(frame.world, person) == state; };
+    return static_cast<std::size_t>(std::ranges::count_if(people, is_so));
+  });
+}
+
+Result<void> enable(const Frame& frame, std::span<const Entity> people, Feature feature, bool on) {
+  World& world = frame.world;
+  if (feature == Feature::step_events) {
+    const Status status = watch_steps(world, frame.jobs, people, on);
+    if (status == Status::missing) return fail("the host animates one of these people; watch walkers alone", status);
+    return result_of("step events", status);
+  }
+  if (feature == Feature::fat) return result_of("fat", set_fat_wobble(world, frame.jobs, people, on));
+  std::vector<Entity> changes;
+  for (const Entity person : people) {
+    if (!is_person(world, person)) return fail(Status::stale_entity);
+    if (has_forces(world, person) != on) changes.push_back(person);
+  }
+  World::Attempt attempt(world, frame.jobs);
+  if (auto done = make_whole(frame, changes); !done) return done;
+  auto done = result_of("forces", set_forces(world, frame.jobs, changes, on));
+  if (done) attempt.keep();
+  return done;
+}
+
+std::size_t compact(const Frame& frame, std::span<const Entity> people) {
+  return compact_people(scene_of(frame), people, frame.workspace.get<CompactWork>());
+}
+
+Result<void> expand(const Frame& frame, std::span<const Entity> people) {
+  World::Attempt attempt(frame.world, frame.jobs);
+  auto done = expand_people(scene_of(frame), people, frame.workspace.get<CompactWork>());
+  if (done) attempt.keep();
+  return done;
+}
+
+Result<void> make_whole(const Frame& frame, std::span<const Entity> people, float within_m) {
+  World::Attempt attempt(frame.world, frame.jobs);
+  if (auto done = wake(frame, people, within_m); !done) return done;
+  std::vector<Entity>& compact = frame.workspace.get<SleepWork>().rows;
+  compact.clear();
+  for (const Entity person : people)
+    if (is_compact(frame.world, person)) compact.push_back(person);
+  if (!compact.empty()) {
+    drop_repeated(compact);
+    if (auto done = expand(frame, compact); !done) return done;
+  }
+  attempt.keep();
+  return {};
+}
+
+Result<void> make_muscles_whole(const Frame& frame, std::span<const Entity> people) {
+  World::Attempt attempt(frame.world, frame.jobs);
+  if (auto done = make_whole(frame, people); !done) return done;
+  for (const Entity person : people) {
+    if (auto done = begin_kept(frame, person); !done) return done;
+  }
+  attempt.keep();
+  return {};
+}
+
+Result<void> begin_muscles(const Frame& frame, std::span<const Entity> people, const LegMuscles& choice,
+                           float within_m) {
+  return begin_leg_muscles(scene_of(frame), people, choice).map([&] { warm(frame, people, choice, within_m); });
+}
+
+void choose_from_now(World& world, Entity person) {
+  if (world.has<Tiers>(person)) world.set(person, tiers_of(world, person));
+}
+
+Result<std::size_t> change_walks(const Frame& frame, std::span<const WalkChange> changes) {
+  auto& work = frame.workspace.get<SleepWork>();
+  std::vector<Entity>& people = work.rows;
+  people.clear();
+  for (const WalkChange& change : changes) people.push_back(change.human);
+  if (!frame.world.alive_once(people)) return fail(Status::stale_entity);
+  find_asked(frame.world, frame.jobs, changes, time_of(frame), work, people);
+  if (!people.empty()) {
+    if (auto done = wake(frame, std::vector(people)); !done) return tl::unexpected(done.error());
+  }
+  return ask_walks(frame.world, frame.jobs, changes, time_of(frame), work);
+}
+
+void place_people(World& world, const SleepTime& time, std::span<const PlaceRequest> places,
+                  std::vector<Placing>& ways) {
+  ways.clear();
+  for (const PlaceRequest& to : places)
+    ways.push_back(is_asleep(world, to.person) ? way_of_sleeper(world, time, to) : Placing{});
+  for (std::size_t i = 0; i < places.size(); ++i) {  // from here on no memory is taken
+    const Entity person = places[i].person;
+    if (is_asleep(world, person)) {
+      place_sleeper(world, person, time, ways[i]);
+    } else {
+      move_muscles(world, person, place_walker(world, places[i]));
+    }
+  }
+}
+
+Phase settled_walkers() {
+  return {"settled walkers", [](const Frame& frame) {
+            auto& work = frame.workspace.get<SleepWork>();
+            work.restless.clear();
+            end_unsettled(frame.world, frame.jobs, time_of(frame), work.unsettled, work.rows, work.restless);
+            if (!work.restless.empty()) wake(frame, std::vector(work.restless));
+          }};
+}
+
+}  // namespace mobil::inline v0_3

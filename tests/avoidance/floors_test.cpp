@@ -1,0 +1,66 @@
+// Who walks on a bridge, and who walks below it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include <mobil/components/avoidance.h>
+#include <mobil/terrain.h>
+#include "tests/avoidance/walkers.h"
+
+namespace mobil {
+namespace {
+
+/// Two who come toward each other, the second so much higher; how far the first goes aside at most, and the speeds of
+/// both at the end.
+struct Meeting {
+  double aside_m = 0;
+  float speed_m_s[2] = {0, 0};
+};
+Meeting meet_at(float higher_m) {
+  Avoiders all;
+  const Entity low = all.come(1.3F, 0.0F, -6.0F), high = all.come(1.3F, 0.05F, 6.0F, pi);
+  all.simulation.terrain().set_heights([=](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+    for (std::size_t i = 0; i < at.size(); ++i) out[i].height_m = at[i].human == high ? higher_m : 0;
+  });
+  EXPECT_TRUE(all.simulation.terrain().manage({&high, 1}));
+  Meeting meeting;
+  for (int tick = 0; tick < 600; ++tick) {
+    all.run();
+    meeting.aside_m = std::max(meeting.aside_m, std::fabs(all.root(low).x_m));
+  }
+  for (const Entity one : {low, high}) meeting.speed_m_s[one == high] = all.simulation.get<Gait>(one)->speed_m_s;
+  EXPECT_GT(all.root(low).z_m, 4);
+  EXPECT_LT(all.root(high).z_m, -4);
+  return meeting;
+}
+
+TEST(Floors, WhoWalksOnABridgeIsInNobodysWayBelow) {
+  const Meeting level = meet_at(0), kerb = meet_at(0.3F), bridge = meet_at(4), pit = meet_at(-4);
+  for (const Meeting& same : {level, kerb}) EXPECT_GT(same.aside_m, 0.1);
+  for (const Meeting& apart : {bridge, pit}) {
+    EXPECT_LT(apart.aside_m, 0.01);
+    for (const float speed : apart.speed_m_s) EXPECT_EQ(speed, 1.3F);
+  }
+}
+
+/// A crowd that stands under a bridge does not stop who crosses it.
+TEST(Floors, ACrowdBelowStopsNobodyAbove) {
+  for (const float height_m : {0.0F, 5.0F}) {
+    Avoiders all;
+    for (int i = -3; i <= 3; ++i)
+      for (int k = -1; k <= 1; ++k) all.come(0.0F, 0.4F * static_cast<float>(i), 0.4F * static_cast<float>(k));
+    const Entity crosses = all.come(1.3F, 0.0F, -5.0F);
+    all.simulation.terrain().set_heights([=](std::span<const TerrainQuery>, std::span<TerrainHeight> out) {
+      for (TerrainHeight& at : out) at.height_m = height_m;
+    });
+    EXPECT_TRUE(all.simulation.terrain().manage({&crosses, 1}));
+    all.run(60 * 8);
+    const Root end = all.root(crosses);
+    const bool straight = std::fabs(end.x_m) < 0.02 && end.z_m > 5;
+    EXPECT_EQ(straight, height_m > 0) << end.x_m << ' ' << end.z_m;
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,481 @@
+// What people get from what a scene needs, in simulations that run.
+#include <mobil/each.h>
+#include <mobil/engine/world.h>
+#include <mobil/lod.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/surfaces/nodal_view.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "tests/engine/counting_malloc.h"
+#include "tests/interfaces.h"
+#include "tests/labels.h"
+#include "tests/refused.h"
+#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
+#include "tests/world_of.h"
+
+MOBIL_TEST_LABELS("threads");
+
+namespace mobil::relevance_test {
+/// Reduced bellies of one body alone need a basis a muscle; all are quick to make.
+Person one_body(int i) {
+  Person p;
+  p.body.height_m = 1.8F;
+  p.body.mass_kg = 80;
+  p.gait.speed_m_s = 1.0F + 0.05F * static_cast<float>(i % 12);
+  return p;
+}
+
+constexpr std::size_t fine_rung = 9;
+static_assert(rungs[fine_rung].cells == Cells{8, 8, 32});
+
+/// The library's table, but for the fine mesh, which it finds no good: bases of that take a second each to make.
+const AccuracyTable& quick_table() {
+  static const std::vector<AccuracyRow> rows = [] {
+    std::vector<AccuracyRow> all(accuracy_table().rows.begin(), accuracy_table().rows.end());
+    for (AccuracyRow& row : all) row.error_m[fine_rung] = 1;
+    return all;
+  }();
+  static const AccuracyTable table{rows, accuracy_table().cost};
+  return table;
+}
+
+LodOptions quick(LodOptions options) {
+  options.table = &quick_table();
+  return options;
+}
+
+/// People with two muscles, or as many of the first groups as asked: what a muscle costs to make a test waits for.
+struct Scene {
+  Simulation simulation;
+  Lod relevance;
+  std::vector<Entity> people;
+  std::size_t muscle_count = 2;
+
+  explicit Scene(int humans, const LodOptions& options = {.stagger = 1, .machine_factor = 1}, int threads = 1)
+      : simulation({.threads = threads}), relevance(lod_of(simulation, quick(options))) {
+    for (int i = 0; i < humans; ++i) add(i);
+  }
+  void add(int i) {
+    const Entity human = join(simulation, one_body(i), false);
+    auto state = *simulation.get<GaitState>(human);
+    state.line_x_m = state.anchor_x_m = 3.0F * static_cast<float>(i % 8);
+    state.line_z_m = state.anchor_z_m = 3.0F * static_cast<float>(i / 8);
+    world_of(simulation).set(human, state);
+    people.push_back(human);
+  }
+  Result<void> ask(SceneNeeds needs) {
+    needs.muscles = MuscleSet((1U << muscle_count) - 1);
+    return relevance.set_scene(needs);
+  }
+  void manage_all(const PersonNeeds& needs = {}) {
+    for (const Entity human : people) {
+      const auto done = relevance.manage(human, needs);
+      ASSERT_TRUE(done) << done.error().message;
+    }
+  }
+  LodReport last{};
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      simulation.tick();
+      last = relevance.report();
+    }
+  }
+  template <class F>
+  void each(F what) const {
+    for (const Entity human : people) {
+      for (std::size_t m = 0; m < muscle_count; ++m) what(human, static_cast<Muscle>(m));
+    }
+  }
+  std::vector<std::size_t> rungs_of() const {
+    std::vector<std::size_t> all;
+    each([&](Entity human, Muscle muscle) { all.push_back(relevance.why(human, muscle)->rung); });
+    return all;
+  }
+};
+
+std::uint64_t deformed(const Simulation& simulation) {
+  std::uint64_t sum = 0;
+  for (const SystemReport& system : simulation.report().systems) {
+    if (system.name.starts_with("deformation")) sum += system.entities;
+  }
+  return sum;
+}
+
+TEST(Lod, EveryMuscleKeepsToItsToleranceAndNoCheaperMethodWould) {
+  constexpr std::array tolerances_m = {0.001F, 0.002F, 0.005F, 0.02F};  // the first the scene's, the others their own
+  Scene scene(6 * static_cast<int>(tolerances_m.size()), {.switching_s = 1, .stagger = 1, .machine_factor = 1});
+  scene.muscle_count = muscle_group_count;
+  ASSERT_TRUE(scene.ask({.tolerance_m = tolerances_m[0]}));
+  scene.manage_all();
+  const auto tolerance_of = [&](std::size_t i) { return tolerances_m[i / 6]; };
+  for (std::size_t i = 6; i < scene.people.size(); ++i) {
+    ASSERT_TRUE(scene.relevance.manage(scene.people[i], {.tolerance_m = tolerance_of(i)}));
+  }
+  scene.simulation.tick();
+  const auto report = scene.relevance.report();
+  EXPECT_EQ(report.refused, 0U) << report.refusal;
+  const RungLadder ladder(quick_table());
+  for (std::size_t i = 0; i < scene.people.size(); ++i) {
+    const Entity human = scene.people[i];
+    const float tolerance_m = tolerance_of(i);
+    for (std::uint32_t m = 0; m < muscle_group_count; ++m) {
+      const auto muscle = static_cast<Muscle>(m);
+      const auto choice = *scene.relevance.why(human, muscle);
+      const auto tiers = *scene.simulation.get<Tiers>(human);
+      const RungCase of{m, tiers.speed_step, false, true};
+      EXPECT_EQ(choice.rung, ladder.cheapest(of, tolerance_m / tiers.relative_size));
+      if (choice.reason == Reason::tolerance) {
+        EXPECT_LE(choice.predicted_error_m, tolerance_m);
+      } else {
+        EXPECT_EQ(choice.reason, Reason::best) << choice.text;
+      }
+      EXPECT_EQ(scene.simulation.method(human, muscle).method, rungs[choice.rung].method);
+      EXPECT_FALSE(choice.text.empty());
+    }
+  }
+}
+
+/// The heap tells: to make a basis takes more than a thousand requests.
+TEST(Lod, PreparedNoUpdateMakesWhatMethodsShare) {
+  if (!counts_malloc) GTEST_SKIP() << "malloc is another's here";
+  std::array<std::size_t, 2> most{};
+  for (const bool prepared : {false, true}) {
+    Scene scene(30, {.stagger = 1, .machine_factor = 1});
+    scene.muscle_count = 1;
+    Viewpoint camera{.position_m = {0, 1, -400}};
+    ASSERT_TRUE(scene.ask({.camera = camera}));
+    std::size_t meshes = 0;
+    const auto count = [&](std::size_t done, std::size_t of) { meshes += done < of ? 1 : 0; };
+    if (prepared) {
+      ASSERT_TRUE(scene.relevance.prepare({}, count));
+    }
+    EXPECT_EQ(meshes > 4, prepared);
+    EXPECT_LT(meshes, rung_count - 1) << "what is never the cheapest is not made";
+    scene.manage_all();
+    for (int t = 0; t < 40; ++t) {
+      camera.position_m.z = -400 + 10.0F * static_cast<float>(t);  // out of reach, then among them
+      ASSERT_TRUE(scene.ask({.camera = camera}));
+      const std::size_t before = malloc_requests;
+      scene.simulation.tick();
+      most[prepared ? 1 : 0] = std::max(most[prepared ? 1 : 0], malloc_requests - before);
+      scene.simulation.tick();
+    }
+  }
+  EXPECT_GT(most[0], most[1] + 1000);
+}
+
+TEST(Lod, PreparingRefusesWhatIsNoTolerance) {
+  Scene scene(1);
+  for (const float bad : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
+    EXPECT_TRUE(is_refused(scene.relevance.prepare({&bad, 1}), "tolerance"));
+  }
+}
+
+TEST(Lod, NobodyManagedIsNobodyTouched) {
+  Simulation plain, watched;
+  for (Simulation* simulation : {&plain, &watched}) {
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(simulation->set_muscles(join(*simulation, one_body(i), false), {.muscles = MuscleSet(3)}));
+    }
+  }
+  Lod relevance = watched.lod();
+  ASSERT_TRUE(relevance.set_scene({.camera = Viewpoint{}, .budget_s = 1e-6}));
+  for (int t = 0; t < 20; ++t) {
+    plain.tick();
+    watched.tick();
+    const auto report = relevance.report();
+    EXPECT_EQ(report.evaluated + report.switched + report.waiting, 0U);
+  }
+  EXPECT_EQ(hash_world(plain), hash_world(watched));
+  EXPECT_EQ(plain.world().tables().size(), watched.world().tables().size());
+}
+
+TEST(Lod, OutOfSightAndReachNothingDeformsAndPeopleWalkOn) {
+  Scene scene(8);
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F}));
+  scene.manage_all();
+  scene.run(2);
+  ASSERT_GT(deformed(scene.simulation), 0U);
+  Viewpoint away;
+  away.position_m = {0, 1.7F, 1000};
+  away.reach_m = 100;
+  ASSERT_TRUE(scene.ask({.camera = away}));
+  scene.run(60);  // what faded has gone
+  EXPECT_EQ(deformed(scene.simulation), 0U);
+  const float before = scene.simulation.get<Pose>(scene.people[0])->position_m[0].z;
+  scene.run(30);
+  EXPECT_GT(scene.simulation.get<Pose>(scene.people[0])->position_m[0].z, before + 0.2F);
+  scene.each([&](Entity human, Muscle muscle) {
+    EXPECT_EQ(scene.simulation.method(human, muscle).method, Method::none);
+    EXPECT_EQ(scene.relevance.why(human, muscle)->reason, Reason::out_of_reach);
+    EXPECT_EQ(nodal_displacement(scene.simulation.world(), scene.simulation.muscle(human, muscle, Side::right)).first,
+              nullptr);
+  });
+}
+
+TEST(Lod, WhoIsFartherFromTheCameraHasNoDearerMethod) {
+  Scene scene(40);
+  Viewpoint camera;
+  camera.position_m = {10, 1.5F, -4};
+  camera.half_angle_rad = 1.5F;
+  ASSERT_TRUE(scene.ask({.camera = camera, .tolerance_px = 0.3F}));
+  scene.manage_all();
+  scene.simulation.tick();
+  scene.each([&](Entity a, Muscle muscle) {
+    scene.each([&](Entity b, Muscle other) {
+      if (muscle != other) return;
+      const auto of_a = *scene.relevance.why(a, muscle), of_b = *scene.relevance.why(b, muscle);
+      if (of_a.reason != Reason::tolerance || of_b.reason != Reason::tolerance) return;
+      const bool alike = scene.simulation.get<Tiers>(a)->speed_step == scene.simulation.get<Tiers>(b)->speed_step;
+      if (alike && of_a.tolerance_m > of_b.tolerance_m) {
+        EXPECT_LE(of_a.predicted_cost_us, of_b.predicted_cost_us);
+      }
+    });
+  });
+}
+
+TEST(Lod, ControlPointsArePlacedForThoseLookedAtAlone) {
+  Scene scene(8);
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F, .looked_at = false}));
+  scene.manage_all();
+  ASSERT_TRUE(scene.relevance.manage(scene.people[3], {.looked_at = true}));
+  scene.run(60);
+  for (std::size_t i = 0; i < scene.people.size(); ++i) {
+    const Entity muscle = scene.simulation.muscle(scene.people[i], Muscle::hamstrings, Side::left);
+    EXPECT_EQ(nodal_displacement(scene.simulation.world(), muscle).first != nullptr, i == 3) << i;
+  }
+}
+
+TEST(Lod, WhatOnePersonNeedsHoldsBeforeWhatTheSceneNeeds) {
+  Scene scene(2);
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.05F}));
+  scene.manage_all();
+  MuscleSet one;
+  one.set(static_cast<std::size_t>(Muscle::quadriceps));
+  ASSERT_TRUE(scene.relevance.manage(scene.people[1], {.muscles = one, .tolerance_m = 0.001F}));
+  scene.simulation.tick();
+  EXPECT_EQ(scene.relevance.why(scene.people[1], Muscle::hamstrings)->reason, Reason::not_wanted);
+  EXPECT_EQ(scene.simulation.method(scene.people[1], Muscle::hamstrings).method, Method::none);
+  EXPECT_EQ(scene.relevance.why(scene.people[1], Muscle::quadriceps)->tolerance_m, 0.001F);
+  EXPECT_GT(scene.relevance.why(scene.people[1], Muscle::quadriceps)->predicted_cost_us,
+            scene.relevance.why(scene.people[0], Muscle::quadriceps)->predicted_cost_us);
+}
+
+TEST(Lod, TheSameWhateverTheThreads) {
+  const auto fly = [](int threads) {
+    Scene scene(40, {.switches = 12, .stagger = 3, .machine_factor = 2}, threads);
+    EXPECT_TRUE(scene.ask({}));
+    scene.manage_all();
+    std::vector<std::uint64_t> hashes;
+    for (int t = 0; t < 60; ++t) {
+      Viewpoint camera;
+      camera.position_m = {static_cast<float>(t) * 0.4F, 1.7F, -5};
+      camera.half_angle_rad = 0.4F;
+      EXPECT_TRUE(scene.ask({.camera = camera, .budget_s = 10e-6}));
+      scene.run(1);
+      if (t % 10 == 9) hashes.push_back(hash_world(scene.simulation));
+    }
+    return hashes;
+  };
+  const auto one = fly(1);
+  EXPECT_EQ(fly(2), one);
+  EXPECT_EQ(fly(1), one);
+}
+
+TEST(Lod, TheSameInWhateverOrderPeopleCame) {
+  constexpr int humans = 24;
+  const auto choices = [](const std::vector<int>& order) {
+    Scene scene(0);
+    for (const int i : order) scene.add(i);
+    Viewpoint camera;
+    camera.position_m = {10, 1.5F, -4};
+    EXPECT_TRUE(scene.ask({.camera = camera, .tolerance_px = 0.5F}));
+    scene.manage_all();
+    scene.run(3);
+    std::vector<std::size_t> by_person(humans * scene.muscle_count);
+    const auto all = scene.rungs_of();
+    for (std::size_t at = 0; at < order.size(); ++at) {
+      for (std::size_t m = 0; m < scene.muscle_count; ++m) {
+        by_person[static_cast<std::size_t>(order[at]) * scene.muscle_count + m] = all[at * scene.muscle_count + m];
+      }
+    }
+    return by_person;
+  };
+  std::vector<int> order(humans);
+  std::iota(order.begin(), order.end(), 0);
+  const auto in_order = choices(order);
+  EXPECT_GT(std::ranges::max(in_order), std::ranges::min(in_order));
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  EXPECT_EQ(choices(order), in_order);
+}
+
+TEST(Lod, NoMoreMethodsChangeAtOnceThanAllowedAndThoseThatMissMostComeFirst) {
+  Scene scene(20, {.switches = 7, .stagger = 1, .machine_factor = 1});
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F}));
+  scene.manage_all();
+  std::size_t waiting = scene.people.size() * scene.muscle_count;
+  while (waiting > 0) {
+    scene.simulation.tick();
+    const auto report = scene.relevance.report();
+    ASSERT_EQ(report.switched, std::min<std::size_t>(7, waiting));
+    waiting -= report.switched;
+    EXPECT_EQ(report.waiting, waiting);
+    float least_done = INFINITY, most_left = 0;
+    const RungLadder ladder(quick_table());
+    scene.each([&](Entity human, Muscle muscle) {
+      const auto choice = *scene.relevance.why(human, muscle);
+      const auto tiers = *scene.simulation.get<Tiers>(human);
+      const float unmoved = ladder.error_m({static_cast<std::uint32_t>(muscle), tiers.speed_step, false, true}, 0);
+      (choice.reason == Reason::switch_pending ? most_left = std::max(most_left, unmoved)
+                                               : least_done = std::min(least_done, unmoved));
+    });
+    EXPECT_GE(least_done, most_left);
+  }
+}
+
+TEST(Lod, WhatIsForcedStaysAndWhatIsUnforcedIsChosenAgain) {
+  Scene scene(2);
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.005F}));
+  scene.manage_all();
+  scene.run(1);
+  const Entity human = scene.people[0];
+  const std::size_t chosen = scene.relevance.why(human, Muscle::hamstrings)->rung;
+  ASSERT_TRUE(scene.relevance.force(human, Muscle::hamstrings, rung_method(10, true)));
+  scene.run(3);
+  EXPECT_EQ(scene.simulation.method(human, Muscle::hamstrings).method, Method::ecd);
+  EXPECT_EQ(scene.relevance.why(human, Muscle::hamstrings)->reason, Reason::forced);
+  ASSERT_EQ(scene.relevance.unforce(human, Muscle::hamstrings), Status::ok);
+  scene.run(1);
+  EXPECT_EQ(scene.relevance.why(human, Muscle::hamstrings)->rung, chosen);
+}
+
+TEST(Lod, WhatWasForcedOfAMuscleThatIsGoneIsForgotten) {
+  Scene scene(2);
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.005F}));
+  scene.manage_all();
+  scene.run(1);
+  const Entity human = scene.people[0];
+  ASSERT_TRUE(scene.relevance.force(human, Muscle::hamstrings, rung_method(10, true)));
+  LegMuscles choice;
+  for (const bool there : {false, true}) {
+    choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings), there);
+    ASSERT_TRUE(scene.simulation.set_muscles(human, choice));
+    scene.run(1);
+  }
+  EXPECT_NE(scene.relevance.why(human, Muscle::hamstrings)->reason, Reason::forced);
+}
+
+TEST(Lod, WhoIsReleasedKeepsTheirMusclesAndIsNotTouchedAgain) {
+  Scene scene(2);
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.001F}));
+  scene.manage_all();
+  scene.run(1);
+  const auto method = scene.simulation.method(scene.people[0], Muscle::quadriceps);
+  ASSERT_EQ(scene.relevance.release(scene.people[0]), Status::ok);
+  EXPECT_EQ(scene.relevance.release(scene.people[0]), Status::missing);
+  ASSERT_TRUE(scene.ask({.tolerance_m = 1}));
+  scene.run(2);
+  EXPECT_EQ(scene.simulation.method(scene.people[0], Muscle::quadriceps).method, method.method);
+  EXPECT_EQ(scene.simulation.method(scene.people[1], Muscle::quadriceps).method, Method::none);
+  EXPECT_EQ(scene.relevance.why(scene.people[0], Muscle::quadriceps).error(), Status::missing);
+}
+
+TEST(Lod, PeopleMayGoUnderWay) {
+  Scene scene(20, {.stagger = 3, .machine_factor = 1});
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F, .budget_s = 7e-6}));
+  scene.manage_all();
+  for (int i = 0; i < 15; ++i) {
+    scene.run(2);
+    ASSERT_EQ(scene.simulation.despawn(scene.people.back()), Status::ok);
+    scene.people.pop_back();
+  }
+  scene.run(12);
+  double sum_us = 0;
+  scene.each([&](Entity human, Muscle muscle) { sum_us += 2 * scene.relevance.why(human, muscle)->predicted_cost_us; });
+  scene.simulation.tick();
+  EXPECT_NEAR(1e6 * scene.relevance.report().predicted_s, sum_us, 1e-3);
+}
+
+TEST(Lod, RefusesWhatIsOutOfRangeInOneLine) {
+  Scene scene(1);
+  for (const SceneNeeds& bad :
+       {SceneNeeds{.tolerance_m = 0.0F}, SceneNeeds{.tolerance_m = NAN}, SceneNeeds{.budget_s = -1},
+        SceneNeeds{.tolerance_px = INFINITY}, SceneNeeds{.camera = Viewpoint{.forward = {0, 0, 0}}},
+        SceneNeeds{.camera = Viewpoint{.half_angle_rad = 4}}}) {
+    EXPECT_TRUE(is_refused(scene.relevance.set_scene(bad)));
+  }
+  EXPECT_FALSE(scene.relevance.manage(Entity{77, 1}));
+  EXPECT_FALSE(scene.relevance.manage(scene.people[0], {.tolerance_m = -1.0F}));
+  EXPECT_FALSE(scene.relevance.force(scene.people[0], Muscle::hamstrings, {}));
+  EXPECT_EQ(scene.relevance.why(Entity{77, 1}, Muscle::hamstrings).error(), Status::stale_entity);
+  EXPECT_FALSE(scene.relevance.set_options({.slack = 0}));
+  EXPECT_FALSE(scene.relevance.set_options({.stagger = 0}));
+}
+
+/// The time that methods as they are would take on a machine so much slower than the table's.
+double clock_s(const Scene& scene, double slower) {
+  double sum_us = 0;
+  const AccuracyTable& table = accuracy_table();
+  scene.each([&](Entity human, Muscle muscle) {
+    const MuscleMethod method = scene.simulation.method(human, muscle);
+    for (std::size_t r = 0; r < rung_count; ++r) {
+      const MuscleMethod of = rung_method(r, method.reduced.control_points);
+      const bool same = of.method == method.method && of.reduced.moving == method.reduced.moving &&
+                        of.reduced.vectors == method.reduced.vectors && of.reduced.cells == method.reduced.cells;
+      if (same) {
+        sum_us += 2 * static_cast<double>(table.cost[0].state_us[r] +
+                                          (method.reduced.control_points ? table.cost[0].points_us[r] : 0.0F));
+        break;
+      }
+    }
+  });
+  return 1e-6 * slower * sum_us;
+}
+
+TEST(Lod, ABudgetHoldsAsTheCameraFliesOverASlowAndUnsteadyMachine) {
+  std::mt19937 dice(3);
+  std::normal_distribution<double> bell;
+  constexpr int humans = 64;
+  const std::unique_ptr<Scene>* self = nullptr;
+  double spent_s = 0, slower = 3;
+  LodOptions options;
+  options.switches = 20;
+  options.measured_s = [&](const Schedule&) { return spent_s; };
+  const auto scene = std::make_unique<Scene>(humans, options);
+  self = &scene;
+  ASSERT_TRUE(scene->ask({}));
+  scene->manage_all();
+  std::vector<double> parts;
+  double budget_s = 0;
+  for (int t = 0; t < 700; ++t) {
+    Viewpoint camera;
+    camera.position_m = {12 + 12 * std::sin(0.02F * static_cast<float>(t)), 1.7F, static_cast<float>(t) * 0.02F - 6};
+    camera.half_angle_rad = 0.7F;
+    SceneNeeds needs{.camera = camera, .tolerance_px = 0.5F};
+    if (t >= 60) needs.budget_s = budget_s;
+    ASSERT_TRUE((*self)->ask(needs));
+    (*self)->run(1);
+    if (t > 400) slower = 4;  // other programs are at work
+    const double exact_s = clock_s(**self, slower);
+    spent_s = exact_s * std::max(0.5, 1 + 0.03 * bell(dice));
+    if (t == 59) budget_s = 0.4 * exact_s;
+    if (t > 160 && (t < 400 || t > 460)) parts.push_back(spent_s / budget_s);
+  }
+  ASSERT_GT(budget_s, 0);
+  std::ranges::sort(parts);
+  EXPECT_LE(parts[static_cast<std::size_t>(0.99 * static_cast<double>(parts.size()))], 1.1);
+  EXPECT_GE(parts[parts.size() / 2], 0.5) << "and is made use of";
+}
+
+}  // namespace mobil::relevance_test

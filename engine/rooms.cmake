@@ -1,8 +1,9 @@
 # Folders that are one piece: the compiler reads headers and makes Eigen's templates once for all of it.
-set(joined_kernels "systems/activation systems/lines systems/avoidance systems/forces" "systems/gait systems/kinematics"
+set(joined_kernels "systems/activation systems/lines systems/avoidance systems/forces"
   "systems/surfaces systems/deformation")
-set(joined_sources "systems/lod systems/accuracy systems/states systems/terrain systems/avoidance" "systems/people systems/muscles systems/limits systems/poses systems/bellies"
-  "systems systems/snapshot systems/saving systems/gait systems/lines systems/deformation" 
+set(joined_sources "systems/lod systems/accuracy systems/states systems/terrain systems/avoidance"
+  "systems/people systems/muscles systems/limits systems/poses systems/bellies"
+  "systems systems/snapshot systems/saving systems/gait systems/lines systems/deformation"
   "assets/body assets/gait assets/muscles assets/files" "assets/finite assets/fem assets/reduction" "program walk")
 
 # mobil_pieces(target speed): its sources are one piece a folder for the compiler.

@@ -154,7 +154,7 @@ const std::map<std::string, Floors> order = {
 };
 
 /// Folders of systems/ whose systems know nothing of each other; modules and the facade may use them all.
-const std::set<std::string> kernels = {"gait", "kinematics", "forces", "lines", "activation", "deformation", "capture"};
+const std::set<std::string> kernels = {"gait", "forces", "lines", "activation", "deformation", "capture"};
 
 /// The folder of a room that a file (as includes are written) lies in; the laboratory's folders are "lab/NAME".
 std::string folder_of(const std::string& file) {

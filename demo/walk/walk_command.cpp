@@ -17,7 +17,7 @@
 #include <mobil/components/fat.h>
 #include <mobil/engine/world.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/kinematics/shown_fat.h>
+#include <mobil/systems/gait/shown_fat.h>
 #include <mobil/systems/limits/limit_watch.h>
 #include <mobil/systems/limits/style_limits.h>
 #include <mobil/systems/muscles/human.h>

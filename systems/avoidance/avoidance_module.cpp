@@ -7,7 +7,7 @@
 #include <mobil/components/pose.h>
 #include <mobil/schedule.h>
 #include "engine/snapshot.h"
-#include "systems/kinematics/shoulders.h"
+#include "systems/gait/shoulders.h"
 
 namespace mobil::inline v0_3 {
 namespace {

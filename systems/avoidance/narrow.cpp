@@ -8,7 +8,7 @@
 #include <mobil/components/avoidance.h>
 #include <mobil/each.h>
 #include "engine/exact_math.h"
-#include "systems/kinematics/shoulders.h"
+#include "systems/gait/shoulders.h"
 
 namespace mobil::inline v0_3 {
 namespace {

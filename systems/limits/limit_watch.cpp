@@ -10,7 +10,6 @@
 #include <mobil/rows.h>
 #include <mobil/systems/limits/walk_limits.h>
 #include "systems/gait/step_limits.h"
-#include "systems/limits/style_estimate.h"
 
 namespace mobil::inline v0_3 {
 namespace {

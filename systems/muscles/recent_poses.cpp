@@ -4,7 +4,7 @@
 
 #include <mobil/engine/world.h>
 #include <mobil/rows.h>
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/people/walker_past.h"
 

@@ -13,7 +13,7 @@
 #include <mobil/systems/people/sleepers.h>
 #include "engine/exact_math.h"
 #include "engine/snapshot.h"
-#include "systems/kinematics/fat_motion.h"
+#include "systems/gait/fat_motion.h"
 #include "systems/people/by_table.h"
 
 namespace mobil::inline v0_3 {

@@ -9,7 +9,7 @@
 #include <mobil/rows.h>
 #include <mobil/systems/people/person.h>
 #include "systems/forces/forces.h"
-#include "systems/kinematics/body_motion.h"
+#include "systems/gait/body_motion.h"
 #include "systems/people/by_table.h"
 
 namespace mobil::inline v0_3 {

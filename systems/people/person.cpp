@@ -17,7 +17,7 @@
 #include "assets/gait/slope_pace.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/pose_measures.h"
 

@@ -15,7 +15,7 @@
 #include <mobil/systems/limits/style_limits.h>
 #include <mobil/systems/people/person.h>
 #include "systems/gait/gait.h"
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 #include "systems/people/pose_measures.h"
 
 namespace mobil::inline v0_3 {

@@ -13,8 +13,8 @@
 #include <mobil/components/pose.h>
 #include <mobil/engine/access.h>
 #include <mobil/rows.h>
-#include "systems/kinematics/kinematics.h"
-#include "systems/kinematics/shoulders.h"
+#include "systems/gait/kinematics.h"
+#include "systems/gait/shoulders.h"
 #include "systems/people/fat_wobble.h"
 
 namespace mobil::inline v0_3 {

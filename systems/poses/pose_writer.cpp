@@ -16,8 +16,8 @@
 #include <mobil/engine/geometry.h>
 #include <mobil/rows.h>
 #include <mobil/systems/people/sleepers.h>
-#include "systems/kinematics/kinematics.h"
-#include "systems/kinematics/shoulders.h"
+#include "systems/gait/kinematics.h"
+#include "systems/gait/shoulders.h"
 #include "systems/poses/pose_axes.h"
 #include "systems/poses/walk_ahead.h"
 

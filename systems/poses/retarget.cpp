@@ -10,7 +10,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/systems/people/person.h>
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 #include "systems/people/pose_measures.h"
 #include "systems/poses/pose_axes.h"
 

@@ -14,7 +14,7 @@
 #include <mobil/rows.h>
 #include <mobil/systems/people/person.h>
 #include "engine/exact_math.h"
-#include "systems/kinematics/root_place.h"
+#include "systems/gait/root_place.h"
 #include "systems/poses/walk_ahead.h"
 #include "systems/states/waking.h"
 

@@ -14,7 +14,7 @@
 #include "engine/snapshot.h"
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/restart.h"
-#include "systems/kinematics/knee_frames.h"
+#include "systems/gait/knee_frames.h"
 #include "systems/lines/elongations.h"
 #include "systems/states/compact_codes.h"
 

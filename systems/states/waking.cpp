@@ -15,7 +15,7 @@
 #include <mobil/systems/people/person.h>
 #include "engine/exact_math.h"
 #include "systems/gait/asleep.h"
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -10,7 +10,7 @@
 #include <mobil/components/fat.h>
 #include <mobil/components/pose.h>
 #include <mobil/systems/surfaces/place_skin.h>
-#include "systems/kinematics/fat_motion.h"
+#include "systems/gait/fat_motion.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <mobil/components/pose.h>
 #include <mobil/rows.h>
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -15,7 +15,7 @@
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
 #include "assets/body/joint_limits.h"
-#include "systems/kinematics/shoulders.h"
+#include "systems/gait/shoulders.h"
 #include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"
 #include "tests/interfaces.h"

@@ -10,7 +10,7 @@
 #include <mobil/anthropometry.h>
 #include "engine/eigen.h"
 #include "systems/forces/forces.h"
-#include "systems/kinematics/body_motion.h"
+#include "systems/gait/body_motion.h"
 #include "tests/engine/row_lanes.h"
 
 namespace mobil::figure {

@@ -1,5 +1,5 @@
 // Random walkers, sixteen at a time: feet that stand still, legs that keep their length, motion without jumps.
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 
 #include <gtest/gtest.h>
 

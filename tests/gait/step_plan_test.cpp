@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "systems/gait/gait.h"
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 #include "tests/gait/walkers.h"
 
 namespace mobil::step_plan_test {

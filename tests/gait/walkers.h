@@ -13,7 +13,7 @@
 #include <mobil/body_composition.h>
 #include <mobil/engine/geometry.h>
 #include "systems/gait/gait.h"
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/kinematics.h"
 #include "tests/engine/row_lanes.h"
 
 namespace mobil {

@@ -10,7 +10,7 @@
 #include <mobil/components/fat.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
-#include "systems/kinematics/fat_motion.h"
+#include "systems/gait/fat_motion.h"
 
 namespace mobil::fat_test {
 namespace {

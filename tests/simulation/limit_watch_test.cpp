@@ -17,7 +17,7 @@
 #include <mobil/step_report.h>
 #include <mobil/systems/limits/limit_watch.h>
 #include <mobil/systems/limits/walk_limits.h>
-#include "systems/limits/style_estimate.h"
+#include <mobil/systems/limits/walk_limits.h>
 #include "tests/simulation/walk_watch.h"
 
 namespace mobil::limit_watch_test {

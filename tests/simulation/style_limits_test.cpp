@@ -20,7 +20,7 @@
 #include <mobil/systems/limits/style_limits.h>
 #include <mobil/systems/limits/walk_limits.h>
 #include "systems/gait/gait.h"
-#include "systems/limits/style_estimate.h"
+#include <mobil/systems/limits/walk_limits.h>
 #include "tests/labels.h"
 #include "tests/simulation/walk_watch.h"
 

@@ -12,7 +12,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/skin_writer.h>
-#include "systems/kinematics/fat_motion.h"
+#include "systems/gait/fat_motion.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/surfaces/skin_placed.h"
 

@@ -12,7 +12,7 @@
 #include <mobil/engine/access.h>
 #include <mobil/engine/entity.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/kinematics/step_bounds.h>
+#include <mobil/systems/gait/step_bounds.h>
 
 namespace mobil::inline v0_3 {
 

@@ -11,14 +11,10 @@
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/engine/jobs.h>
-#include <mobil/systems/kinematics/step_bounds.h>
+#include <mobil/systems/gait/step_bounds.h>
 #include <mobil/systems/limits/walk_limits.h>
 
 namespace mobil::inline v0_3 {
-
-/// Whether all numbers of two styles are equal; and the speed and the step length too.
-bool same_style(const GaitStyle& a, const GaitStyle& b);
-bool same_walk(const Gait<float>& a, const Gait<float>& b);
 
 /// One number of a style that was moved, and why: as asked it would bring `bound` to `would_be` (m, rad or m/s²).
 struct StyleChange {

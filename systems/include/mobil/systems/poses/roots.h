@@ -18,7 +18,7 @@ class World;
 
 /// Where a person is on the ground, m, and where they head (rad about +Y, 0 toward +Z, positive to the left; not
 /// wrapped): the middle of the hips on the walking line, without sway, for a steady walker at one speed
-/// (systems/kinematics/root_place.h). Of who is animated by the host: under the pelvis, and where it faces.
+/// (systems/gait/root_place.h). Of who is animated by the host: under the pelvis, and where it faces.
 struct Root {
   double x_m = 0, z_m = 0;
   float heading_rad = 0;

@@ -20,7 +20,7 @@ struct LegLines {
   std::array<float, 2> knee_y, ankle_y;
 };
 
-/// By how much the fat of each region is beside its place, m, world frame (systems/kinematics/fat_motion.h).
+/// By how much the fat of each region is beside its place, m, world frame (systems/gait/fat_motion.h).
 using FatBeside = std::array<Vec3<float>, fat_regions>;
 
 /// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned, and

@@ -52,7 +52,7 @@ inline void clear_bounds(StepBounds<Lanes<float>>& bounds) {
 }
 
 /// Notes in `bounds` what goes further than there in the pose that `pose_skeleton` makes of a step
-/// (systems/kinematics/kinematics.h), without the pose.
+/// (systems/gait/kinematics.h), without the pose.
 void step_bounds(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                  const GaitState<Lanes<float>>& state, StepBounds<Lanes<float>>& bounds);
 

@@ -2,8 +2,8 @@
 #define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
-#include "systems/kinematics/knee_frames.h"
-#include "systems/kinematics/step_now-inl.h"
+#include "systems/gait/knee_frames.h"
+#include "systems/gait/step_now-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

@@ -7,7 +7,7 @@
 #include <mobil/components/fat.h>
 #include <mobil/components/pose.h>
 #include <mobil/components/segments.h>
-#include <mobil/systems/kinematics/shown_fat.h>
+#include <mobil/systems/gait/shown_fat.h>
 #include "assets/body/fat_distribution.h"
 
 namespace mobil::inline v0_3 {

@@ -1,4 +1,4 @@
-#include "systems/kinematics/fat_motion.h"
+#include "systems/gait/fat_motion.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE __BASE_FILE__

@@ -9,8 +9,8 @@
 
 #include "assets/gait/on_line-inl.h"
 #include "assets/gait/uneven-inl.h"
-#include "systems/kinematics/kinematics_wide-inl.h"
-#include "systems/kinematics/unit_skeleton.h"
+#include "systems/gait/kinematics_wide-inl.h"
+#include "systems/gait/unit_skeleton.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

@@ -27,7 +27,7 @@ class LegPlanAhead {
   std::size_t part_ = 0;
 };
 
-/// Both legs of the pose that `pose_skeleton` makes of a step (systems/kinematics/kinematics.h), right first, without
+/// Both legs of the pose that `pose_skeleton` makes of a step (systems/gait/kinematics.h), right first, without
 /// the pose: for muscles that nobody looks at. Places are within 5 µm of the pose's near the origin, and lose no digits
 /// far from it. `ahead` is fetched on the way.
 void knee_frames(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,

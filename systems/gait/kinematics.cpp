@@ -4,8 +4,8 @@
 
 #include "assets/body/column.h"
 #include "engine/fetch_ahead.h"
-#include "systems/kinematics/kinematics.h"
-#include "systems/kinematics/step_now-inl.h"
+#include "systems/gait/kinematics.h"
+#include "systems/gait/step_now-inl.h"
 
 // Functions here are kept apart where a compiler would otherwise put all of a skeleton into one.
 

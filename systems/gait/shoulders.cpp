@@ -8,8 +8,8 @@
 #include <cstddef>
 
 #include "assets/body/joint_limits.h"
-#include "systems/kinematics/kinematics_wide-inl.h"
-#include "systems/kinematics/shoulders.h"
+#include "systems/gait/kinematics_wide-inl.h"
+#include "systems/gait/shoulders.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

@@ -2,9 +2,9 @@
 #define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
-#include <mobil/systems/kinematics/step_bounds.h>
+#include <mobil/systems/gait/step_bounds.h>
 #include "assets/body/column.h"
-#include "systems/kinematics/step_now-inl.h"
+#include "systems/gait/step_now-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

@@ -4,7 +4,7 @@
 
 #include "assets/gait/on_line-inl.h"
 #include "engine/wide-inl.h"
-#include "systems/kinematics/root_place.h"
+#include "systems/gait/root_place.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

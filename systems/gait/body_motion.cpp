@@ -6,8 +6,8 @@
 #include "assets/body/segment_inertia.h"
 #include "engine/exact_math.h"
 #include "engine/wide_geometry-inl.h"
-#include "systems/kinematics/body_motion.h"
-#include "systems/kinematics/kinematics.h"
+#include "systems/gait/body_motion.h"
+#include "systems/gait/kinematics.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

@@ -27,7 +27,7 @@ cat >"$scratch/plugin.cpp" <<'CPP'
 extern "C" unsigned long long hash_of_a_step() {
   mobil::Simulation simulation;
   const auto human = simulation.spawn({.height_m = 1.7F, .mass_kg = 70});
-  (void)simulation.add_leg_muscles(*human);
+  (void)simulation.set_muscles(*human);
   for (int i = 0; i < 30; ++i) simulation.tick();
   return simulation.state_hash();
 }

@@ -86,6 +86,7 @@ class Avoidance {
   Result<void> set_walls(std::span<const Wall> walls);
   Result<void> set_discs(std::span<const Disc> discs);
 
+  /// What was chosen in all ticks of the last `advance` or `tick`.
   const AvoidanceReport& report() const;
 
  private:

@@ -27,6 +27,7 @@ class HostParts {
   /// `ours`: ids of the library's parts, ascending.
   HostParts(World& world, std::span<const std::uint64_t> ours) : world_(world), ours_(ours) {}
 
+  /// Adds a part that is not there yet.
   template <class P>
   Result<void> add(Entity entity, const P& part) {
     return result_of("add", ours(key_part(part).id) ? Status::not_yours : world_.add(entity, part));

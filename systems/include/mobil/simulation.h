@@ -268,6 +268,7 @@ class Simulation {
   /// The value of an entity's tag.
   template <class Tag>
   Result<std::uint64_t> get(Entity entity) const {
+    static_assert(!is_row<Tag>, "name the component without its number type: get<Pose>(entity)");
     std::uint64_t value = 0;
     if (const Status status = read_tag(entity, type_id<Tag>(), value); status != Status::ok) return fail(status);
     return value;

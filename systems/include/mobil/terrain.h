@@ -87,6 +87,7 @@ class Terrain {
   /// for (Status::not_valid); nothing has changed.
   Result<std::size_t> answer(std::span<const TerrainHeight> heights);
 
+  /// What was asked in all ticks of the last `advance` or `tick`.
   const TerrainReport& report() const;
 
  private:

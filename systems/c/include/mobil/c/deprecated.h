@@ -9,10 +9,15 @@
 #define MOBIL_CHOSEN MOBIL_LOD_COUNTS
 #define MOBIL_AVOIDANCE MOBIL_AVOIDANCE_OPTIONS
 #define MOBIL_STEERED MOBIL_AVOIDANCE_COUNTS
+/** Now mobil_lod_options. */
 typedef mobil_lod_options mobil_choosing;
+/** Now mobil_lod_counts. */
 typedef mobil_lod_counts mobil_chosen;
+/** Now mobil_level. */
 typedef mobil_level mobil_way_figures;
+/** Now mobil_avoidance_options. */
 typedef mobil_avoidance_options mobil_avoidance;
+/** Now mobil_avoidance_counts. */
 typedef mobil_avoidance_counts mobil_steered;
 
 /* mobil_get_state and mobil_has: the bits of both. */

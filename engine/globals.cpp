@@ -1,6 +1,8 @@
 #include <mobil/engine/globals.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "engine/row_hash.h"
 
@@ -31,6 +33,13 @@ std::span<std::byte> Globals::find(std::uint64_t id) const {
   for (const Value& value : values_)
     if (value.part.id == id) return {value.bytes, value.part.first.size()};
   return {};
+}
+
+std::byte* Globals::at(std::uint64_t id, std::string_view name) const {
+  const auto bytes = find(id);
+  if (bytes.empty())
+    throw std::logic_error("global: no module names " + std::string(name) + "; list it in Module::globals");
+  return bytes.data();
 }
 
 bool Globals::changed(std::uint64_t id) const {

@@ -271,10 +271,17 @@ void Schedule::run_phase(TimedPhase& one, const Frame& frame) {
 }
 
 void Schedule::tick(World& world, Tick& tick, Workspace& workspace, const Jobs& jobs) {
+  if (ticking_)
+    throw std::logic_error("schedule: a phase or a system calls tick or advance; let the host's loop do that");
+  const struct Ticking {
+    explicit Ticking(bool& is) : is_(is) { is_ = true; }
+    ~Ticking() { is_ = false; }
+    bool& is_;
+  } ticking(ticking_);
   const Frame frame{world, jobs, tick, workspace, *this};
-  for (; phases_done_ < before_.size(); ++phases_done_) run_phase(before_[phases_done_], frame);
-  phases_done_ = 0;
+  for (std::size_t p = phases_done_; p < before_.size(); phases_done_ = ++p) run_phase(before_[p], frame);
   run(world, tick, jobs);
+  phases_done_ = 0;
   ++tick.index;
   for (TimedPhase& one : after_) run_phase(one, frame);
 }

@@ -63,7 +63,7 @@ Simulation::Core::Core(const SimulationOptions& options, const Clock& of_clock, 
       library(options.library_of != nullptr ? options.library_of->core_->library : std::make_shared<BellyLibrary>()),
       workspace(options.memory),
       tick{static_cast<float>(clock.tick_s()), 0} {
-  const std::span ours(modules.data(), modules.size() - options.modules.size());
+  const std::span ours(modules.data(), modules.size() - options.modules.size() - 1);
   workspace.get<MuscleMeans>() = {library, clock.tick_s(), ours};
   workspace.get<StepLog>().plan_for(clock.most_ticks());
   if (options.jobs) {
@@ -89,6 +89,7 @@ Result<Simulation> Simulation::make(const SimulationOptions& options) {
   if (!clock) return tl::unexpected(clock.error());
   std::vector<Module> modules = standard_modules();
   modules.insert(modules.end(), options.modules.begin(), options.modules.end());
+  modules.push_back(step_memory_module());
   auto schedule = make_schedule(modules, options.memory);
   if (!schedule) return tl::unexpected(schedule.error());
   return Simulation(std::make_unique<Core>(options, *clock, std::move(modules), std::move(*schedule)));
@@ -271,7 +272,7 @@ Result<void> Simulation::place(std::span<const PlaceRequest> places) {
   std::vector<Entity>& people = core_->workspace.get<SleepWork>().rows;
   people.clear();
   for (const PlaceRequest& to : places) people.push_back(to.person);
-  if (!core_->world.alive_once(people)) return fail(Status::stale_entity);
+  if (!core_->world.alive_once(people)) return not_there("place");
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (const auto good = check_place(core_->world, places[i]); !good)
       return fail(fmt::format("person {}: {}", i, good.error().message), good.error().status);
@@ -329,12 +330,19 @@ MuscleMethod Simulation::method(Entity human, Muscle muscle) const {
 
 Ticks Simulation::advance(double seconds) {
   const Ticks ticks = core_->clock.advance(seconds);
-  tick(ticks.count);
+  const std::uint32_t to = core_->tick.index + ticks.count;
+  try {
+    tick(ticks.count);
+  } catch (...) {
+    core_->clock.give_back(to - core_->tick.index);
+    throw;
+  }
   return ticks;
 }
 
 void Simulation::tick(std::uint32_t count) {
   core_->workspace.get<StepLog>().clear();
+  if (count == 0) return;
   for (const auto begin : {&begin_lod_report, &begin_avoidance_report, &begin_terrain_report}) begin(core_->frame);
   for (std::uint32_t i = 0; i < count; ++i)
     core_->schedule.tick(core_->world, core_->tick, core_->workspace, core_->jobs);
@@ -354,7 +362,8 @@ std::size_t Simulation::snapshot_bytes() const {
 }
 
 Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
-  const SnapshotTime time{core_->clock.tick_units(), core_->clock.remainder_units(), core_->tick.index};
+  const std::int64_t tick = core_->clock.tick_units();
+  const SnapshotTime time{tick, core_->clock.remainder_units() % tick, core_->tick.index};
   return save_snapshot({core_->world, *core_->library, core_->modules, core_->jobs}, time,
                        core_->workspace.get<SnapshotWork>(), out);
 }

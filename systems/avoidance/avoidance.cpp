@@ -28,7 +28,7 @@ namespace mobil::inline v0_3 {
 
 /// What the host gave, and what choosing works in, which lies in the simulation's workspace.
 struct AvoidanceWork {
-  TableList tables{{type_id<Course<float>>(), type_id<Course<float>>()}};
+  TableList tables{type_id<Course<float>>()};
   AvoidanceOptions options;
   std::vector<BoxedWall> walls;
   std::vector<Disc> discs;
@@ -48,11 +48,15 @@ AvoidanceWork& Avoidance::work() const {
   return frame_.workspace.get<AvoidanceWork>();
 }
 
-void Avoidance::set_options(const AvoidanceOptions& options) {
+Result<void> Avoidance::set_options(const AvoidanceOptions& options) {
+  for (const float number : {options.radius_h, options.overlap_m, options.shoulders_h})
+    if (!std::isfinite(number))
+      return fail("set_options: radius_h, overlap_m or shoulders_h is not a number; give one, or AvoidanceOptions{}");
   AvoidanceOptions& to = work().options;
   to.radius_h = std::clamp(options.radius_h, 0.02F, 0.5F);
   to.overlap_m = std::clamp(options.overlap_m, 0.0F, 0.2F);
   to.shoulders_h = std::clamp(options.shoulders_h, to.radius_h, 0.5F);
+  return {};
 }
 
 const AvoidanceReport& Avoidance::report() const {
@@ -242,7 +246,7 @@ void AvoidanceWork::give_way(const Jobs& jobs, std::uint32_t tick) {
       const Claim& mine = book.claim(claim);
       const float reach_m = 0.5F * length_m(way) + longest_m + mine.radius_m + book.broadest_m();
       const GroundPoint middle = {0.5F * (way.low_x_m + way.high_x_m), 0.5F * (way.low_z_m + way.high_z_m)};
-      book.near(middle.x_m, middle.z_m, mine.ground_m, reach_m, [&](const Nearby& near) {
+      book.near(middle.x_m, middle.z_m, mine, reach_m, [&](const Nearby& near) {
         const std::uint32_t other = near.claim, rival = striker_of[other];
         if (rival == nobody || other == claim || !goes_first(other, claim)) return;
         const Claim& theirs = book.claim(other);
@@ -298,12 +302,13 @@ void AvoidanceWork::choose(const Frame& frame) {
 Phase steps_chosen() {
   return {"avoidance", [](const Frame& frame) {
             AvoidanceWork& work = frame.workspace.get<AvoidanceWork>();
+            work.report.people = 0;
             if (work.tables.any_rows(frame.world)) work.choose(frame);
           }};
 }
 
 void begin_avoidance_report(const Frame& frame) {
-  frame.workspace.get<AvoidanceWork>().report = {};
+  if (auto* const work = frame.workspace.find<AvoidanceWork>()) work->report = {.people = work->report.people};
 }
 
 }  // namespace mobil::inline v0_3

@@ -151,14 +151,14 @@ class WayChoice {
     };
     const float apart_at_most = mine_.shoulders_m + around_.book.broadest_m();
     const float at_first_m = std::max(reach + apart_at_most, sees_first_m);
-    around_.book.near(at_.x_m, at_.z_m, mine_.ground_m, at_first_m, [&](const Nearby& other) {
+    around_.book.near(at_.x_m, at_.z_m, mine_, at_first_m, [&](const Nearby& other) {
       if (other.claim == me_) return;
       if (other.box.meets(box_, apart_at_most)) keep_clear_of(around_.book.claim(other.claim), instant);
       remember(other);
     });
     if (at_first_m < sees_m && (passing_ < most_passers || near.back().distance2 > square(at_first_m))) {
       passing_ = 0;
-      around_.book.near(at_.x_m, at_.z_m, mine_.ground_m, sees_m, [&](const Nearby& other) {
+      around_.book.near(at_.x_m, at_.z_m, mine_, sees_m, [&](const Nearby& other) {
         if (other.claim != me_) remember(other);
       });
     }

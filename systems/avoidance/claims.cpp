@@ -22,6 +22,17 @@ void go_on(const WayInstants& at, Claim& claim) {
   }
 }
 
+/// Of the way from foothold to foothold, or of the ground under the stance foot: of stairs the first, of slopes both.
+float steepness_of(const Footing<Lanes<float>>& footing, std::size_t lane) {
+  constexpr std::size_t stance = index(FootholdOf::stance), landing = index(FootholdOf::landing);
+  constexpr float shortest_m = 0.2F;
+  const float way_m = std::max(std::hypot(footing.landing_x_m[lane] - footing.stance_x_m[lane],
+                                          footing.landing_z_m[lane] - footing.stance_z_m[lane]),
+                               shortest_m);
+  const float along = std::fabs(footing.height_m[landing][lane] - footing.height_m[stance][lane]) / way_m;
+  return std::max(along, std::hypot(footing.rise_x[stance][lane], footing.rise_z[stance][lane]));
+}
+
 void finish(Claim& claim) {
   std::fill(claim.x_m.begin() + way_samples, claim.x_m.end(), claim.x_m[way_samples - 1]);
   std::fill(claim.z_m.begin() + way_samples, claim.z_m.end(), claim.z_m[way_samples - 1]);
@@ -70,8 +81,8 @@ void ClaimBook::list(World& world) {
         if (who.index >= claim_of_.size()) claim_of_.resize(std::max<std::size_t>(who.index + 1, 64), none);
         std::uint32_t& number = claim_of_[who.index];
         if (number == none) {
-          number = static_cast<std::uint32_t>(claims_.size());
           claims_.push_back({});
+          number = static_cast<std::uint32_t>(claims_.size() - 1);
         }
         seen_.push_back(number);
       }
@@ -99,6 +110,7 @@ void ClaimBook::remake(BlockOfClaims& at, float shoulders_h) {
     claim.radius_m = courses ? courses.at(table, at.block).radius_m[l] : claim.shoulders_m;
     claim.yields = static_cast<bool>(courses);
     claim.ground_m = ground ? ground.at(table, at.block).height_m[index(FootholdOf::stance)][l] : 0;
+    claim.steepness = ground ? steepness_of(ground.at(table, at.block), l) : 0;
     if (courses && units.of(state.time_s[l]) + units.per_tick >= units.step(plan.duration_s[l])) at.striking |= 1U << l;
     // Of who avoids nobody the claim leads straight on from its first instant: it is made anew at each, so that it
     // follows from the world and not from when somebody looked.
@@ -145,7 +157,7 @@ void ClaimBook::sort() {
     longest_m_ = std::max({longest_m_, 0.5F * (box.high_x_m - box.low_x_m), 0.5F * (box.high_z_m - box.low_z_m)});
     unsorted_.push_back({cell(0.5F * (box.low_x_m + box.high_x_m)), cell(0.5F * (box.low_z_m + box.high_z_m)), number,
                          claim.who.index, box, claim.x_m[now], claim.z_m[now], claim.faces_x, claim.faces_z,
-                         claim.ground_m});
+                         claim.ground_m, claim.steepness});
     ++starts_[bucket(unsorted_.back().cell_x, unsorted_.back().cell_z) + 2];
   }
   for (std::size_t b = 2; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];

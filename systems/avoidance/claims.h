@@ -56,8 +56,8 @@ struct Claim {
   Source source;
   GroundBox box;
   float faces_x, faces_z, x_m_s, z_m_s, radius_m, shoulders_m;
-  float ground_m;  // height of the ground under the stance foot
-  bool yields;     // avoids others too
+  float ground_m, steepness;  // height of the ground under the stance foot; how steep it is there, m per m
+  bool yields;                // avoids others too
   std::array<float, kept> x_m, z_m;
 
   std::size_t at(std::uint32_t instant) const {
@@ -67,12 +67,12 @@ struct Claim {
 };
 
 /// What is looked at first of who is near: of a claim, where they are at the book's instant and which way they face.
-/// Fifty-two bytes, in the order of the ground, where a claim has half a kilobyte.
+/// Fifty-six bytes, in the order of the ground, where a claim has half a kilobyte.
 struct Nearby {
   std::int32_t cell_x, cell_z;
   std::uint32_t claim, who;  // who: the entity's index
   GroundBox box;
-  float x_m, z_m, faces_x, faces_z, ground_m;
+  float x_m, z_m, faces_x, faces_z, ground_m, steepness;
 };
 
 /// A walker whose next step begins in the tick to come.
@@ -109,13 +109,20 @@ class ClaimBook {
   std::span<const BlockOfClaims> blocks() const { return blocks_; }
   std::uint32_t claim_in(const BlockOfClaims& at, std::size_t lane) const { return seen_[at.first + lane]; }
 
-  /// `f(const Nearby&)` for all whose claims come within `reach_m` of a place, and some more, but for those who walk
-  /// another_floor_m higher or lower than `ground_m`: on a bridge, below it, on other floors. From any thread.
+  /// `f(const Nearby&)` for all whose claims come within `reach_m` of a place, and some more, but for those on other
+  /// floors than `whose`: on a bridge, below it. On another floor is who is another_floor_m higher or lower than the
+  /// slope of either leads to. From any thread.
   template <class F>
-  void near(float x_m, float z_m, float ground_m, float reach_m, const F& of_all) const {
+  void near(float x_m, float z_m, const Claim& whose, float reach_m, const F& of_all) const {
     if (seen_.empty()) return;
+    const std::size_t now = whose.at(instant_);
     const auto f = [&](const Nearby& one) {
-      if (std::fabs(one.ground_m - ground_m) <= another_floor_m) of_all(one);
+      const float apart_m = std::fabs(one.ground_m - whose.ground_m);
+      if (apart_m > another_floor_m) {
+        const float away_m = std::hypot(one.x_m - whose.x_m[now], one.z_m - whose.z_m[now]);
+        if (apart_m > another_floor_m + 1.25F * std::max(one.steepness, whose.steepness) * away_m) return;
+      }
+      of_all(one);
     };
     const float reach = reach_m + longest_m_;
     const std::int32_t low_x = cell(x_m - reach), high_x = cell(x_m + reach);

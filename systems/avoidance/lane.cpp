@@ -60,7 +60,7 @@ float lane_heading(const ClaimBook& book, std::span<const BoxedWall> walls, std:
   std::int64_t weight[lanes_across] = {};  // of oncoming walkers, in units
   int oncoming = 0;
   constexpr float half = 0.5F * lanes_ahead_m;
-  book.near(at.x_m + half * ahead_x, at.z_m + half * ahead_z, mine.ground_m, half, [&](const Nearby& other) {
+  book.near(at.x_m + half * ahead_x, at.z_m + half * ahead_z, mine, half, [&](const Nearby& other) {
     constexpr float least_against = 0.3F;  // a cosine: people who cross do not count
     const float against = -(other.faces_x * ahead_x + other.faces_z * ahead_z) - least_against;
     if (other.claim == me || !(against > 0 && against < 1)) return;  // so that the sum stays small

@@ -69,7 +69,7 @@ class Narrowing {
     const GroundBox box = box_of({mine_.x_m[now], mine_.z_m[now]}, {mine_.x_m[then], mine_.z_m[then]}, 0);
     const float both_at_most = mine_.shoulders_m + book.broadest_m();
     const float long_m = std::max(box.high_x_m - box.low_x_m, box.high_z_m - box.low_z_m);
-    book.near(0.5F * (box.low_x_m + box.high_x_m), 0.5F * (box.low_z_m + box.high_z_m), mine_.ground_m,
+    book.near(0.5F * (box.low_x_m + box.high_x_m), 0.5F * (box.low_z_m + box.high_z_m), mine_,
               both_at_most + 0.5F * long_m, [&](const Nearby& other) {
                 if (other.claim != me && other.box.meets(box, both_at_most))
                   look_at(book.claim(other.claim), now, instant);

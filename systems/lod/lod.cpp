@@ -236,7 +236,9 @@ Result<void> Lod::manage(std::span<const Entity> people, const PersonNeeds& need
 }
 
 Result<std::size_t> Lod::manage_asleep(std::span<const Entity> people) {
-  if (!frame_.world.alive_once(people)) return fail(Status::stale_entity);
+  if (!frame_.world.alive_once(people))
+    return fail("manage_asleep: somebody is not there (a stale handle), or named twice; name each once",
+                Status::stale_entity);
   for (const Entity human : people)
     if (!is_person(frame_.world, human) || has_any_muscles(frame_.world, human))
       return fail("manage_asleep: somebody has muscles, or is no person; manage them instead", Status::already_there);
@@ -392,7 +394,10 @@ Phase detail_chosen() {
 }
 
 void begin_lod_report(const Frame& frame) {
-  frame.workspace.get<LodWork>().report = {};
+  LodWork* const work = frame.workspace.find<LodWork>();
+  if (work == nullptr) return;
+  const LodReport& last = work->report;
+  work->report = {.factor = last.factor, .machine = last.machine, .predicted_s = last.predicted_s};
 }
 
 }  // namespace mobil::inline v0_3

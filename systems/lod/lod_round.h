@@ -35,7 +35,7 @@ struct LodProgress {
 
 /// Whether there is anybody to choose for, in the simulation's workspace.
 struct ManagedPeople {
-  TableList tables{{type_id<Tiers<float>>(), type_id<SleepsManaged>()}};
+  TableList tables{type_id<Tiers<float>>(), type_id<SleepsManaged>()};
 };
 
 /// What the host gave, and what choosing works in, which lies in the simulation's workspace.

@@ -165,8 +165,9 @@ void LodRound::wake_sleepers() {
     if (const auto done = wake_managed(frame_, work_.people, as); !done) {
       report_.refused += work_.people.size();
       report_.refusal = done.error().message;
+    } else {
+      report_.woken += work_.people.size();
     }
-    report_.woken += work_.people.size();
   }
 }
 
@@ -181,11 +182,12 @@ void LodRound::make_whole() {
   report_.to_expand = work_.now.expanding.size() - now;
   work_.people.clear();
   for (std::size_t i = 0; i < now; ++i) work_.people.push_back(work_.now.expanding[i].human);
-  report_.expanded = work_.people.size();
   if (work_.people.empty()) return;
   if (const auto done = expand(frame_, work_.people); !done) {
     report_.refused += work_.people.size();
     report_.refusal = done.error().message;
+  } else {
+    report_.expanded = work_.people.size();
   }
 }
 

@@ -62,20 +62,24 @@ Vec3<float> ground_of(const StepEvents::One& one, const Footing<Lanes<float>>& f
 }  // namespace
 
 Module step_watch_module() {
-  return {
-      .name = "step events",
-      .parts = {key_part(Publishes<StepEvents>{}), key_part(TagValue<SleepsWatched>{})},
-      .systems =
-          [](ScheduleBuilder& systems) {
-            systems.add("steps ahead", &watch_ahead).add("step events", &watch_behind).after("steps ahead");
-          },
-      .before = {{"memory of step events",
-                  [](const Frame& frame) { frame.workspace.get<StepLog>().prepare(frame.world, frame.tick.dt_s); }}},
-      .after = {{"step events",
-                 [](const Frame& frame) {
-                   frame.workspace.get<StepLog>().take(frame.world, frame.tick.index, frame.tick.dt_s);
-                 }}},
-      .check_key = &check_watch_key};
+  return {.name = "step events",
+          .parts = {key_part(Publishes<StepEvents>{}), key_part(TagValue<SleepsWatched>{})},
+          .systems =
+              [](ScheduleBuilder& systems) {
+                systems.add("steps ahead", &watch_ahead).add("step events", &watch_behind).after("steps ahead");
+              },
+          .after = {{"step events",
+                     [](const Frame& frame) {
+                       frame.workspace.get<StepLog>().take(frame.world, frame.tick.index, frame.tick.dt_s);
+                     }}},
+          .check_key = &check_watch_key};
+}
+
+Module step_memory_module() {
+  return {.name = "memory of step events", .before = {{"memory of step events", [](const Frame& frame) {
+                                                         frame.workspace.get<StepLog>().prepare(frame.world,
+                                                                                                frame.tick.dt_s);
+                                                       }}}};
 }
 
 bool is_watched(const World& world, Entity person) {

@@ -186,7 +186,12 @@ Result<void> check_globals(const SavedFront& front, std::span<const Module> modu
     for (const Module& module : modules)
       for (const GlobalPart& part : module.globals)
         if (part.id == one.id) known = &part;
-    if (known == nullptr || known->first.size() != one.bytes || one.bytes > front.global_bytes.size() - bytes)
+    if (known == nullptr)
+      return fail(
+          fmt::format("the snapshot has a global (number {}) that no module of this simulation names; list it in"
+                      " a module's globals (SimulationOptions::modules)",
+                      one.id));
+    if (known->first.size() != one.bytes || one.bytes > front.global_bytes.size() - bytes)
       return damaged("a value that no module has");
     bytes += one.bytes;
   }

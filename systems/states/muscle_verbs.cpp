@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include <mobil/muscle_table.h>
 #include <mobil/systems/people/person.h>
 #include "systems/muscles/muscle_parts.h"
@@ -55,6 +58,10 @@ Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, con
     return check_leg_muscles(frame.world, *means_of(frame).library, means_of(frame).tick_s, person, *choice);
   };
   if (auto ok = check_full(frame, people, check); !ok) return ok;
+  // Muscles that come can be undone, those that change or go cannot.
+  std::optional<World::Attempt> attempt;
+  if (std::ranges::none_of(people, [&](Entity person) { return has_muscles(frame.world, person); }))
+    attempt.emplace(frame.world, frame.jobs);
   for (std::size_t i = 0; i < people.size(); ++i) {
     const Entity person = people[i];
     Result<void> done;
@@ -67,8 +74,9 @@ Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, con
     else
       done = add_leg_muscles(scene_of(frame), person, *choice);
     if (!done) return tl::unexpected(of_person(people, i, done.error()));
-    choose_from_now(frame.world, person);
   }
+  if (attempt) attempt->keep();
+  for (const Entity person : people) choose_from_now(frame.world, person);
   return {};
 }
 

@@ -110,9 +110,10 @@ Result<void> enable(const Frame& frame, std::span<const Entity> people, Feature 
     return result_of("step events", status);
   }
   if (feature == Feature::fat) return result_of("fat", set_fat_wobble(world, frame.jobs, people, on));
+  if (feature != Feature::forces) return fail("there is no such feature; take one of Feature's");
   std::vector<Entity> changes;
   for (const Entity person : people) {
-    if (!is_person(world, person)) return fail(Status::stale_entity);
+    if (!is_person(world, person)) return fail("a person is not there (a stale handle)", Status::stale_entity);
     if (has_forces(world, person) != on) changes.push_back(person);
   }
   World::Attempt attempt(world, frame.jobs);
@@ -172,7 +173,9 @@ Result<std::size_t> change_walks(const Frame& frame, std::span<const WalkChange>
   std::vector<Entity>& people = work.rows;
   people.clear();
   for (const WalkChange& change : changes) people.push_back(change.human);
-  if (!frame.world.alive_once(people)) return fail(Status::stale_entity);
+  if (!frame.world.alive_once(people))
+    return fail("change_gait: a person is not there (a stale handle), or is named twice; name each once",
+                Status::stale_entity);
   find_asked(frame.world, frame.jobs, changes, time_of(frame), work, people);
   if (!people.empty()) {
     if (auto done = wake(frame, std::vector(people)); !done) return tl::unexpected(done.error());

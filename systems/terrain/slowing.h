@@ -26,6 +26,11 @@ struct Slowing {
   std::vector<BodySize<float>> sizes;
   std::vector<Gait<float>> gaits;
   StyleWork styles;
+
+  /// Takes memory for so many.
+  void reserve(std::size_t count) {
+    people.reserve(count), changes.reserve(count), sizes.reserve(count), gaits.reserve(count);
+  }
 };
 
 /// Finds, in `to.changes`, what those of `people` are to be asked for whose pace is another than their steepness asks

@@ -62,7 +62,7 @@ struct TerrainWork {
     std::size_t first;
     bool all;
   };
-  TableList tables{{type_id<Footing<float>>(), type_id<Footing<float>>()}};
+  TableList tables{type_id<Footing<float>>()};
   TerrainHeights heights;
   TerrainOptions options;
   std::vector<Asking> asking;
@@ -70,7 +70,8 @@ struct TerrainWork {
   std::vector<TerrainHeight> answers;
   std::vector<Entity> people;  // whose speed may have to change
   Slowing slowing;
-  TerrainReport report;  // since the host last called the simulation to tick
+  TerrainReport report;
+  bool told = false;  // `report` is of ticks that are over
 
   void collect(World& world);
   void collect_block(const Table& table, std::uint32_t block);
@@ -225,6 +226,8 @@ void TerrainWork::stand_up(World& world, Entity human) {
 /// Returns how many answers were unusable.
 std::size_t TerrainWork::put_answers(const Frame& frame) {
   people.clear();
+  people.reserve(asking.size());
+  slowing.reserve(asking.size());
   std::size_t unusable = 0;
   {
     const FlushDenormals flush;  // as in a tick
@@ -415,6 +418,7 @@ Result<std::size_t> Terrain::answer(std::span<const TerrainHeight> heights) {
                     heights.size(), of.queries.size()),
         Status::not_valid);
   std::ranges::copy(heights, of.answers.begin());
+  if (std::exchange(of.told, false)) of.report = {.people = of.report.people};
   return of.put_answers(frame_);
 }
 
@@ -429,7 +433,8 @@ Phase ground_under_feet() {
 }
 
 void begin_terrain_report(const Frame& frame) {
-  frame.workspace.get<TerrainWork>().report = {};
+  auto* const work = frame.workspace.find<TerrainWork>();
+  if (work != nullptr && std::exchange(work->told, true)) work->report = {};
 }
 
 }  // namespace mobil::inline v0_3

@@ -62,5 +62,37 @@ TEST(Floors, ACrowdBelowStopsNobodyAbove) {
   }
 }
 
+/// Who comes up a slope or stairs sees who comes down, however steep they are.
+TEST(Floors, PeopleOnSlopesKeepOutOfEachOthersWay) {
+  for (const bool stairs : {false, true}) {
+    for (const float rise : {0.3F, 0.6F, 0.8F}) {
+      Avoiders all;
+      all.simulation.terrain().set_options({.slows_down = false});
+      all.simulation.terrain().set_heights([=](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+        constexpr float tread_m = 0.3F;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+          const float z = at[i].z_m;
+          out[i] =
+              stairs ? TerrainHeight{rise * tread_m * std::floor(z / tread_m), 0, 0} : TerrainHeight{rise * z, 0, rise};
+        }
+      });
+      std::vector<Entity> up, down;
+      for (int i = 0; i < 12; ++i) {
+        const float x = 20.0F * static_cast<float>(i), speed = 0.8F + 0.05F * static_cast<float>(i);
+        up.push_back(all.come(speed, x, -4.5F));
+        down.push_back(all.come(speed, x + 0.02F * static_cast<float>(i), 4.5F, pi));
+        ASSERT_TRUE(all.simulation.terrain().manage({&up.back(), 1}));
+        ASSERT_TRUE(all.simulation.terrain().manage({&down.back(), 1}));
+      }
+      double nearest_m = 10;
+      for (int tick = 0; tick < 60 * 12; ++tick) {
+        all.run();
+        for (std::size_t i = 0; i < up.size(); ++i) nearest_m = std::min(nearest_m, all.apart_m(up[i], down[i]));
+      }
+      EXPECT_GT(nearest_m, 0.33) << (stairs ? "stairs of " : "a slope of ") << rise;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mobil

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,16 @@ TEST(Globals, OfMadeUpSnapshotsDoNoHarm) {
   }
   ASSERT_TRUE(windy.restore(good));
   EXPECT_EQ(windy.world().global<Weather>().gusts, 2U);
+}
+
+TEST(Globals, ThatNobodyNamedAreAnErrorOfTheProgram) {
+  Simulation plain;
+  try {
+    (void)plain.world().global<Weather>();
+    ADD_FAILURE();
+  } catch (const std::logic_error& error) {
+    EXPECT_NE(std::string(error.what()).find("Weather"), std::string::npos);
+  }
 }
 
 TEST(Globals, BelongToOneModule) {

@@ -226,7 +226,7 @@ TEST(Modules, PhasesOfAHostSpawnAndDespawn) {
     for (const PhaseReport& one : report.phases)
       names += std::string(one.name) + (one.after ? " after, " : " before, ");
     EXPECT_EQ(names,
-              "level of detail before, avoidance before, ground before, memory of step events before, arrivals before, "
+              "level of detail before, avoidance before, ground before, arrivals before, memory of step events before, "
               "step events after, faded muscles after, settled walkers after, departures after, ");
     return simulation.state_hash();
   };

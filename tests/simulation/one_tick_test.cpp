@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include <mobil/avoidance.h>
@@ -193,6 +194,46 @@ TEST(OneTick, ChoosingLessOftenIsChoosingLessOften) {
   }
   EXPECT_EQ(looked, 10U);
   EXPECT_FALSE(simulation.lod().set_options({.every = 0}));
+}
+
+/// A phase that throws stops time, and nothing of it is lost.
+TEST(OneTick, TimeThatDidNotRunIsRunLater) {
+  int left = 0;
+  Module failing{.name = "failing", .before = {{"failing", [&](const Frame& frame) {
+                                                  if (frame.tick.index == 2 && left-- > 0)
+                                                    throw std::runtime_error("no");
+                                                }}}};
+  Simulation simulation(sharing({.modules = {failing}}));
+  left = 1;
+  EXPECT_THROW(simulation.advance(12.0 / 60 + 1e-9), std::runtime_error);
+  EXPECT_EQ(simulation.ticks(), 2U);
+  EXPECT_EQ(simulation.advance(0).count, 10U);
+  EXPECT_EQ(simulation.ticks(), 12U);
+}
+
+/// A phase may restore a snapshot: the tick under way goes on with the phases behind it.
+TEST(OneTick, APhaseMayRestoreButNotTick) {
+  Simulation* running = nullptr;
+  std::vector<std::byte> bytes;
+  int calls = 0;
+  Module back{.name = "back", .before = {{"back", [&](const Frame&) {
+                                            if (++calls == 5) {
+                                              EXPECT_TRUE(running->restore(bytes));
+                                            }
+                                            if (calls == 7) {
+                                              EXPECT_THROW(running->tick(), std::logic_error);
+                                            }
+                                          }}}};
+  Simulation simulation(sharing({.modules = {back}}));
+  running = &simulation;
+  ASSERT_TRUE(simulation.spawn(BodyRequest{}));
+  bytes = saved(simulation);
+  simulation.tick(4);
+  simulation.tick();
+  EXPECT_EQ(simulation.ticks(), 1U);
+  simulation.tick(3);
+  EXPECT_EQ(simulation.ticks(), 4U);
+  EXPECT_EQ(calls, 8);
 }
 
 }  // namespace

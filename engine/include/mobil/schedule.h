@@ -93,7 +93,8 @@ class Schedule {
   /// A whole tick: phases before the systems, `run`, and phases after them. `tick.index` grows by one once the systems
   /// have run. Throws what phases throw (mobil/engine/phase.h); the next tick then begins with the phase that threw.
   void tick(World& world, Tick& tick, Workspace& workspace, const Jobs& jobs = {});
-  /// After the world became another one, as by a restored snapshot: the next tick begins with its first phase.
+  /// After the world became another one, as by a restored snapshot: the next tick begins with its first phase. Within a
+  /// phase it changes nothing of the tick under way.
   void begin_anew() { phases_done_ = 0; }
 
   /// In the order of running.
@@ -155,6 +156,7 @@ class Schedule {
   std::vector<System> systems_;
   std::vector<TimedPhase> before_, after_;
   std::size_t phases_done_ = 0;  // of those before the systems, in a tick that did not get further
+  bool ticking_ = false;
   std::vector<SystemRange> passes_;
   std::vector<Timing> timings_;
   std::vector<Counted> counted_;                           // by system
@@ -274,7 +276,6 @@ class ScheduleBuilder {
 
   std::vector<System> systems_;
   std::vector<TimedPhase> before_, after_;
-  std::size_t phases_done_ = 0;  // of those before the systems, in a tick that did not get further
   std::string module_;
 };
 

@@ -14,7 +14,7 @@
 //
 // Requests are state on the person's row (mobil/components/avoidance.h); claims follow from the world. Walls, discs and
 // options are no state: a simulation that restores a snapshot keeps its own. People whose ground is more than 1.5 m
-// higher or lower are on another floor, and in nobody's way.
+// higher or lower than the slopes on which both walk lead to are on another floor, and in nobody's way.
 // Decisions depend on the world, walls and discs alone, not on threads or rows. Who is managed is asked for speed and
 // heading through Avoidance: what change_gait and turn_to ask lasts until the next step.
 
@@ -64,8 +64,8 @@ class Avoidance {
  public:
   explicit Avoidance(const Frame& frame) : frame_(frame) {}
 
-  /// Of people managed from now on their room; of all others the rest.
-  void set_options(const AvoidanceOptions& options);
+  /// Of people managed from now on their room; of all others the rest. Errors: a value that is not a number; nothing has changed.
+  Result<void> set_options(const AvoidanceOptions& options);
 
   /// From now on this walker avoids others, and wants what it was last asked to do; who is managed already goes on to
   /// want what they want, with the room of these options. Errors: a stale handle, a posed person (Status::missing);

@@ -53,7 +53,7 @@ struct SimulationOptions {
   int threads = 1;             // of the built-in pool; 0: as many as the machine has
   std::optional<Jobs> jobs{};  // the caller's own job system instead
   /// Of all that grows with people: tables, handles, what systems work in. From the heap are the tables that bodies
-  /// share, and what a call works with until it returns.
+  /// share, what a call works with until it returns, and what level of detail, avoidance and terrain work in.
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   /// The host's own effects (mobil/engine/module.h), behind the library's.
   std::vector<Module> modules{};
@@ -189,7 +189,8 @@ class Simulation {
   /// on they begin with zero); other cells begin at rest. Where activation begins or ends, the belly's end is elsewhere
   /// at once: the belly follows statically, and what is shown fades to it. Inertia that begins under way lets the
   /// bellies sag. With std::nullopt all muscles go. Critical steps and substeps are computed anew, and every choice not
-  /// made before is set up and kept. All or none. Errors: a stale handle, somebody named twice, a choice out of range,
+  /// made before is set up and kept. All or none, but for what was
+  /// changed before memory ran out. Errors: a stale handle, somebody named twice, a choice out of range,
   /// a step above an individual's critical step, which names the muscle and the limit; nothing has changed.
   Result<void> set_muscles(std::span<const Entity> people, const std::optional<LegMuscles>& choice);
   Result<void> set_muscles(Entity person, const LegMuscles& choice = {}) {
@@ -197,10 +198,10 @@ class Simulation {
   }
   Result<void> set_muscles(Entity person, std::nullopt_t none) { return set_muscles(std::span(&person, 1), none); }
 
-  /// Another method for one muscle, both sides, from the next tick on; the person's other choices hold. All or none.
-  /// What is shown of control points goes on without a jump in displacement or velocity: what the new method cannot
-  /// begin with is added to what it computes and fades within `fade_s`. Errors: a stale handle, a muscle that is not
-  /// there, a choice out of range; nothing has changed.
+  /// Another method for one muscle, both sides, from the next tick on; the person's other choices hold. All or none,
+  /// but for what was changed before memory ran out. What is shown of control points goes on without a jump in
+  /// displacement or velocity: what the new method cannot begin with is added to what it computes and fades within
+  /// `fade_s`. Errors: a stale handle, a muscle that is not there, a choice out of range; nothing has changed.
   Result<void> set_method(std::span<const Entity> people, Muscle muscle, const MuscleMethod& method);
   Result<void> set_method(Entity person, Muscle muscle, const MuscleMethod& method) {
     return set_method(std::span(&person, 1), muscle, method);
@@ -227,7 +228,8 @@ class Simulation {
   Lod lod();
   MuscleLibrary muscle_library() const;
 
-  /// Runs as many whole ticks as fit into the accumulated time.
+  /// Runs as many whole ticks as fit into the accumulated time. Where a phase throws, the ticks that have not run are
+  /// run by the next call.
   Ticks advance(double seconds);
   /// Runs `count` ticks.
   void tick(std::uint32_t count = 1);
@@ -254,8 +256,8 @@ class Simulation {
   Result<void> restore(std::span<const std::byte> in, const RestoreLimits& limits = {});
   /// Hash of the whole state; independent of spawn order, row order and handles (engine/state_hash.h).
   std::uint64_t state_hash() const;
-  /// The same without the tick, as a sum over all people: those of the simulations that a crowd is divided into may be
-  /// added up (state_hash_of in engine/state_hash.h).
+  /// The same without the tick and without globals, as a sum over all people: those of the simulations that a crowd is
+  /// divided into may be added up (state_hash_of in engine/state_hash.h).
   std::uint64_t state_sum() const;
 
   /// An entity's row of a component, or why there is none: get<Pose>(human).

@@ -63,6 +63,9 @@ class Clock {
     return ticks;
   }
 
+  /// Ticks that `advance` gave out and that did not run: the next frame has them.
+  void give_back(std::uint32_t ticks) { remainder_ += ticks * tick_; }
+
   /// Length of a tick, s.
   double tick_s() const { return to_seconds(tick_); }
   /// The most ticks that a frame amounts to.

@@ -51,6 +51,8 @@ class Globals {
   void add(const GlobalPart& part);
   /// The value's bytes; none where the type was never added.
   std::span<std::byte> find(std::uint64_t id) const;
+  /// The same of a type that must be there: throws std::logic_error, which names it, where it is not.
+  std::byte* at(std::uint64_t id, std::string_view name) const;
   /// Whether the value differs from its first. False for a type that was never added.
   bool changed(std::uint64_t id) const;
   /// A hash of all that differ from their first values; 0 where none does.

@@ -46,6 +46,13 @@ class Workspace {
     values_.emplace_back(type_id<T>(), made);
     return *made;
   }
+  /// The T; null where nobody has requested one yet.
+  template <class T>
+  T* find() const {
+    for (const auto& [type, value] : values_)
+      if (type == type_id<T>()) return static_cast<T*>(value.get());
+    return nullptr;
+  }
   std::pmr::memory_resource* memory() const { return memory_; }
 
  private:
@@ -65,6 +72,7 @@ struct Frame {
 
 /// A phase of a module (Module::before, Module::after). A `before` phase that throws ends the tick before its systems
 /// run, and the tick does not count. What earlier phases did stays, and the next tick begins with the phase that threw.
+/// After an `after` phase that throws the tick counts, and the phases behind it do not run for that tick.
 /// A phase that may lack memory takes it before it changes anything, or works within a World::Attempt. A phase can call
 /// the simulation that runs it, except `tick` and `advance`.
 struct Phase {

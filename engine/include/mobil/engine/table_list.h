@@ -2,9 +2,9 @@
 // The tables of a world that have one of some parts. Tables come and stay, so each is looked at once.
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include <mobil/engine/world.h>
@@ -14,7 +14,7 @@ namespace mobil::inline v0_3 {
 class TableList {
  public:
   /// Ids of the parts.
-  explicit TableList(std::array<std::uint64_t, 2> parts) : parts_(parts) {}
+  TableList(std::initializer_list<std::uint64_t> parts) : parts_(parts) {}
 
   /// Takes in the world's new tables. The same world each time.
   const std::vector<Table*>& find(World& world) {
@@ -31,7 +31,7 @@ class TableList {
   }
 
  private:
-  std::array<std::uint64_t, 2> parts_;
+  std::vector<std::uint64_t> parts_;
   std::vector<Table*> found_;
   std::size_t seen_ = 0;
 };

@@ -223,13 +223,14 @@ class World {
   std::uint64_t resource_content(std::uint64_t index) const { return resource_content_[index]; }
 
   /// The value of a type that a module names as a global (mobil/engine/globals.h), or that `globals().add` was given.
+  /// Throws std::logic_error, which names the type, where nobody named it.
   template <class T>
   T& global() {
-    return *std::launder(reinterpret_cast<T*>(globals_.find(type_id<T>()).data()));
+    return *std::launder(reinterpret_cast<T*>(globals_.at(type_id<T>(), type_name<T>())));
   }
   template <class T>
   const T& global() const {
-    return *std::launder(reinterpret_cast<const T*>(globals_.find(type_id<T>()).data()));
+    return *std::launder(reinterpret_cast<const T*>(globals_.at(type_id<T>(), type_name<T>())));
   }
   Globals& globals() { return globals_; }
   const Globals& globals() const { return globals_; }

@@ -19,6 +19,8 @@ namespace mobil::inline v0_3 {
 
 /// Publishes<StepEvents> of who is awake, SleepsWatched of who sleeps.
 Module step_watch_module();
+/// Takes memory for the events of a tick: the last module, for phases before it may change who is watched.
+Module step_memory_module();
 
 /// Whether a person's steps are watched; false for a stale handle.
 bool is_watched(const World& world, Entity person);

@@ -3,6 +3,6 @@
 #include <mobil/simulation.h>
 
 int main() {
-  const mobil::Simulation simulation;
+  mobil::Simulation simulation;
   simulation.parts().each([](const mobil::Pose<mobil::Lanes<float>>&, float) {});
 }

@@ -8,11 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <mobil/anthropometry.h>
 #include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
-#include <mobil/components/compact.h>
-#include <mobil/components/fat.h>
 #include <mobil/components/footing.h>
 #include <mobil/host_parts.h>
 #include <mobil/lod.h>
@@ -23,7 +20,6 @@
 #include <mobil/systems/people/person.h>
 #include <mobil/systems/people/step_watch.h>
 #include <mobil/terrain.h>
-#include "engine/row_hash.h"
 #include "engine/state_hash.h"
 #include "systems/avoidance/avoidance_module.h"
 #include "systems/gait/gait.h"
@@ -189,7 +185,7 @@ Result<void> Simulation::despawn(Entity human) {
 /// A walker, awake or asleep, is asked for what could be made of a request.
 Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
   if (!gait) return tl::unexpected(gait.error());
-  const SleepTime now = core_->time();
+  const SleepTime now = time_of(core_->frame);
   if (is_asleep(core_->world, human)) {
     if (same_style(gait_of(core_->world, human)->style, gait->style) && !is_busy(core_->world, human, now)) {
       ask_sleepers(core_->world, core_->jobs, std::array{AskedSleeper{human, *gait}}, now);
@@ -250,7 +246,7 @@ Status Simulation::read(Entity entity, const KeyPart& component, void* row) cons
     return Status::ok;
   }
   if (mobil::is_compact(world, entity)) return read_compact(world, entity, component.id, row);
-  return read_asleep(world, entity, core_->time(), component.id, row);
+  return read_asleep(world, entity, time_of(core_->frame), component.id, row);
 }
 
 Status Simulation::read_tag(Entity entity, std::uint64_t tag, std::uint64_t& value) const {
@@ -282,7 +278,7 @@ Result<void> Simulation::place(std::span<const PlaceRequest> places) {
   if (!people.empty()) {
     if (auto done = wake(core_->frame, std::vector(people)); !done) return done;
   }
-  place_people(core_->world, core_->time(), places, core_->workspace.get<SleepWork>().ways);
+  place_people(core_->world, time_of(core_->frame), places, core_->workspace.get<SleepWork>().ways);
   core_->workspace.get<MuscleWork>().recent = {};
   return {};
 }
@@ -292,7 +288,7 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
     return fail(fmt::format("shift_origin: ({}, {}) m is not within ±1000000 m", x_m, z_m));
   shift_people(core_->world, x_m, z_m);
   shift_muscles(core_->world, x_m, z_m);
-  shift_sleepers(core_->world, core_->time(), x_m, z_m);
+  shift_sleepers(core_->world, time_of(core_->frame), x_m, z_m);
   core_->workspace.get<MuscleWork>().recent = {};
   return {};
 }
@@ -303,7 +299,7 @@ Result<void> Simulation::enable(std::span<const Entity> people, Feature feature,
 }
 
 Result<void> Simulation::roots(std::span<const Entity> people, std::span<Root> out, double ahead_s) const {
-  return read_roots(core_->world, people, core_->time(), ahead_s, out);
+  return read_roots(core_->world, people, time_of(core_->frame), ahead_s, out);
 }
 
 Result<void> Simulation::set_muscles(std::span<const Entity> people, const std::optional<LegMuscles>& choice) {

@@ -7,15 +7,12 @@
 
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/people/sleepers.h>
 #include "systems/bellies/belly_library.h"
 
 namespace mobil::inline v0_3 {
 
 struct Simulation::Core {
   Core(const SimulationOptions& options, const Clock& clock, std::vector<Module> modules, Schedule schedule);
-
-  SleepTime time() const { return {tick.index, tick.dt_s}; }
 
   World world;
   Clock clock;

@@ -28,7 +28,9 @@ namespace mobil::inline v0_3 {
 
 /// What the host gave, and what choosing works in, which lies in the simulation's workspace.
 struct AvoidanceWork {
-  TableList tables{type_id<Course<float>>()};
+  explicit AvoidanceWork(std::pmr::memory_resource* memory) : tables({type_id<Course<float>>()}, memory) {}
+
+  TableList tables;
   AvoidanceOptions options;
   std::vector<BoxedWall> walls;
   std::vector<Disc> discs;

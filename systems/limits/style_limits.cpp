@@ -421,7 +421,7 @@ std::string described(const StyleChange& change) {
 
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
                       StyleWork& work, std::span<std::vector<StyleChange>> moved) {
-  // As much room as everybody may need, so that it grows with how many are asked, not with who they are.
+  // The reserved memory depends on the number of people alone.
   for (std::vector<StyleChange>& of : moved) of.clear();
   for (auto* const list : {&work.near, &work.far, &work.farther}) {
     list->clear();

@@ -13,7 +13,6 @@
 #include "engine/state_hash.h"
 #include "systems/accuracy/packed_rungs.h"
 #include "systems/gait/asleep.h"
-#include "systems/lod/basis_orders.h"
 #include "systems/lod/sight.h"
 #include "systems/states/person_states.h"
 
@@ -78,9 +77,10 @@ void LodRound::decide_compact(Entity human, bool compact, const Tiers<float>& ti
 /// Tables come and stay. Their order follows from what they are, not from which came first: where not everybody's turn
 /// can be at once, the same people come first in a world that was restored.
 void LodRound::find_tables() {
-  if (work_.tables_seen == world_.tables().size()) return;
-  for (; work_.tables_seen < world_.tables().size(); ++work_.tables_seen) {
-    Table& table = world_.tables()[work_.tables_seen];
+  const auto& managed = frame_.workspace.get<ManagedPeople>().tables.found();
+  if (work_.tables_seen == managed.size()) return;
+  for (; work_.tables_seen < managed.size(); ++work_.tables_seen) {
+    Table& table = *managed[work_.tables_seen];
     const Columns at{TableColumn<Needs>(table),    TableColumn<Tiers>(table), TableColumn<Pose>(table),
                      TableColumn<BodySize>(table), TableColumn<Gait>(table),  TableColumn<StepPlan>(table),
                      TableColumn<GaitState>(table)};

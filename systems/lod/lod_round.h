@@ -35,7 +35,10 @@ struct LodProgress {
 
 /// Whether there is anybody to choose for, in the simulation's workspace.
 struct ManagedPeople {
-  TableList tables{type_id<Tiers<float>>(), type_id<SleepsManaged>()};
+  explicit ManagedPeople(std::pmr::memory_resource* memory)
+      : tables({type_id<Tiers<float>>(), type_id<SleepsManaged>()}, memory) {}
+
+  TableList tables;
 };
 
 /// What the host gave, and what choosing works in, which lies in the simulation's workspace.
@@ -88,7 +91,7 @@ struct LodWork {
   RungLadder ladder{accuracy_table()};
   BasisOrders orders;
   LodReport report;
-  std::size_t tables_seen = 0;
+  std::size_t tables_seen = 0;  // of those of ManagedPeople
   std::vector<std::pair<Table*, Columns>> tables;
   /// What was decided of those looked at: in this tick, and by each run of blocks of it.
   Looked now;

@@ -68,8 +68,8 @@ void LodRound::list_all_sleepers() {
       for (std::uint32_t l = 0; l < table->live(b); ++l) work_.waking.push_back({0, table->entities(b)[l], seen});
 }
 
-/// A part of the sleepers, as large as what the camera has moved asks for: each is looked at again before camera and
-/// walkers together can have gone nine tenths of the way within which they are to be awake.
+/// Looks at a part of the sleepers, which grows with the camera's movement. Each sleeper is looked at again before
+/// camera and walker together can have covered nine tenths of `asleep_beyond_m`.
 void LodRound::look_at_sleepers() {
   const Viewpoint& camera = *work_.scene.camera;
   work_.sleeping_blocks.clear();

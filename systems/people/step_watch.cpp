@@ -62,17 +62,16 @@ Vec3<float> ground_of(const StepEvents::One& one, const Footing<Lanes<float>>& f
 }  // namespace
 
 Module step_watch_module() {
-  return {.name = "step events",
-          .parts = {key_part(Publishes<StepEvents>{}), key_part(TagValue<SleepsWatched>{})},
-          .systems =
-              [](ScheduleBuilder& systems) {
-                systems.add("steps ahead", &watch_ahead).add("step events", &watch_behind).after("steps ahead");
-              },
-          .after = {{"step events",
-                     [](const Frame& frame) {
-                       frame.workspace.get<StepLog>().take(frame.world, frame.tick.index, frame.tick.dt_s);
-                     }}},
-          .check_key = &check_watch_key};
+  return {
+      .name = "step events",
+      .parts = {key_part(Publishes<StepEvents>{}), key_part(TagValue<SleepsWatched>{})},
+      .systems =
+          [](ScheduleBuilder& systems) {
+            systems.add("steps ahead", &watch_ahead).add("step events", &watch_behind).after("steps ahead");
+          },
+      .after = {{"step events",
+                 [](const Frame& frame) { frame.workspace.get<StepLog>().take(frame.tick.index, frame.tick.dt_s); }}},
+      .check_key = &check_watch_key};
 }
 
 Module step_memory_module() {
@@ -104,24 +103,20 @@ Status watch_steps(World& world, const Jobs& jobs, std::span<const Entity> peopl
   return Status::ok;
 }
 
-void StepLog::prepare(const World& world, float tick_s) {
-  for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
-    if (world.tables()[tables_seen_].column(type_id<StepEvents>()) != Table::no_column)
-      tables_.push_back(static_cast<std::uint32_t>(tables_seen_));
-  }
+void StepLog::prepare(World& world, float tick_s) {
   std::size_t watched = 0;
-  for (const std::uint32_t t : tables_) watched += world.tables()[t].row_count();
+  for (const Table* const table : tables_.find(world)) watched += table->row_count();
   const std::size_t usual = watched * most_events(most_ticks_, tick_s),
                     needed = events_.size() + watched * StepEvents::most;
   if (events_.capacity() < usual) events_.reserve(usual);
   if (events_.capacity() < needed) events_.reserve(std::max(needed, 2 * events_.capacity()));
 }
 
-void StepLog::take(const World& world, std::uint32_t tick, float tick_s) {
+void StepLog::take(std::uint32_t tick, float tick_s) {
   const auto first = static_cast<std::ptrdiff_t>(events_.size());
   const float part = 1.0F / static_cast<float>(clock_units(tick_s).per_tick);
-  for (const std::uint32_t t : tables_) {
-    const Table& table = world.tables()[t];
+  for (const Table* const one_of : tables_.found()) {
+    const Table& table = *one_of;
     const std::size_t column = table.column(type_id<StepEvents>()) * lane_count;
     const TableColumn<Footing> footing(table);
     const TableColumn<GaitState> state(table);

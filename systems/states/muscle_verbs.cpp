@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
+#include <cstddef>
+#include <vector>
 
 #include <mobil/muscle_table.h>
 #include <mobil/systems/people/person.h>
@@ -22,19 +22,35 @@ Error of_person(std::span<const Entity> people, std::size_t i, const Error& erro
   return {one_line(fmt::format("person {}: {}", i, error.message)), error.status};
 }
 
-/// Asks `check(person)` of each, who is full for it, with muscles begun, and stays so where nobody is refused; else
-/// nobody has changed.
-template <class Check>
-Result<void> check_full(const Frame& frame, std::span<const Entity> people, const Check& check) {
+Result<void> check_there(const Frame& frame, std::span<const Entity> people) {
   for (std::size_t i = 0; i < people.size(); ++i)
     if (!is_person(frame.world, people[i]))
       return tl::unexpected(
           of_person(people, i, {"that person is not there (a stale handle); spawn one first", Status::stale_entity}));
+  return {};
+}
+
+/// Calls `change(i)` for each, who is full for it, with muscles begun. A change that is refused changes nothing; of
+/// several people `check(i)` says first whether each would be refused, and then nobody has changed.
+template <class Check, class Change>
+Result<void> change_full(const Frame& frame, std::span<const Entity> people, const Check& check, const Change& change) {
+  if (auto ok = check_there(frame, people); !ok) return ok;
+  const bool is_one = people.size() == 1;
+  if (is_one && !is_asleep(frame.world, people[0]) && !is_compact(frame.world, people[0]) &&
+      !kept_choice(frame.world, people[0]))
+    return change(0);
   World::Attempt attempt(frame.world, frame.jobs);
   if (auto done = make_muscles_whole(frame, people); !done) return done;
+  if (is_one) {
+    auto done = change(0);
+    if (done) attempt.keep();
+    return done;
+  }
   for (std::size_t i = 0; i < people.size(); ++i)
-    if (const Result<void> ok = check(people[i]); !ok) return tl::unexpected(of_person(people, i, ok.error()));
+    if (const Result<void> ok = check(i); !ok) return tl::unexpected(of_person(people, i, ok.error()));
   attempt.keep();
+  for (std::size_t i = 0; i < people.size(); ++i)
+    if (const Result<void> done = change(i); !done) return tl::unexpected(of_person(people, i, done.error()));
   return {};
 }
 
@@ -52,53 +68,54 @@ Result<void> check_method(const Frame& frame, Entity person, Muscle muscle, cons
 
 }  // namespace
 
-Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, const std::optional<LegMuscles>& choice) {
-  const auto check = [&](Entity person) -> Result<void> {
-    if (!choice) return {};
-    return check_leg_muscles(frame.world, *means_of(frame).library, means_of(frame).tick_s, person, *choice);
-  };
-  if (auto ok = check_full(frame, people, check); !ok) return ok;
-  // Muscles that come can be undone, those that change or go cannot.
-  std::optional<World::Attempt> attempt;
-  if (std::ranges::none_of(people, [&](Entity person) { return has_muscles(frame.world, person); }))
-    attempt.emplace(frame.world, frame.jobs);
-  for (std::size_t i = 0; i < people.size(); ++i) {
-    const Entity person = people[i];
-    Result<void> done;
-    if (!choice)
-      done = has_muscles(frame.world, person)
-                 ? result_of("no muscles", remove_leg_muscles(frame.world, frame.jobs, person))
-                 : Result<void>{};
-    else if (has_muscles(frame.world, person))
-      done = change_leg_muscles(scene_of(frame), person, *choice);
-    else
-      done = add_leg_muscles(scene_of(frame), person, *choice);
-    if (!done) return tl::unexpected(of_person(people, i, done.error()));
+/// Takes no memory for people who are full.
+static Result<void> remove_muscles(const Frame& frame, std::span<const Entity> people) {
+  if (auto done = make_muscles_whole(frame, people); !done) return done;
+  for (const Entity person : people) {
+    if (!has_muscles(frame.world, person)) continue;
+    if (auto done = result_of("no muscles", remove_leg_muscles(frame.world, frame.jobs, person)); !done) return done;
+    choose_from_now(frame.world, person);
   }
-  if (attempt) attempt->keep();
+  return {};
+}
+
+Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, const std::optional<LegMuscles>& choice) {
+  if (auto ok = check_there(frame, people); !ok) return ok;
+  if (!choice) return remove_muscles(frame, people);
+  // Muscles that come can be undone. Those that change cannot: they follow once nobody can be refused.
+  std::vector<std::size_t> have;
+  World::Attempt attempt(frame.world, frame.jobs);
+  if (auto done = make_muscles_whole(frame, people); !done) return done;
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    Result<void> ok;
+    if (has_muscles(frame.world, people[i])) {
+      have.push_back(i);
+      ok = check_leg_muscles(frame.world, *means_of(frame).library, means_of(frame).tick_s, people[i], *choice);
+    } else {
+      ok = add_leg_muscles(scene_of(frame), people[i], *choice);
+    }
+    if (!ok) return tl::unexpected(of_person(people, i, ok.error()));
+  }
+  attempt.keep();
+  for (const std::size_t i : have)
+    if (const auto done = change_leg_muscles(scene_of(frame), people[i], *choice); !done)
+      return tl::unexpected(of_person(people, i, done.error()));
   for (const Entity person : people) choose_from_now(frame.world, person);
   return {};
 }
 
 Result<void> set_method(const Frame& frame, std::span<const Entity> people, Muscle muscle, const MuscleMethod& method) {
-  const auto check = [&](Entity person) { return check_method(frame, person, muscle, method); };
-  if (auto ok = check_full(frame, people, check); !ok) return ok;
-  for (std::size_t i = 0; i < people.size(); ++i)
-    if (auto done = set_method(scene_of(frame), people[i], muscle, method); !done)
-      return tl::unexpected(of_person(people, i, done.error()));
-  return {};
+  return change_full(
+      frame, people, [&](std::size_t i) { return check_method(frame, people[i], muscle, method); },
+      [&](std::size_t i) { return set_method(scene_of(frame), people[i], muscle, method); });
 }
 
 Result<void> set_excitation(const Frame& frame, std::span<const Entity> people, Muscle muscle, Side side,
                             std::span<const float> excitation) {
-  std::size_t next = 0;
-  const auto check = [&](Entity person) {
-    return check_excitation(frame.world, person, muscle, side, excitation[next++]);
-  };
-  if (auto ok = check_full(frame, people, check); !ok) return ok;
-  for (std::size_t i = 0; i < people.size(); ++i)
-    (void)set_excitation(frame.world, people[i], muscle, side, excitation[i]);
-  return {};
+  return change_full(
+      frame, people,
+      [&](std::size_t i) { return check_excitation(frame.world, people[i], muscle, side, excitation[i]); },
+      [&](std::size_t i) { return set_excitation(frame.world, people[i], muscle, side, excitation[i]); });
 }
 
 MuscleMethod method_of(const World& world, Entity person, Muscle muscle) {

@@ -18,10 +18,6 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-SleepTime time_of(const Frame& frame) {
-  return {frame.tick.index, frame.tick.dt_s};
-}
-
 /// Muscles that have just begun get within `within_m` of where they would be.
 void warm(const Frame& frame, std::span<const Entity> people, const LegMuscles& choice, float within_m) {
   const MuscleScene scene = scene_of(frame);
@@ -44,6 +40,10 @@ Result<void> begin_kept(const Frame& frame, Entity person) {
 }
 
 }  // namespace
+
+SleepTime time_of(const Frame& frame) {
+  return {frame.tick.index, frame.tick.dt_s};
+}
 
 MuscleScene scene_of(const Frame& frame) {
   const auto& means = frame.workspace.get<MuscleMeans>();

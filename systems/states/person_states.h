@@ -15,6 +15,9 @@ namespace mobil::inline v0_3 {
 /// The simulation as the scene that changes of muscles take. MuscleMeans must be in the workspace.
 MuscleScene scene_of(const Frame& frame);
 
+/// Ticks that have run, and their length.
+SleepTime time_of(const Frame& frame);
+
 /// Sleepers wake, with muscles within `within_m` of where they would be (Simulation::set_state). People are alive and
 /// named once each; those awake are left alone. All, or nobody.
 Result<void> wake(const Frame& frame, std::span<const Entity> people, float within_m = 0.005F);

@@ -62,7 +62,9 @@ struct TerrainWork {
     std::size_t first;
     bool all;
   };
-  TableList tables{type_id<Footing<float>>()};
+  explicit TerrainWork(std::pmr::memory_resource* memory) : tables({type_id<Footing<float>>()}, memory) {}
+
+  TableList tables;
   TerrainHeights heights;
   TerrainOptions options;
   std::vector<Asking> asking;
@@ -80,7 +82,7 @@ struct TerrainWork {
   std::size_t put_answers(const Frame& frame);
   std::size_t put_answers(World& world, const Asking& one, bool slows_down);
   static void stand_up(World& world, Entity human);
-  void find_changed(const World& world);
+  void find_changed(World& world);
   Result<void> slow_down(const Frame& frame, std::span<const Entity> some, std::optional<float> steepness = {});
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
@@ -245,11 +247,12 @@ std::size_t TerrainWork::put_answers(const Frame& frame) {
 }
 
 /// Adds the walkers on a slope of whom the host has asked something since they were looked at.
-void TerrainWork::find_changed(const World& world) {
-  for (const Table& table : world.tables()) {
+void TerrainWork::find_changed(World& world) {
+  for (const Table* const one : tables.find(world)) {
+    const Table& table = *one;
     const TableColumn<Footing> footings(table);
     const TableColumn<Gait> gaits(table);
-    if (!footings || !gaits || TableColumn<Course>(table)) continue;
+    if (!gaits || TableColumn<Course>(table)) continue;
     for (std::size_t b = 0; b < table.block_count(); ++b) {
       const auto& footing = footings.at(table, b);
       const auto& gait = gaits.at(table, b);

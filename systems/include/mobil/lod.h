@@ -1,7 +1,7 @@
 #pragma once
 // Which method each muscle gets, from what a scene needs. A scene says what is good enough: metres for everybody or for
-// one person, pixels of a camera, or a time a tick for all deformation together; each muscle gets the
-// cheapest method that keeps to it, as measured (mobil/systems/accuracy/accuracy_table.h). A scene can change in every
+// one person, pixels of a camera, or a time a tick for all deformation together. Each muscle gets the
+// cheapest method whose measured error meets it (mobil/systems/accuracy/accuracy_table.h). A scene can change in every
 // tick.
 //
 //   Simulation simulation;
@@ -12,10 +12,9 @@
 //   simulation.advance(frame_seconds);                       // chooses and switches
 //   lod.why(human, Muscle::hamstrings)->text;                // "reduced-8: 0.9 mm of 1.2 mm allowed; …"
 //
-// Who does not use it pays nothing, and people whom it does not manage it does not touch. What it decides lies on the
-// person's row (mobil/components/lod.h), and what it remembers besides is a global of the world: both are state. With
-// `machine_factor` given, or without a budget, decisions depend on that state and the scene alone, not on clocks or
-// threads.
+// It costs nothing unless it manages people, and changes only those. Its decisions are on the person's row
+// (mobil/components/lod.h). Its progress is a global of the world. Both are state. With `machine_factor` given, or
+// without a budget, decisions depend on that state and the scene alone, not on clocks or threads.
 
 #include <array>
 #include <cstddef>
@@ -74,7 +73,7 @@ struct SceneNeeds {
   std::optional<double> budget_s{};
 };
 
-/// What one person needs otherwise than the scene says.
+/// Overrides the scene's needs for one person.
 struct PersonNeeds {
   std::optional<MuscleSet> muscles{};
   std::optional<float> tolerance_m{};
@@ -98,7 +97,7 @@ struct LodOptions {
   std::uint32_t compacts = 200, expands = 3000;
   /// Everybody is looked at every so many looks (`every` says how often one is).
   std::uint32_t stagger = 4;
-  /// What predicted errors are multiplied by, for what bodies and walks differ from those that were measured. Set by
+  /// Factor on predicted errors, for bodies and walks other than the measured ones. Set by
   /// 13 other bodies at 0.8 to 1.9 m/s, with inertia and without (relevance_show_test): with 1.25 at least 99.7 % of
   /// ticks kept to a promised tolerance; and at up to 2 m/s of the reference body's height errors were at most 1.93
   /// times the table's, where 2.5 would still be within twice the tolerance. It speaks of muscles that have been

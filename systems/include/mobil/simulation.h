@@ -182,16 +182,15 @@ class Simulation {
   /// spans not as long as each other; nothing is written then.
   Result<void> roots(std::span<const Entity> people, std::span<Root> out, double ahead_s = 0) const;
 
-  /// Leg muscles of these people from the next tick on: lines of action and finite-element bellies of the muscles
-  /// chosen, both legs. Where there are none yet they begin at rest where the person stands in the stride (with inertia
-  /// under the load of that moment). Muscles that are there and stay keep their handles; of them displacement and
-  /// velocity stay while the cells do (velocities are taken as they are, be they half a step back or not; from static
-  /// on they begin with zero); other cells begin at rest. Where activation begins or ends, the belly's end is elsewhere
-  /// at once: the belly follows statically, and what is shown fades to it. Inertia that begins under way lets the
-  /// bellies sag. With std::nullopt all muscles go. Critical steps and substeps are computed anew, and every choice not
-  /// made before is set up and kept. All or none, but for what was
-  /// changed before memory ran out. Errors: a stale handle, somebody named twice, a choice out of range,
-  /// a step above an individual's critical step, which names the muscle and the limit; nothing has changed.
+  /// Sets the leg muscles of these people from the next tick on: lines of action and finite-element bellies of the
+  /// muscles chosen, both legs. With std::nullopt all muscles go. New muscles begin at rest at the person's phase of
+  /// the stride (with inertia: under the load of that moment). Muscles that stay keep their handles. They keep
+  /// displacement and velocity if their cells stay, with a velocity of zero after Method::statics; else they begin at
+  /// rest. If activation begins or ends, the belly's end moves at once. The belly then follows statically, and the
+  /// displayed points fade to it. Inertia that begins during a walk lets the bellies sag. Critical steps and substeps
+  /// are computed again; new choices are set up and kept. All or none, but for changes made before memory ran out.
+  /// Errors: a stale handle, a person named twice, a choice out of range, a step above an individual's critical step,
+  /// which names the muscle and the limit; nothing has changed.
   Result<void> set_muscles(std::span<const Entity> people, const std::optional<LegMuscles>& choice);
   Result<void> set_muscles(Entity person, const LegMuscles& choice = {}) {
     return set_muscles(std::span(&person, 1), choice);
@@ -199,9 +198,9 @@ class Simulation {
   Result<void> set_muscles(Entity person, std::nullopt_t none) { return set_muscles(std::span(&person, 1), none); }
 
   /// Another method for one muscle, both sides, from the next tick on; the person's other choices hold. All or none,
-  /// but for what was changed before memory ran out. What is shown of control points goes on without a jump in
-  /// displacement or velocity: what the new method cannot begin with is added to what it computes and fades within
-  /// `fade_s`. Errors: a stale handle, a muscle that is not there, a choice out of range; nothing has changed.
+  /// but for changes made before memory ran out. The displayed control points show no jump in displacement or velocity:
+  /// the difference to the new method's start is added to its results and fades within `fade_s`. Errors: a stale
+  /// handle, a muscle that is not there, a choice out of range; nothing has changed.
   Result<void> set_method(std::span<const Entity> people, Muscle muscle, const MuscleMethod& method);
   Result<void> set_method(Entity person, Muscle muscle, const MuscleMethod& method) {
     return set_method(std::span(&person, 1), muscle, method);

@@ -40,7 +40,7 @@ struct TerrainHeight {
 /// Answers all queries of a tick at once, on the thread that ticks; `out` is as long and all zero. Heights within ±100
 /// km; rises within ±1, steeper ones are taken as that. Instead of an answer that is not a number the plane of another
 /// under the same sole is taken, or level ground at the height of the last foothold. Must not change the simulation.
-/// The same places must get the same answers where a run is to be repeated.
+/// A run can be repeated if the same places get the same answers.
 using TerrainHeights = std::function<void(std::span<const TerrainQuery> at, std::span<TerrainHeight> out)>;
 
 /// What became of the ground in all ticks of the last `advance` or `tick`: people on it in the last of them; how often

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <memory_resource>
 #include <vector>
 
 #include <mobil/engine/world.h>
@@ -14,10 +15,11 @@ namespace mobil::inline v0_3 {
 class TableList {
  public:
   /// Ids of the parts.
-  TableList(std::initializer_list<std::uint64_t> parts) : parts_(parts) {}
+  TableList(std::initializer_list<std::uint64_t> parts, std::pmr::memory_resource* memory)
+      : parts_(parts, memory), found_(memory) {}
 
   /// Takes in the world's new tables. The same world each time.
-  const std::vector<Table*>& find(World& world) {
+  const std::pmr::vector<Table*>& find(World& world) {
     for (; seen_ < world.tables().size(); ++seen_) {
       Table& table = world.tables()[seen_];
       const auto has = [&](std::uint64_t part) { return find_part(table.key(), part) != nullptr; };
@@ -25,14 +27,16 @@ class TableList {
     }
     return found_;
   }
+  /// Those found so far. Takes no memory.
+  const std::pmr::vector<Table*>& found() const { return found_; }
   /// Whether one of them has rows.
   bool any_rows(World& world) {
     return std::ranges::any_of(find(world), [](const Table* table) { return table->row_count() > 0; });
   }
 
  private:
-  std::vector<std::uint64_t> parts_;
-  std::vector<Table*> found_;
+  std::pmr::vector<std::uint64_t> parts_;
+  std::pmr::vector<Table*> found_;
   std::size_t seen_ = 0;
 };
 

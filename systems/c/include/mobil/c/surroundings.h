@@ -15,9 +15,9 @@ typedef struct mobil_avoidance_options {
                         clear of walls, discs and who avoids nobody; who comes nearer to others turns them */
 } mobil_avoidance_options;
 
-/* What was chosen in all ticks of the last mobil_advance or mobil_tick: people looked at in the last of them; how often
- * a step was chosen; of these by whom who had to keep to what others know of them, and who gave way to somebody that
- * chose at the same time; who stood though they want to walk. */
+/* Counts of all ticks of the last mobil_advance or mobil_tick. `people`: looked at in the last tick. `chose`: choices of
+ * a step. `kept_claim`: choices that kept to the announced step. `gave_way`: choices that gave way to a simultaneous
+ * one. `waiting`: choices to stand although the walker wants to walk. */
 typedef struct mobil_avoidance_counts {
   size_t size;
   size_t people, chose, kept_claim, gave_way, waiting;
@@ -73,8 +73,8 @@ MOBIL_API int mobil_terrain_set_slowing(mobil_sim* sim, int on);
 MOBIL_API int mobil_terrain_ask(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room,
                                 size_t* count);
 /* The ground at the places of the last mobil_terrain_ask, in their order, before the next tick, as mobil_heights
- * answers; `unusable` (may be null) is how many answers could not be used. Where walkers slow down, call it also with
- * no places: who was asked to walk otherwise since is looked at. */
+ * answers; `unusable` (may be null) is how many answers could not be used. If walkers slow down on slopes, call it
+ * without places too. It then adapts walks that were requested since the last call. */
 MOBIL_API int mobil_terrain_answer(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable);
 /* Writes what the ground was asked. */
 MOBIL_API int mobil_terrain_report(mobil_sim* sim, mobil_terrain_counts* out);

@@ -80,12 +80,12 @@ bool is_near_usual(const GaitStyle& style);
 /// (assets/gait/README.md).
 bool has_usual_steps(float height_m, float speed_m_s, float step_length_m);
 
-/// True where the walk surely keeps the limits: steps of the usual length, each
-/// number of the style within a tenth of the usual one, and what the usual walk of that height and speed goes to, with
-/// what each number adds to first order and a quarter of what all of them add either way, stays clear of every limit.
-/// False says nothing. Of 180 000 random styles with every number up to a tenth off, a third of the numbers at that
-/// end, 4000 broke a limit, two thirds were told to keep all, and all those did (the nearest came within 0.9° of one).
-/// The numbers are found when first asked for (some tens of milliseconds).
+/// True if the walk certainly keeps the limits; false says nothing. It requires steps of the usual length and each
+/// number of the style within a tenth of the usual one. It estimates the walk's extremes from the usual walk of that
+/// height and speed, by the first-order effect of each number, plus a quarter of all effects as a margin. 180 000
+/// random styles were tried, every number up to a tenth off, a third of the numbers at that end. 4000 of them broke a
+/// limit. For two thirds the answer was true, and all of those kept the limits, the nearest by 0.9°. The first call
+/// computes the numbers, in some tens of milliseconds.
 bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait);
 
 /// Whether all numbers of two styles are equal; and the speed and the step length too.

@@ -14,13 +14,13 @@ class World;
 enum class PersonState : std::uint8_t {
   /// A walker with everything.
   full,
-  /// A walker whom nobody looks at: goes on as before, and so do the muscles, in a part of the time and of the memory.
-  /// Compact people have no pose of their own, and their muscles are in the person's row: handles of muscles go, others
-  /// come when the person is full again. Simulation::get makes Pose, JointAngles, Feet and CentreOfMass when asked
-  /// (some microseconds), PoseWriter sixteen people's at a time; each<Pose> does not see them. Control points are
-  /// within 4 µm of where they would be. Nobody becomes compact with forces, nor whose muscles place control points,
-  /// have effects, parts of the host's or a method other than reduced or none, nor while muscles fade, nor whom terrain
-  /// manages.
+  /// A walker in less time and memory, for people whom nobody looks at. The walk and the muscles continue. Compact
+  /// people have no pose of their own. Their muscles are fields of the person's row, so the handles of muscles become
+  /// stale; new ones come when the person is full again. Simulation::get computes Pose, JointAngles, Feet and
+  /// CentreOfMass on request, in some microseconds; PoseWriter computes sixteen people's at a time. each<Pose> skips
+  /// them. Control points later are within 4 µm of where they would be. These people cannot become compact: people with
+  /// forces, or on terrain; people whose muscles place control points, have effects or parts of the host's, have a
+  /// method other than reduced or none, or fade.
   compact,
   /// A walker whom nobody sees: the rows go, and a hundred bytes are left from which the person comes back where they
   /// would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking. A host's own

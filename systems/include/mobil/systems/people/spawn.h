@@ -32,13 +32,15 @@ struct SpawnRequest {
 
 struct StyleChange;  // mobil/systems/limits/style_limits.h
 struct StyleWork;
-/// What of a walk's manner is otherwise than asked, in that order, because a limit of joints or ground would be broken
-/// or all but reached: Simulation::spawn, change_gait and set_gait keep to it, and Simulation::gait_request then says
-/// what is walked. Empty: nothing. Errors: as of spawn.
+
+/// Lists what Simulation::spawn, change_gait and set_gait change of a requested walk, in the order of the changes.
+/// They change it where it would break, or nearly reach, a limit of joints or ground. Simulation::gait_request then
+/// returns the changed walk. Errors: as of spawn.
 Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& gait);
-/// Moves the gait that a walker is asked for within the limits of walks (mobil/systems/limits/style_limits.h): a
-/// walker, awake or asleep, if it differs from what they are to do.
+/// Moves a gait requested of a walker, awake or asleep, within the limits of walks
+/// (mobil/systems/limits/style_limits.h). Does nothing if the walker has that gait already.
 void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleWork& work);
+
 /// What could not be made, and of which of the people.
 struct NotMade {
   std::size_t person = 0;

@@ -16,8 +16,8 @@ struct StepEvent {
   StepEventKind kind;
   /// The foot that came to the ground or left it; that came down last before somebody stood; that goes first.
   Side side;
-  /// Of which tick, from 1 on as Simulation::ticks counts, and what part of it was over, 0 to 1, to the unit of the
-  /// walker's clock (a 32768th of a tick): (tick − 1 + part) · tick_s seconds after the beginning.
+  /// Time of the event: (tick − 1 + part) · tick_s seconds after the beginning. `tick` counts from 1, as
+  /// Simulation::ticks does. `part` is 0 to 1, in units of the walker's clock (a 32768th of a tick).
   std::uint32_t tick;
   float part;
   /// On the ground, m: of a foot the point under its ankle when it lies flat, the same as it comes down and as it

@@ -12,6 +12,7 @@
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/module.h>
 #include <mobil/engine/status.h>
+#include <mobil/engine/table_list.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/people/step_event.h>
 
@@ -31,7 +32,7 @@ Status watch_steps(World& world, const Jobs& jobs, std::span<const Entity> peopl
 /// What happened in the ticks since it was cleared, in order of time, at one time in the order of handles.
 class StepLog {
  public:
-  explicit StepLog(std::pmr::memory_resource* memory) : events_(memory), tables_(memory) {}
+  explicit StepLog(std::pmr::memory_resource* memory) : events_(memory), tables_({type_id<StepEvents>()}, memory) {}
 
   /// Forgets all events.
   void clear() { events_.clear(); }
@@ -39,15 +40,14 @@ class StepLog {
   void plan_for(std::uint32_t ticks) { most_ticks_ = ticks; }
   /// Before a tick: takes memory where more people are watched than ever before, for the longest `advance`, and where a
   /// longer `tick(n)` has had more events.
-  void prepare(const World& world, float tick_s);
+  void prepare(World& world, float tick_s);
   /// After the tick has run: `tick` is its number, from 1 on. Takes no memory.
-  void take(const World& world, std::uint32_t tick, float tick_s);
+  void take(std::uint32_t tick, float tick_s);
   std::span<const StepEvent> events() const { return events_; }
 
  private:
   std::pmr::vector<StepEvent> events_;
-  std::pmr::vector<std::uint32_t> tables_;  // those with StepEvents
-  std::size_t tables_seen_ = 0;
+  TableList tables_;  // those with StepEvents
   std::uint32_t most_ticks_ = 1;
 };
 

@@ -14,13 +14,13 @@ int main() {
   mobil::GaitRequest gait;
   gait.speed_m_s = 5 / 3.6F;
 
-  const auto human = simulation.spawn(body, gait);
-  if (!human) {
-    std::fprintf(stderr, "%s\n", human.error().message.c_str());
+  const auto person = simulation.spawn(body, gait);
+  if (!person) {
+    std::fprintf(stderr, "%s\n", person.error().message.c_str());
     return 2;
   }
   // An effect is a component: without this line nobody pays for muscles.
-  if (const auto added = simulation.set_muscles(*human); !added) {
+  if (const auto added = simulation.set_muscles(*person); !added) {
     std::fprintf(stderr, "%s\n", added.error().message.c_str());
     return 2;
   }
@@ -28,9 +28,9 @@ int main() {
   for (int frame = 0; frame < 90; ++frame) {
     const auto advance = simulation.advance(1.0 / 30);  // as many fixed ticks of 1/60 s as fit
     if (frame % 15 != 0) continue;
-    const auto pose = simulation.get<mobil::Pose>(*human);
-    const auto knee = simulation.get<mobil::JointAngles>(*human);
-    const auto hamstrings = simulation.muscle(*human, mobil::Muscle::hamstrings, mobil::Side::right);
+    const auto pose = simulation.get<mobil::Pose>(*person);
+    const auto knee = simulation.get<mobil::JointAngles>(*person);
+    const auto hamstrings = simulation.muscle(*person, mobil::Muscle::hamstrings, mobil::Side::right);
     const auto line = simulation.get<mobil::LineOfAction>(hamstrings);
     std::printf("%4.1f s  pelvis at z = %.2f m  right knee %4.1f deg  hamstrings %.1f mm from rest  (%u ticks)\n",
                 simulation.time_s(), pose->position_m[0].z, knee->knee_flexion[mobil::Side::right] * 57.2958F,

@@ -89,7 +89,7 @@ constexpr Pair one_over_factorial[] = {{0x1.0000000000000p+0, 0x0.0p+0},
                                        {0x1.0a18a2635085dp-98, 0x1.b9e2e28e1aa54p-153}};
 
 /// x less `times` of a constant of three doubles.
-Pair reduced(Pair x, double times, Pair constant, double end) {
+Pair modal(Pair x, double times, Pair constant, double end) {
   return ((x + -product_of(times, constant.high)) + -product_of(times, constant.low)) + Pair{-times * end, 0};
 }
 
@@ -111,7 +111,7 @@ struct Power {
 };
 Power power_of(Pair x) {
   const double times = std::nearbyint(x.high / log_2.high);
-  return {static_cast<int>(times), small_expm1(reduced(x, times, log_2, log_2_end))};
+  return {static_cast<int>(times), small_expm1(modal(x, times, log_2, log_2_end))};
 }
 
 double exp_of(Pair x) {
@@ -152,7 +152,7 @@ Turn small_turn(Pair x) {
 }
 Turn turn_of(double x) {
   const double quarters = std::nearbyint(x / half_pi.high);
-  const Turn small = small_turn(reduced({x, 0}, quarters, half_pi, half_pi_end));
+  const Turn small = small_turn(modal({x, 0}, quarters, half_pi, half_pi_end));
   switch (static_cast<long long>(quarters) & 3) {
     case 0:
       return small;

@@ -1,7 +1,7 @@
 #pragma once
 // Memory that will be needed soon, fetched meanwhile: what one block takes from memory arrives while the one before it
 // is worked on. A kernel asks for some lines at a time, for a core has few places for what is on its way: all at once
-// gained 6 % where this gained 30 (`mobil crowd --humans 60000`).
+// gained 6 % where this gained 30 (`mobil crowd --people 60000`).
 
 #include <cstddef>
 

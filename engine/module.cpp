@@ -8,7 +8,7 @@ namespace mobil::inline v0_3 {
 
 const Module* module_of(std::span<const Module> modules, std::uint64_t part) {
   for (const Module& module : modules) {
-    for (const KeyPart& own : module.parts) {
+    for (const ComponentId& own : module.parts) {
       if (own.id == part) return &module;
     }
   }
@@ -28,7 +28,7 @@ Result<Schedule> make_schedule(std::span<const Module> modules, std::pmr::memory
     if (static_cast<bool>(module.follows) != static_cast<bool>(module.make))
       return fail("modules: '" + module.name +
                   "' says which column follows, or how it is made, but not both; give both");
-    for (const KeyPart& part : module.parts) {
+    for (const ComponentId& part : module.parts) {
       const Module* const other = module_of(before, part.id);
       if (other == nullptr) continue;
       return fail("modules: '" + module.name + "' and '" + other->name + "' both claim " + std::string(part.name) +

@@ -46,7 +46,7 @@ void for_pieces(const Records<SavedTable>& tables, std::size_t begin, std::size_
 }
 
 WordGap gap_of(const Table& table, std::uint64_t left_out) {
-  const KeyPart* const part = left_out == 0 ? nullptr : find_part(table.key(), left_out);
+  const ComponentId* const part = left_out == 0 ? nullptr : find_component(table.key(), left_out);
   if (part == nullptr || !has_column(part->kind)) return {};
   return {table.column(left_out), static_cast<std::uint32_t>(part->value)};
 }
@@ -96,7 +96,7 @@ Result<void> check_tables(const SavedWorld& saved, std::size_t blocks_bytes) {
   return {};
 }
 
-/// Rows and living slots name each other, one to one; the free ones form one list.
+/// Rows and alive slots name each other, one to one; the free ones form one list.
 Result<void> check_register(const SavedWorld& saved) {
   for (std::size_t t = 0; t < saved.tables.size(); ++t) {
     const SavedTable table = saved.tables[t];
@@ -200,7 +200,7 @@ void WorldSnapshot::save(const World& world, const SnapshotLayout& layout, std::
   for (const Table& table : world.tables_) {
     if (table.row_count() == 0) continue;
     const std::uint64_t follows = left_out(table.key()), without = gap_of(table, follows).words == 0 ? 0 : follows;
-    for (const KeyPart& part : table.key())
+    for (const ComponentId& part : table.key())
       writer.put(SavedPart{part.id, part.value, static_cast<std::uint32_t>(part.kind), part.id == without ? 1U : 0U});
   }
   // Slots name tables by their number among those with rows, which rows tell.
@@ -265,15 +265,16 @@ Result<SavedWorld> WorldSnapshot::read(const OpenSnapshot& snapshot) {
   return saved;
 }
 
-Result<KeyPart> WorldSnapshot::known_part(const World& world, const SavedPart& part, std::span<const KeyPart> known,
-                                          std::span<const SharedNumber> shared) const {
+Result<ComponentId> WorldSnapshot::known_part(const World& world, const SavedPart& part,
+                                              std::span<const ComponentId> known,
+                                              std::span<const SharedNumber> shared) const {
   const auto kind = static_cast<PartKind>(part.kind);
-  const KeyPart* like = nullptr;
-  for (const KeyPart& one : known) {
+  const ComponentId* like = nullptr;
+  for (const ComponentId& one : known) {
     if (one.id == part.id) like = &one;
   }
   for (auto table = world.tables().begin(); like == nullptr && table != world.tables().end(); ++table)
-    like = find_part(table->key(), part.id);
+    like = find_component(table->key(), part.id);
   if (like == nullptr)
     return fail("the snapshot has a component, field or tag that this program does not know (number " +
                 std::to_string(part.id) +
@@ -282,16 +283,17 @@ Result<KeyPart> WorldSnapshot::known_part(const World& world, const SavedPart& p
     return fail("the snapshot's " + std::string(like->name) + " is laid out otherwise than this program's (" +
                 std::to_string(part.value) + " words a row, not " + std::to_string(like->value) +
                 "); restore it with the program that made it");
-  if (kind != PartKind::shared) return KeyPart{part.id, kind, part.value, like->name};
+  if (kind != PartKind::shared) return ComponentId{part.id, kind, part.value, like->name};
   for (const SharedNumber& number : shared) {
-    if (number.id == part.id && number.saved == part.value) return KeyPart{part.id, kind, number.present, like->name};
+    if (number.id == part.id && number.saved == part.value)
+      return ComponentId{part.id, kind, number.present, like->name};
   }
   return damaged("a shared resource that it does not describe");
 }
 
-Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::span<const KeyPart> known,
+Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::span<const ComponentId> known,
                                     std::span<const SharedNumber> shared, const LeftOut& left_out,
-                                    const std::function<Result<void>(const TableKey&)>& check) {
+                                    const std::function<Result<void>(const Archetype&)>& check) {
   table_.resize(saved.tables.size());
   gap_.assign(saved.tables.size(), {});
   saved_.assign(world.tables_.size(), SavedWorld::nobody);

@@ -76,7 +76,7 @@ struct SharedNumber {
 /// Snapshots leave out a column that can be computed from a row's other columns. This function says which: it takes a
 /// table's key and returns the part's id, or 0 if the table has no such column. The caller computes the column again
 /// after `commit`.
-using LeftOut = std::function<std::uint64_t(const TableKey& key)>;
+using LeftOut = std::function<std::uint64_t(const Archetype& key)>;
 
 /// Words of a table's rows that a snapshot has not.
 struct WordGap {
@@ -99,9 +99,9 @@ class WorldSnapshot {
   /// those that the world's have. `shared`: of every resource named. `check` says whether a key that the world has no
   /// table of yet makes sense. `left_out`: as the snapshot must have it. Takes memory only where more is needed than
   /// the last time. Throws what the memory resource throws; then call `give_up`.
-  Result<void> prepare(World& world, const SavedWorld& saved, std::span<const KeyPart> known,
+  Result<void> prepare(World& world, const SavedWorld& saved, std::span<const ComponentId> known,
                        std::span<const SharedNumber> shared, const LeftOut& left_out,
-                       const std::function<Result<void>(const TableKey&)>& check);
+                       const std::function<Result<void>(const Archetype&)>& check);
   /// Makes the world what was saved, but for columns that were left out, whose words are any. Only after a `prepare` of
   /// the same two that succeeded.
   void commit(World& world, const SavedWorld& saved, const Jobs& jobs) const noexcept;
@@ -109,14 +109,14 @@ class WorldSnapshot {
   static void give_up(World& world) noexcept;
 
  private:
-  Result<KeyPart> known_part(const World& world, const SavedPart& part, std::span<const KeyPart> known,
-                             std::span<const SharedNumber> shared) const;
+  Result<ComponentId> known_part(const World& world, const SavedPart& part, std::span<const ComponentId> known,
+                                 std::span<const SharedNumber> shared) const;
   static void relate_all(World& world) noexcept;
 
   std::vector<std::uint32_t> table_;  // of the world, by table saved
   std::vector<std::uint32_t> saved_;  // the other way round
   std::vector<WordGap> gap_;          // by table saved
-  std::pmr::vector<KeyPart> key_;
+  std::pmr::vector<ComponentId> key_;
 };
 
 }  // namespace mobil::inline v0_3

@@ -81,9 +81,9 @@ struct Hashing {
 
 }  // namespace
 
-std::uint64_t key_hash(const World& world, const TableKey& key) {
+std::uint64_t key_hash(const World& world, const Archetype& key) {
   std::uint64_t hash = 0;
-  for (const KeyPart& part : key) {
+  for (const ComponentId& part : key) {
     hash = mix64(hash ^ part.id);
     hash = mix64(hash + (part.kind == PartKind::shared ? world.resource_content(part.value) : part.value));
   }

@@ -14,7 +14,7 @@ namespace mobil::inline v0_3 {
 std::uint64_t state_hash(const World& world, const Jobs& jobs);
 
 /// Of what a table's rows have in common and do not hold themselves; of a shared resource its content.
-std::uint64_t key_hash(const World& world, const TableKey& key);
+std::uint64_t key_hash(const World& world, const Archetype& key);
 
 /// The same with the tick. `sum`: of the world, or of all worlds that a crowd is divided into, modulo 2⁶⁴.
 std::uint64_t state_hash_of(std::uint64_t sum, std::uint32_t tick);

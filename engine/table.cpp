@@ -19,9 +19,9 @@ void copy_lane(float* to, const float* from, std::uint32_t words) {
 }
 }  // namespace
 
-Table::Table(const TableKey& key, std::pmr::memory_resource* memory)
+Table::Table(const Archetype& key, std::pmr::memory_resource* memory)
     : key_(key, memory), first_word_(memory), chunks_(memory), blocks_(memory), entities_(memory), memory_(memory) {
-  for (const KeyPart& part : key_) {
+  for (const ComponentId& part : key_) {
     const bool column = has_column(part.kind);
     first_word_.push_back(column ? words_ : no_column);
     if (column) words_ += static_cast<std::uint32_t>(part.value);
@@ -208,8 +208,8 @@ void Table::copy_from(std::uint32_t row, const Table& other, std::uint32_t other
 
 void Table::copy_new_from(std::uint32_t row, const Table& other, std::uint32_t other_row) {
   for (std::size_t i = 0; i < key_.size(); ++i) {
-    const KeyPart& part = key_[i];
-    const KeyPart* theirs = has_column(part.kind) ? find_part(other.key_, part.id) : nullptr;
+    const ComponentId& part = key_[i];
+    const ComponentId* theirs = has_column(part.kind) ? find_component(other.key_, part.id) : nullptr;
     if (theirs == nullptr || !(*theirs == part)) continue;
     copy_lane(blocks_[row / lane_count] + first_word_[i] * lane_count + row % lane_count,
               other.blocks_[other_row / lane_count] + other.column(part.id) * lane_count + other_row % lane_count,

@@ -31,7 +31,7 @@ Place<const Table> World::find(Entity entity) const {
   return location ? Place<const Table>{&tables_[location->table], location->row} : Place<const Table>{};
 }
 
-std::uint32_t World::table_of(const TableKey& key) {
+std::uint32_t World::table_of(const Archetype& key) {
   const std::uint64_t hash = key_hash(key);
   for (std::uint32_t index = 0; index < table_hash_.size(); ++index) {
     if (table_hash_[index] == hash && tables_[index].key() == key) return index;
@@ -44,7 +44,7 @@ std::uint32_t World::table_of(const TableKey& key) {
 
 void World::key_from(std::span<const PartValue> parts) {
   scratch_.clear();
-  for (const PartValue& value : parts) insert_part(scratch_, value.part);
+  for (const PartValue& value : parts) insert_component(scratch_, value.part);
 }
 
 void World::write_from(Place<Table> place, std::span<const PartValue> parts) {
@@ -73,9 +73,9 @@ Status World::remake_from(Entity entity, std::span<const PartValue> parts) {
 
 void World::key_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned) {
   key_from(parts);
-  for (const KeyPart& part : find(entity).table->key()) {
-    const bool given = find_part(scratch_, part.id) != nullptr;
-    if (!given && !std::binary_search(owned.begin(), owned.end(), part.id)) insert_part(scratch_, part);
+  for (const ComponentId& part : find(entity).table->key()) {
+    const bool given = find_component(scratch_, part.id) != nullptr;
+    if (!given && !std::binary_search(owned.begin(), owned.end(), part.id)) insert_component(scratch_, part);
   }
 }
 
@@ -95,7 +95,7 @@ void World::reserve_remade(Entity entity, std::span<const PartValue> parts, std:
   table.reserve(table.row_count() + rows);
 }
 
-Place<Table> World::create_row(const TableKey& key, Entity& entity) {
+Place<Table> World::create_row(const Archetype& key, Entity& entity) {
   const std::uint32_t table = table_of(key);
   tables_[table].reserve_row();
   reserve_entities(1);
@@ -171,8 +171,8 @@ void World::create_many(std::span<const PartValue> parts, std::span<Entity> enti
   for (const Entity entity : entities) relate(entity);
 }
 
-void World::remake_many(std::span<const Entity> entities, std::span<const PartValue> parts,
-                        std::span<const std::uint64_t> owned, const Jobs& jobs) {
+void World::change_archetype(std::span<const Entity> entities, std::span<const PartValue> parts,
+                             std::span<const std::uint64_t> owned, const Jobs& jobs) {
   if (entities.empty()) return;
   key_remade(entities.front(), parts, owned);
   const std::uint32_t to = table_of(scratch_), from = entities_.find(entities.front())->table;
@@ -189,8 +189,8 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
     journal_.moved.reserve(leaving);
   }
   const std::uint32_t first = add_rows(to, parts, static_cast<std::uint32_t>(entities.size()), jobs);
-  const auto is_kept = [&](const KeyPart& part) {
-    return has_column(part.kind) && find_part(tables_[from].key(), part.id) != nullptr;
+  const auto is_kept = [&](const ComponentId& part) {
+    return has_column(part.kind) && find_component(tables_[from].key(), part.id) != nullptr;
   };
   if (std::ranges::any_of(tables_[to].key(), is_kept)) {
     // Lines of memory are those of a block: no two threads write one.
@@ -212,7 +212,7 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
   remove_rows(left, jobs);
 }
 
-World::Attempt::Attempt(World& world, const Jobs& jobs)
+World::Transaction::Transaction(World& world, const Jobs& jobs)
     : world_(world),
       jobs_(jobs),
       created_(world.journal_.created.size()),
@@ -221,7 +221,7 @@ World::Attempt::Attempt(World& world, const Jobs& jobs)
   world_.journal_.open = true;
 }
 
-World::Attempt::~Attempt() {
+World::Transaction::~Transaction() {
   if (kept_) return;
   Journal& journal = world_.journal_;
   while (journal.created.size() > created_) {
@@ -238,7 +238,7 @@ World::Attempt::~Attempt() {
   if (outer_) journal.open = false;
 }
 
-void World::Attempt::keep() {
+void World::Transaction::commit() {
   kept_ = true;
   if (!outer_) return;
   Journal& journal = world_.journal_;
@@ -330,7 +330,7 @@ void World::remove_rows(std::pmr::vector<RowAt>& gone, const Jobs& jobs) {
   }
 }
 
-void World::move(Entity entity, const TableKey& key) {
+void World::move(Entity entity, const Archetype& key) {
   const std::uint32_t to = table_of(key);
   auto* location = entities_.find(entity);
   Table& source = tables_[location->table];
@@ -346,11 +346,11 @@ void World::move(Entity entity, const TableKey& key) {
 
 Status World::add_parts(Entity entity, std::span<const PartValue> parts) {
   if (!alive(entity)) return Status::stale_entity;
-  const TableKey& before = find(entity).table->key();
-  const auto is_new = [&](const PartValue& value) { return find_part(before, value.part.id) == nullptr; };
+  const Archetype& before = find(entity).table->key();
+  const auto is_new = [&](const PartValue& value) { return find_component(before, value.part.id) == nullptr; };
   scratch_ = before;
   for (const PartValue& value : parts) {
-    if (is_new(value)) insert_part(scratch_, value.part);
+    if (is_new(value)) insert_component(scratch_, value.part);
   }
   if (!(scratch_ == before)) move(entity, scratch_);
   for (const PartValue& value : parts) {
@@ -363,26 +363,27 @@ Status World::add_parts(Entity entity, std::span<const PartValue> parts) {
 Status World::remove_parts(Entity entity, std::initializer_list<std::uint64_t> ids) {
   if (!alive(entity)) return Status::stale_entity;
   scratch_ = find(entity).table->key();
-  std::erase_if(scratch_, [&](const KeyPart& part) { return std::find(ids.begin(), ids.end(), part.id) != ids.end(); });
+  std::erase_if(scratch_,
+                [&](const ComponentId& part) { return std::find(ids.begin(), ids.end(), part.id) != ids.end(); });
   if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
   relate(entity);
   return Status::ok;
 }
 
-tl::expected<KeyPart, Status> World::part_of(Entity entity, std::uint64_t id) const {
+tl::expected<ComponentId, Status> World::part_of(Entity entity, std::uint64_t id) const {
   const auto place = find(entity);
   if (!place) return tl::unexpected(Status::stale_entity);
-  const KeyPart* part = find_part(place.table->key(), id);
+  const ComponentId* part = find_component(place.table->key(), id);
   if (part == nullptr) return tl::unexpected(Status::missing);
   return *part;
 }
 
-Status World::add_part(Entity entity, const KeyPart& part) {
+Status World::add_part(Entity entity, const ComponentId& part) {
   const auto place = find(entity);
   if (!place) return Status::stale_entity;
-  if (find_part(place.table->key(), part.id) != nullptr) return Status::already_there;
+  if (find_component(place.table->key(), part.id) != nullptr) return Status::already_there;
   scratch_ = place.table->key();
-  insert_part(scratch_, part);
+  insert_component(scratch_, part);
   move(entity, scratch_);
   return Status::ok;
 }
@@ -397,14 +398,14 @@ Status World::remove_part(Entity entity, std::uint64_t id) {
   return Status::ok;
 }
 
-Status World::replace_tag(Entity entity, const KeyPart& tag) {
+Status World::replace_tag(Entity entity, const ComponentId& tag) {
   const auto part = part_of(entity, tag.id);
   if (!part) return part.error();
   if (part->kind != tag.kind) return Status::missing;
   if (*part == tag) return Status::ok;
   scratch_ = find(entity).table->key();
   scratch_.erase(lower_bound(scratch_, tag.id));
-  insert_part(scratch_, tag);
+  insert_component(scratch_, tag);
   move(entity, scratch_);
   return Status::ok;
 }

@@ -17,8 +17,8 @@
 #include <mobil/schedule.h>
 #include <mobil/step_report.h>
 #include <mobil/systems/limits/style_limits.h>
-#include <mobil/systems/people/person.h>
-#include <mobil/systems/people/step_watch.h>
+#include <mobil/systems/people/person_requests.h>
+#include <mobil/systems/people/step_log.h>
 #include <mobil/terrain.h>
 #include "engine/state_hash.h"
 #include "systems/avoidance/avoidance_module.h"
@@ -27,11 +27,11 @@
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/people/compact_pose.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
-#include "systems/people/whole.h"
 #include "systems/simulation_core.h"
-#include "systems/simulation_reading.h"
+#include "systems/simulation_queries.h"
 #include "systems/snapshot/snapshot.h"
 #include "systems/standard_modules.h"
 #include "systems/states/compact.h"
@@ -61,19 +61,20 @@ Simulation::Core::Core(const SimulationOptions& options, const Clock& of_clock, 
       tick{static_cast<float>(clock.tick_s()), 0} {
   const std::span ours(modules.data(), modules.size() - options.modules.size() - 1);
   workspace.get<MuscleMeans>() = {library, clock.tick_s(), ours};
-  workspace.get<StepLog>().plan_for(clock.most_ticks());
+  workspace.get<StepLog>().plan_for(clock.max_ticks());
   if (options.jobs) {
     jobs = *options.jobs;
   } else {
     threads.emplace(options.threads);
     jobs = threads->jobs();
   }
-  world.set_owner_part(component_part<MuscleOwner>());
+  world.set_owner_part(component_id<MuscleOwner>());
   for (const Module& module : ours)
-    for (const KeyPart& part : module.parts) our_parts.push_back(part.id);
+    for (const ComponentId& part : module.parts) our_parts.push_back(part.id);
   std::ranges::sort(our_parts);
   auto& owned = workspace.get<SleepWork>().owned = our_parts;
-  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>()}) std::erase(owned, kept);
+  for (const std::uint64_t kept : {type_id<AvoidanceState<float>>(), type_id<Footing<float>>()})
+    std::erase(owned, kept);
   for (const Module& module : modules)
     for (const GlobalPart& part : module.globals) world.globals().add(part);
   for (const Module& module : options.modules)
@@ -163,12 +164,12 @@ Result<Entity> Simulation::spawn_posed(const BodyRequest& body) {
   return mobil::spawn_posed(core_->world, body);
 }
 
-Result<void> Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival arrival) {
-  auto done = mobil::set_pose(core_->world, human, pose);
+Result<void> Simulation::set_pose(Entity person, const Pose<float>& pose, Arrival arrival) {
+  auto done = mobil::set_pose(core_->world, person, pose);
   if (done && arrival == Arrival::jumped) {
-    forget_motion(core_->world, human);
-    forget_past(core_->world, human);
-    settle_fat(core_->world, human);
+    forget_motion(core_->world, person);
+    clear_pose_history(core_->world, person);
+    settle_fat(core_->world, person);
   }
   core_->workspace.get<MuscleWork>().recent = {};
   return done;
@@ -178,53 +179,53 @@ Result<void> Simulation::despawn(std::span<const Entity> people) {
   return result_of("despawn", despawn_people(core_->world, core_->jobs, people));
 }
 
-Result<void> Simulation::despawn(Entity human) {
-  return despawn(std::span(&human, 1));
+Result<void> Simulation::despawn(Entity person) {
+  return despawn(std::span(&person, 1));
 }
 
 /// A walker, awake or asleep, is asked for what could be made of a request.
-Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
+Result<void> Simulation::ask(Entity person, const Result<Gait<float>>& gait) {
   if (!gait) return tl::unexpected(gait.error());
   const SleepTime now = time_of(core_->frame);
-  if (is_asleep(core_->world, human)) {
-    if (same_style(gait_of(core_->world, human)->style, gait->style) && !is_busy(core_->world, human, now)) {
-      ask_sleepers(core_->world, core_->jobs, std::array{AskedSleeper{human, *gait}}, now);
+  if (is_asleep(core_->world, person)) {
+    if (same_style(gait_of(core_->world, person)->style, gait->style) && !is_busy(core_->world, person, now)) {
+      ask_sleepers(core_->world, core_->jobs, std::array{AskedSleeper{person, *gait}}, now);
       return {};
     }
-    if (auto done = make_whole(core_->frame, {&human, 1}); !done) return done;
+    if (auto done = make_full(core_->frame, {&person, 1}); !done) return done;
   }
-  return result_of("set_gait", core_->world.set(human, *gait));
+  return result_of("set_gait", core_->world.set(person, *gait));
 }
 
-Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
-  auto gait = changed_gait(core_->world, human, change);
-  if (gait) keep_walk_limits(core_->world, core_->jobs, human, *gait, core_->workspace.get<SleepWork>().styles);
-  return ask(human, gait);
+Result<void> Simulation::change_gait(Entity person, const GaitChange& change) {
+  auto gait = changed_gait(core_->world, person, change);
+  if (gait) keep_walk_limits(core_->world, core_->jobs, person, *gait, core_->workspace.get<SleepWork>().styles);
+  return ask(person, gait);
 }
 
-Result<void> Simulation::set_gait(Entity human, const GaitRequest& asked) {
-  auto gait = new_gait(core_->world, human, asked);
-  if (gait) keep_walk_limits(core_->world, core_->jobs, human, *gait, core_->workspace.get<SleepWork>().styles);
-  return ask(human, gait);
+Result<void> Simulation::set_gait(Entity person, const GaitRequest& asked) {
+  auto gait = new_gait(core_->world, person, asked);
+  if (gait) keep_walk_limits(core_->world, core_->jobs, person, *gait, core_->workspace.get<SleepWork>().styles);
+  return ask(person, gait);
 }
 
-std::optional<GaitRequest> Simulation::gait_request(Entity human) const {
-  return mobil::gait_request(core_->world, human);
+std::optional<GaitRequest> Simulation::gait_request(Entity person) const {
+  return mobil::gait_request(core_->world, person);
 }
 
-Result<void> Simulation::turn_to(Entity human, float heading_rad) {
-  return ask(human, turned_gait(core_->world, human, heading_rad));
+Result<void> Simulation::turn_to(Entity person, float heading_rad) {
+  return ask(person, turned_gait(core_->world, person, heading_rad));
 }
 
 Result<std::size_t> Simulation::change_gait(std::span<const WalkChange> changes) {
   return mobil::change_walks(core_->frame, changes);
 }
 
-Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
-  World::Attempt attempt(core_->world, core_->jobs);
-  if (auto done = make_whole(core_->frame, {&human, 1}); !done) return done;
-  auto done = mobil::step_aside(core_->world, human, left_m, ahead_m);
-  if (done) attempt.keep();
+Result<void> Simulation::step_aside(Entity person, float left_m, float ahead_m) {
+  World::Transaction transaction(core_->world, core_->jobs);
+  if (auto done = make_full(core_->frame, {&person, 1}); !done) return done;
+  auto done = mobil::step_aside(core_->world, person, left_m, ahead_m);
+  if (done) transaction.commit();
   return done;
 }
 
@@ -237,7 +238,7 @@ void Simulation::reserve(std::size_t people) {
   core_->world.reserve_entities(people);
 }
 
-Status Simulation::read(Entity entity, const KeyPart& component, void* row) const {
+Status Simulation::read(Entity entity, const ComponentId& component, void* row) const {
   const World& world = core_->world;
   const auto place = world.find(entity);
   if (!place) return Status::stale_entity;
@@ -252,14 +253,14 @@ Status Simulation::read(Entity entity, const KeyPart& component, void* row) cons
 Status Simulation::read_tag(Entity entity, std::uint64_t tag, std::uint64_t& value) const {
   const auto place = core_->world.find(entity);
   if (!place) return Status::stale_entity;
-  const KeyPart* const part = find_part(place.table->key(), tag);
+  const ComponentId* const part = find_component(place.table->key(), tag);
   if (part == nullptr) return Status::missing;
   value = part->value;
   return Status::ok;
 }
 
-Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading_rad) {
-  const PlaceRequest to{human, x_m, z_m, heading_rad};
+Result<void> Simulation::place(Entity person, float x_m, float z_m, float heading_rad) {
+  const PlaceRequest to{person, x_m, z_m, heading_rad};
   if (auto good = check_place(core_->world, to); !good) return good;
   return place({&to, 1});
 }
@@ -320,8 +321,8 @@ Result<void> Simulation::set_method(std::span<const Entity> people, Muscle muscl
   return named("set_method", mobil::set_method(core_->frame, people, muscle, method));
 }
 
-MuscleMethod Simulation::method(Entity human, Muscle muscle) const {
-  return method_of(core_->world, human, muscle);
+MuscleMethod Simulation::method(Entity person, Muscle muscle) const {
+  return method_of(core_->world, person, muscle);
 }
 
 Ticks Simulation::advance(double seconds) {
@@ -393,16 +394,16 @@ std::vector<Entity> Simulation::people() const {
   return read_people(core_->world);
 }
 
-std::vector<OwnMuscle> Simulation::muscles(Entity human) const {
-  return muscles_of(core_->world, human);
+std::vector<MuscleRef> Simulation::muscles(Entity person) const {
+  return muscles_of(core_->world, person);
 }
 
-std::optional<Human> Simulation::human(Entity entity) const {
-  return read_human(*this, entity);
+std::optional<Person> Simulation::person(Entity entity) const {
+  return read_person(*this, entity);
 }
 
-Entity Simulation::muscle(Entity human, Muscle muscle, Side side) const {
-  return muscle_of(core_->world, human, muscle, side);
+Entity Simulation::muscle(Entity person, Muscle muscle, Side side) const {
+  return muscle_of(core_->world, person, muscle, side);
 }
 
 }  // namespace mobil::inline v0_3

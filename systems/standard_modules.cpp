@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include <mobil/systems/people/step_watch.h>
+#include <mobil/systems/people/step_log.h>
 #include "systems/avoidance/avoidance_module.h"
 #include "systems/lod/lod_module.h"
 #include "systems/muscles/leg_moments.h"
@@ -19,9 +19,9 @@ namespace mobil::inline v0_3 {
 /// Phases of a tick run in the order of modules: before the systems level of detail, which wakes people, then who
 /// avoids others, then the ground under the steps that are chosen, then who is watched.
 std::vector<Module> standard_modules() {
-  std::vector<Module> all = {walking_module(), forces_module(),     skeleton_module(),  leg_moments_module(),
-                             sleep_module(),   lod_module(),        avoidance_module(), terrain_module(),
-                             compact_module(), step_watch_module(), fat_module()};
+  std::vector<Module> all = {walking_module(), forces_module(),      skeleton_module(),  leg_moments_module(),
+                             sleep_module(),   lod_module(),         avoidance_module(), terrain_module(),
+                             compact_module(), step_events_module(), fat_module()};
   for (Module& module : muscle_modules()) all.push_back(std::move(module));
   all.back().after.push_back(settled_walkers());
   return all;

@@ -55,7 +55,7 @@ if grep -E ' [VW] .*\bfmt::' "$scratch/symbols"; then
   echo "our libraries have these of fmt, which a host's fmt of other flags could stand in for" >&2
   exit 1
 fi
-for internal in engine/row_hash.h systems/muscles/change_muscles.h systems/gait/balance-inl.h assets/reduction/reduced_training.h; do
+for internal in engine/row_hash.h systems/muscles/change_muscles.h systems/gait/balance-inl.h assets/reduction/modal_training.h; do
   [ -f "$2/$internal" ] || { echo "$internal is gone; name another internal header here" >&2; exit 1; }
   [ ! -e "$scratch/prefix/include/mobil/$internal" ] || { echo "$internal is internal and installed" >&2; exit 1; }
 done

@@ -26,8 +26,8 @@ cat >"$scratch/plugin.cpp" <<'CPP'
 #include <mobil/simulation.h>
 extern "C" unsigned long long hash_of_a_step() {
   mobil::Simulation simulation;
-  const auto human = simulation.spawn({.height_m = 1.7F, .mass_kg = 70});
-  (void)simulation.set_muscles(*human);
+  const auto person = simulation.spawn({.height_m = 1.7F, .mass_kg = 70});
+  (void)simulation.set_muscles(*person);
   for (int i = 0; i < 30; ++i) simulation.tick();
   return simulation.state_hash();
 }

@@ -20,8 +20,8 @@ std::string out_of_range(const char* name, float value, const char* unit, float 
                      high, unit);
 }
 
-/// Empty if a living body can have that height and mass.
-std::string not_living(const BodyRequest& request) {
+/// Empty if a real body can have that height and mass.
+std::string not_active(const BodyRequest& request) {
   const auto [low, high] = living_mass_kg(static_cast<double>(request.height_m));
   const auto mass = static_cast<double>(request.mass_kg);
   // Limits are written rounded inwards: what a message names is taken.
@@ -89,7 +89,7 @@ Result<void> check_body(const BodyRequest& request) {
   if (wrong.empty() && request.constitution > Constitution::heavy)
     wrong = "body: constitution is none of thin, average, athletic, heavy; choose one of them";
   if (wrong.empty() && request.sex > Sex::woman) wrong = "body: sex is neither man nor woman; choose one of them";
-  if (wrong.empty()) wrong = not_living(request);
+  if (wrong.empty()) wrong = not_active(request);
   if (wrong.empty()) wrong = wrong_limb(request);
   if (!wrong.empty()) return fail(wrong);
   return {};

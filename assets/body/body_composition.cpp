@@ -12,13 +12,13 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr double least_mass_index = 12, most_lean_index = 36;
-constexpr double least_fat = 0.03, most_fat = 0.61;
-constexpr double least_lean_index = least_mass_index * (1 - least_fat);
-constexpr double most_mass_index = 92;
-static_assert(most_mass_index < most_lean_index / (1 - most_fat));
+constexpr double min_mass_index = 12, max_lean_index = 36;
+constexpr double min_fat = 0.03, max_fat = 0.61;
+constexpr double min_lean_index = min_mass_index * (1 - min_fat);
+constexpr double max_mass_index = 92;
+static_assert(max_mass_index < max_lean_index / (1 - max_fat));
 
-constexpr double muscle_in_lean = 0.5, most_muscle_in_lean = 0.65, legs_in_muscle = 0.52, muscle_kg_per_cm3 = 1.06e-3;
+constexpr double muscle_in_lean = 0.5, max_muscle_in_lean = 0.65, legs_in_muscle = 0.52, muscle_kg_per_cm3 = 1.06e-3;
 /// Heath and Carter's ratings go by halves; two who rate the same body seldom differ by more than this.
 constexpr double rating_tolerance = 1.5;
 
@@ -54,7 +54,7 @@ double saturated(double x, double most) {
 
 MassRange living_mass_kg(double height_m) {
   const double square = height_m * height_m;
-  return {std::max(30.0, least_mass_index * square), std::min(200.0, most_mass_index * square)};
+  return {std::max(30.0, min_mass_index * square), std::min(200.0, max_mass_index * square)};
 }
 
 double height_weight_ratio(double height_m, double mass_kg) {
@@ -69,7 +69,7 @@ double ectomorphy(double ratio) {
 double fat_share_of_endomorphy(double endomorphy) {
   const double folds_mm = fold_sum_per_three * folds_of_endomorphy(endomorphy);
   const double density = density_at_1_mm - density_per_decade * std::log10(folds_mm);
-  return std::max(least_fat, 4.95 / density - 4.5);
+  return std::max(min_fat, 4.95 / density - 4.5);
 }
 
 double endomorphy_of_fat_share(double fat_share) {
@@ -81,7 +81,7 @@ double endomorphy_of_fat_share(double fat_share) {
 double fat_share_of_mass_index(double body_mass_index) {
   constexpr double age = 25;
   const double percent = 64.5 - 848 / body_mass_index + 0.079 * age - 16.4 + 0.05 * age + 39.0 / body_mass_index;
-  return std::clamp(0.01 * percent, least_fat, most_fat);
+  return std::clamp(0.01 * percent, min_fat, max_fat);
 }
 
 double physique_factor(const BodyRequest& request) {
@@ -110,14 +110,14 @@ BodyComposition body_composition(const BodyRequest& request) {
   } else {
     lean = (1 - fat_share_of_mass_index(mass_index)) * mass * (1 + muscle_in_lean * (wanted - 1));
   }
-  const double fewest = std::max(least_lean_index * square, (1 - most_fat) * mass);
-  const double most = std::max(fewest, std::min(most_lean_index * square, (1 - least_fat) * mass));
-  if (lean > most && most == most_lean_index * square) note(BodyNote::fat_raised);
+  const double fewest = std::max(min_lean_index * square, (1 - max_fat) * mass);
+  const double most = std::max(fewest, std::min(max_lean_index * square, (1 - min_fat) * mass));
+  if (lean > most && most == max_lean_index * square) note(BodyNote::fat_raised);
   if (lean < fewest && asked) note(BodyNote::fat_lowered);
   lean = std::clamp(lean, fewest, most);
 
   const double leg_muscle = 2 * muscle_kg_per_cm3 * limb_volume_cm3(height, mass);
-  const double fits = most_muscle_in_lean * lean * legs_in_muscle / leg_muscle, taken = saturated(wanted, fits);
+  const double fits = max_muscle_in_lean * lean * legs_in_muscle / leg_muscle, taken = saturated(wanted, fits);
   if (taken < 0.98 * wanted) note(BodyNote::muscle);
 
   made.body_mass_index = static_cast<float>(mass_index);

@@ -2,7 +2,7 @@
 // How hard a segment is to turn: inertias of the 48 segments, and of any of them together.
 //
 // Sources. Limbs about the axes across them: radii of gyration of Dempster, tabulated by Winter (Biomechanics and Motor
-// Control of Human Movement, table 4.1). Limbs about their own length, the trunk, the head and the hand: de Leva,
+// Control of Person Movement, table 4.1). Limbs about their own length, the trunk, the head and the hand: de Leva,
 // Adjustments to Zatsiorsky-Seluyanov's segment inertia parameters, J. Biomech. 29, 1996, men of 1.741 m. Of the trunk
 // de Leva gives three parts; every vertebra is a slice as thick as it is high whose second moments across are its
 // part's. Kneecap, collar bone, neck, toes, fingers and thumb, which nobody tabulates, are rods and cylinders of their

@@ -5,7 +5,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr double least_area_m2 = 1e-12;
+constexpr double min_area_m2 = 1e-12;
 
 Eigen::Vector3d twice_area(const Eigen::Matrix3Xd& position, const std::uint32_t* corner) {
   const Eigen::Vector3d a = position.col(corner[0]);
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> triangles_with_area(const Eigen::Matrix3Xd& position,
   std::vector<std::uint32_t> kept;
   kept.reserve(triangle.size());
   for (std::size_t t = 0; t + 2 < triangle.size(); t += 3) {
-    if (twice_area(position, &triangle[t]).norm() <= 2 * least_area_m2) continue;
+    if (twice_area(position, &triangle[t]).norm() <= 2 * min_area_m2) continue;
     kept.insert(kept.end(), {triangle[t], triangle[t + 1], triangle[t + 2]});
   }
   return kept;

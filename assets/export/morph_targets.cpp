@@ -16,12 +16,12 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index most_samples = 256;
+constexpr Index max_samples = 256;
 
 /// Orthonormal columns that span the largest displacements, most important first (method of snapshots: the eigenvectors
 /// of the small frames × frames matrix).
 MatrixXd principal_shapes(const MatrixXd& displacement, Index count) {
-  const Index samples = std::min(displacement.cols(), most_samples);
+  const Index samples = std::min(displacement.cols(), max_samples);
   MatrixXd sampled(displacement.rows(), samples);
   for (Index i = 0; i < samples; ++i) sampled.col(i) = displacement.col(i * displacement.cols() / samples);
   const SymmetricEigen eigen = symmetric_eigen(product(transposed(sampled), sampled));

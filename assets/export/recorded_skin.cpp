@@ -19,7 +19,7 @@ using SegmentShares = std::array<float, segment_count>;
 /// How much a vertex follows each segment, times `part`.
 void add_shares(const SkinMesh& mesh, std::uint32_t vertex, float part, SegmentShares& share) {
   const SkinVertex& hangs = mesh.vertex[vertex];
-  for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+  for (std::size_t k = 0; k < SkinVertex::max_frames; ++k) {
     const SkinFrame& frame = mesh.frame[hangs.frame[k]];
     share[segment_of(frame.from)] += part * hangs.weight[k] * (1 - frame.turn);
     share[segment_of(frame.to)] += part * hangs.weight[k] * frame.turn;
@@ -50,7 +50,7 @@ std::array<Vec3<float>, segment_count> standing_of(const BodySkin& skin) {
   return standing;
 }
 
-std::vector<SkinnedSurface> recorded_skin(const BodySkin& skin, std::size_t first_cloth, const OwnSkin* own) {
+std::vector<SkinnedSurface> recorded_skin(const BodySkin& skin, std::size_t first_cloth, const CustomSkin* own) {
   using Triangle = std::array<std::uint32_t, 3>;
   std::set<Triangle> left;
   for (std::size_t t = 0; own != nullptr && t < own->left.size(); t += 3)
@@ -85,8 +85,8 @@ std::vector<SkinnedSurface> recorded_skin(const BodySkin& skin, std::size_t firs
   return surfaces;
 }
 
-SkinnedSurface recorded_own_skin(const BodySkin& bare, const OwnSkin& own, std::span<const Vec3<float>> position,
-                                 std::span<const Vec3<float>> normal, std::size_t cloth) {
+SkinnedSurface recorded_custom_skin(const BodySkin& bare, const CustomSkin& own, std::span<const Vec3<float>> position,
+                                    std::span<const Vec3<float>> normal, std::size_t cloth) {
   const SkinMesh& mesh = skin_mesh(bare.sex, bare.detail);
   SkinnedSurface surface;
   surface.name = "own skin";

@@ -12,7 +12,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr std::size_t most_cloths = 256;
+constexpr std::size_t max_cloths = 256;
 
 bool finite(const Vec3<float>& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -118,8 +118,8 @@ Result<void> check_skin(const SkinnedSurface& surface) {
                       "1 or -1",
                       surface.name, v, x, y, z, up));
   }
-  if (surface.cloth >= most_cloths) {
-    return fail(fmt::format("skin '{}': cloth {}; the range is 0–{}", surface.name, surface.cloth, most_cloths - 1));
+  if (surface.cloth >= max_cloths) {
+    return fail(fmt::format("skin '{}': cloth {}; the range is 0–{}", surface.name, surface.cloth, max_cloths - 1));
   }
   return check_triangles(surface.name, Segment::pelvis, surface.triangle, vertices);
 }
@@ -133,8 +133,8 @@ Result<void> check_figure(const SeenFigure& figure) {
     const auto& [segment, mesh] = figure.surfaces[i];
     if (!all_finite(mesh.position)) return fail(fmt::format("bone '{}': a vertex is not finite", mesh.name));
     if (auto ok = check_triangles(mesh.name, segment, mesh.triangle, mesh.position.size()); !ok) return ok;
-    if (figure.cloth_of(i) >= most_cloths) {
-      return fail(fmt::format("bone '{}': cloth {}; the range is 0–{}", mesh.name, figure.cloth[i], most_cloths - 1));
+    if (figure.cloth_of(i) >= max_cloths) {
+      return fail(fmt::format("bone '{}': cloth {}; the range is 0–{}", mesh.name, figure.cloth[i], max_cloths - 1));
     }
   }
   if (!figure.skin.empty()) {

@@ -32,7 +32,7 @@ struct SkeletonKeys {
 
 /// Each segment is measured from its parent as recomposed from the keys, so that rounding does not add up along the
 /// chain: every recomposed position is within about 5 µm + four roundings of its world position.
-/// Needs at least one frame, finite numbers and rotations of non-zero length.
+/// LodRequest at least one frame, finite numbers and rotations of non-zero length.
 SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames);
 
 /// Where each segment's origin is while the body stands as anatomists have it, m: no segment is turned, each lies from

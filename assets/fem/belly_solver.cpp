@@ -170,8 +170,8 @@ void write_mass_sums(const MuscleTemplate& muscle, BellySolver& solver) {
 }
 
 Result<void> check(const MuscleTemplate& muscle, Method method, double dt_s, double across, double along) {
-  if (method == Method::ecd || method > Method::caa)
-    return fail("only static, icd and caa solve with a factor: take one of those");
+  if (method == Method::explicit_central || method > Method::newmark)
+    return fail("only static, implicit-central and newmark solve with a factor: take one of those");
   if (method != Method::statics && !(dt_s >= 1e-9 && dt_s <= 100)) {
     return fail(fmt::format("a solver's step of {} s must lie between 1e-9 and 100", dt_s));
   }
@@ -192,7 +192,7 @@ Result<void> check(const MuscleTemplate& muscle, Method method, double dt_s, dou
 }  // namespace
 
 Result<void> check_belly_solver(const Cells& cells, Method method) {
-  const std::size_t width = method == Method::icd ? 1 : 3;
+  const std::size_t width = method == Method::implicit_central ? 1 : 3;
   const std::size_t size = (node_count(cells) - plane_nodes(cells)) * width * (node_reach(cells) + 1) * width;
   if (size <= largest_band_factor) return {};
   return fail(
@@ -209,15 +209,15 @@ Result<BellySolver> make_belly_solver(const MuscleTemplate& muscle, Method metho
   const Cells& cells = muscle.terms.cells;
   BellySolver solver;
   solver.method = method;
-  solver.mass = method == Method::icd ? Mass::consistent : mass;
+  solver.mass = method == Method::implicit_central ? Mass::consistent : mass;
   solver.dt_s = method == Method::statics ? 0 : dt_s;
   solver.across = across;
   solver.along = along;
   Operator what;
   const double sideways = foundation(options);
   switch (method) {
-    case Method::ecd:
-    case Method::reduced:
+    case Method::explicit_central:
+    case Method::modal:
     case Method::none:
     case Method::finite:
       break;
@@ -225,12 +225,12 @@ Result<BellySolver> make_belly_solver(const MuscleTemplate& muscle, Method metho
       what = {{sideways, sideways, 0}, 1};
       solver.sweeps = 5;
       break;
-    case Method::icd:
+    case Method::implicit_central:
       what = {{1, 0, 0}, 0};
       solver.across = solver.along = 1;
       solver.factor.components = 1;
       break;
-    case Method::caa: {
+    case Method::newmark: {
       const double inertia = 2 / dt_s + options.damping_per_s;
       what = {{inertia + dt_s / 2 * sideways, inertia + dt_s / 2 * sideways, inertia},
               dt_s / 2 + options.stiffness_damping_s};

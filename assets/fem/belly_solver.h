@@ -30,7 +30,7 @@ struct BandFactor {
 /// by sweeps from two on: 4e-3, 3e-4, 1e-5. Within 12 % and 25 %: 2e-2, 2e-3, 2e-4. Of static answers, which have no
 /// mass to hold them, 2e-2, 4e-3, 7e-5 and 2e-5. Bodies of just its size are solved to rounding.
 struct BellySolver {
-  Method method = Method::caa;
+  Method method = Method::newmark;
   Mass mass = Mass::lumped;
   double dt_s = 0;
   double across = 1, along = 1;   // the body it solves exactly

@@ -95,7 +95,7 @@ class Tabulation {
       const auto slope = [&](std::size_t from) { return (h[from + 1] - h[from]) / (r[from + 1] - r[from]); };
       const double before = i > 0 ? slope(i - 1) : 0;
       const double after = i + 2 < r.size() ? slope(i + 1) : 2 * h[i + 1] / r[i + 1];
-      if (sag(before, slope(i), after, r[i + 1] - r[i]) >= most_between_ratios * h[i]) return true;
+      if (sag(before, slope(i), after, r[i + 1] - r[i]) >= max_between_ratios * h[i]) return true;
     }
     return false;
   }
@@ -106,7 +106,7 @@ class Tabulation {
       const auto h = [&](std::size_t l) { return table_.top[l * table_.ratio.size() + i]; };
       const auto slope = [&](std::size_t from) { return (h(from + 1) - h(from)) / (q[from + 1] - q[from]); };
       const double before = level > 0 ? slope(level - 1) : 0, after = level + 2 < q.size() ? slope(level + 1) : 1;
-      if (sag(before, slope(level), after, q[level + 1] - q[level]) >= most_between_foundations * h(level)) return true;
+      if (sag(before, slope(level), after, q[level + 1] - q[level]) >= max_between_foundations * h(level)) return true;
     }
     return false;
   }
@@ -117,13 +117,13 @@ class Tabulation {
     for (std::size_t i = 0; i < n; ++i) {
       const double h = table_.top[last * n + i], slope = (h - table_.top[(last - 1) * n + i]) /
                                                          (table_.foundation[last] - table_.foundation[last - 1]);
-      if ((1 - slope) * past >= most_between_foundations * (h + slope * past)) return true;
+      if ((1 - slope) * past >= max_between_foundations * (h + slope * past)) return true;
     }
     return false;
   }
 
  private:
-  static constexpr double most_between_ratios = 0.015, most_between_foundations = 0.01;
+  static constexpr double max_between_ratios = 0.015, max_between_foundations = 0.01;
 
   std::vector<double>::iterator at(std::size_t level, std::size_t place, std::size_t ratios) {
     return table_.top.begin() + static_cast<std::ptrdiff_t>(level * ratios + place);
@@ -178,15 +178,15 @@ CriticalSteps tabulate_critical_steps(const StiffnessTerms& terms, const StepCas
     tabulation.insert_foundation(1, foundation_at(2));
     if (tabulation.sags_beyond(foundation_at(widest))) tabulation.insert_foundation(2, foundation_at(widest));
   }
-  constexpr std::size_t most_ratios = 400, most_foundations = 16;
+  constexpr std::size_t max_ratios = 400, max_foundations = 16;
   for (bool settled = false; !settled;) {
     settled = true;
-    for (std::size_t i = table.ratio.size() - 1; i-- > 0 && table.ratio.size() < most_ratios;) {
+    for (std::size_t i = table.ratio.size() - 1; i-- > 0 && table.ratio.size() < max_ratios;) {
       if (!tabulation.sags_between_ratios(i)) continue;
       tabulation.insert_ratio(i + 1, std::sqrt(table.ratio[i] * table.ratio[i + 1]));
       settled = false;
     }
-    for (std::size_t i = table.foundation.size() - 1; i-- > 0 && table.foundation.size() < most_foundations;) {
+    for (std::size_t i = table.foundation.size() - 1; i-- > 0 && table.foundation.size() < max_foundations;) {
       if (!tabulation.sags_between_foundations(i)) continue;
       tabulation.insert_foundation(i + 1, 0.5 * (table.foundation[i] + table.foundation[i + 1]));
       settled = false;

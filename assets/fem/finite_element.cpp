@@ -163,7 +163,7 @@ Result<std::vector<FiniteElement>> finite_elements(const HexahedralMesh& mesh, c
       }
       const double part = 0.5 * (1 + corner_sign[q][2] / std::sqrt(3.0));
       const double root = (1 - part) * std::sqrt(areas[layer]) + part * std::sqrt(areas[layer + 1]);
-      element.fibre_volume_m3[q] = volume * std::min(most_crowding, widest / (root * root));
+      element.fibre_volume_m3[q] = volume * std::min(max_crowding, widest / (root * root));
       element.volume_m3 += volume;
       const double along = std::sqrt(dot_of(jacobian[2], jacobian[2]));
       for (std::size_t a = 0; a < 8; ++a) {

@@ -94,7 +94,7 @@ void set_sums(const HexahedralMesh& mesh, const Hexahedron& h, const MeanGradien
 /// What neither slope nor tension over stretch of fibres that are not crowded exceeds.
 double stiffest_fibre_pa(const FiniteTissue& tissue) {
   const double passive =
-      tissue.passive_pa * exact::exp(most_passive_exponent) * 4 / 0.6 * tissue.rest_over_optimal / (exact::exp(4) - 1);
+      tissue.passive_pa * exact::exp(max_passive_exponent) * 4 / 0.6 * tissue.rest_over_optimal / (exact::exp(4) - 1);
   return tissue.active_pa * tissue.force_slope + passive;
 }
 
@@ -140,7 +140,7 @@ Result<FiniteKernel> make_finite_kernel(const HexahedralMesh& mesh, const Stiffn
     }
     to.rise = static_cast<float>(rise);
     const double root = 0.5 * (std::sqrt(areas[layer]) + std::sqrt(areas[layer + 1]));
-    const double crowding = std::min(most_crowding, widest / (root * root));
+    const double crowding = std::min(max_crowding, widest / (root * root));
     to.volume_m3 = static_cast<float>(mean.volume_m3);
     to.fibre_volume_m3 = static_cast<float>(mean.volume_m3 * crowding);
     to.hourglass_across = static_cast<float>(hourglass.across);

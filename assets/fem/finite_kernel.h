@@ -25,7 +25,7 @@ FiniteTissue stepped_tissue(const Material& material);
 
 /// Of passive stress σ_P·(e^z − 1)/(e⁴ − 1), z = 4(0.9 λ − 1)/0.6 above 0, the kernel has the series to z⁴ up to this z
 /// (λ = 1.26) and a straight line beyond, so that no stretch makes it stiffer.
-inline constexpr double most_passive_exponent = 0.9;
+inline constexpr double max_passive_exponent = 0.9;
 
 /// Bellies lie along bones, and fibres that pull would straighten bent ones through them (by 4 to 7 mm at full
 /// activation). So fibres feel a section's mean displacement sideways to second order alone: with q = H·a of an
@@ -47,7 +47,7 @@ struct FiniteKernelElement {
   std::array<float, 3> fibre{};     // direction at its middle, length 1
   float aside2 = 0, straight2 = 0;  // the squares of its parts in the section and along
   float volume_m3 = 0;
-  float fibre_volume_m3 = 0;                        // times how crowded fibres are, up to `most_crowding`
+  float fibre_volume_m3 = 0;                        // times how crowded fibres are, up to `max_crowding`
   float hourglass_across = 0, hourglass_along = 0;  // HourglassStiffness, N/m
   float rise = 0;  // how much the fibre's ends part where the upper plane moves on by 1, 1/m
 };
@@ -70,7 +70,7 @@ struct FiniteEnvelope {
   double cofactor = 0.65, dilatation = 0.15;
 };
 /// Clamp of J − 1 in what the kernel feels of volume, which bounds the pressure far outside of that.
-inline constexpr float least_dilatation = -0.4F, most_dilatation = 0.6F;
+inline constexpr float min_dilatation = -0.4F, max_dilatation = 0.6F;
 
 /// Stiffness (with the masses of `linear`) that, as an operator, no tangent of a belly of any size exceeds whose
 /// elements are within the envelope; proven but for what fibres feel of sections' means, which tests compare. With H =

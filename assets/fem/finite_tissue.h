@@ -13,7 +13,7 @@ struct FiniteTissue {
   double passive_pa = 300e3;       // σ_P
   double rest_over_optimal = 0.9;  // fibres' length at rest over that at which they pull best
   double force_slope = 4;          // of active stress over a fibre's stretch beyond the belly's
-  double least_share = 0.05;       // of active stress that is left in fibres much shorter than the belly's
+  double min_share = 0.05;         // of active stress that is left in fibres much shorter than the belly's
   double slack_tone = 1;           // activation that slackness adds, over the square of the belly's shortening
   double density_kg_m3 = 1000;
 };
@@ -27,7 +27,7 @@ inline double pulling_activation(const FiniteTissue& tissue, double shortening, 
 }
 
 /// Fibres run from end to end and each pulls alike, so stress rises where sections shrink, up to this ratio.
-inline constexpr double most_crowding = 4;
+inline constexpr double max_crowding = 4;
 
 /// Nominal stress along a fibre, Pa, and its slope over the stretch; of fibres that are spread the widest.
 struct FibreTension {
@@ -42,8 +42,8 @@ inline FibreTension fibre_tension(const FiniteTissue& tissue, double activation,
   FibreTension tension{};
   const double share = 1 + tissue.force_slope * (stretch - mean_stretch);
   const double active_pa = activation * tissue.active_pa;
-  const bool floored = share < tissue.least_share;
-  tension.stress_pa = active_pa * (floored ? tissue.least_share : share);
+  const bool floored = share < tissue.min_share;
+  tension.stress_pa = active_pa * (floored ? tissue.min_share : share);
   tension.slope_pa = floored ? 0 : active_pa * tissue.force_slope;
   const double length = tissue.rest_over_optimal * stretch;
   if (length > 1) {

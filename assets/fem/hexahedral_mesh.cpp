@@ -17,10 +17,10 @@ double determinant(const Vec& a, const Vec& b, const Vec& c) {
   return dot(a, cross(b, c));
 }
 
-Result<void> check_stations(std::span<const CageStation> stations) {
+Result<void> check_stations(std::span<const LatticeStation> stations) {
   if (stations.size() < 2) return fail("a bent block needs at least two stations, at t = 0 and t = 1");
   for (std::size_t s = 0; s < stations.size(); ++s) {
-    const CageStation& c = stations[s];
+    const LatticeStation& c = stations[s];
     if (!(std::isfinite(c.t) && std::isfinite(c.offset_x_m) && std::isfinite(c.offset_y_m))) {
       return fail(fmt::format("station {}: t and offsets must be finite numbers", s));
     }
@@ -68,11 +68,11 @@ std::vector<double> graded_planes(std::uint32_t count, double ratio) {
   return planes;
 }
 
-CageStation station_at(std::span<const CageStation> stations, double t) {
+LatticeStation station_at(std::span<const LatticeStation> stations, double t) {
   std::size_t upper = 1;
   while (upper + 1 < stations.size() && t > static_cast<double>(stations[upper].t)) ++upper;
-  const CageStation& a = stations[upper - 1];
-  const CageStation& b = stations[upper];
+  const LatticeStation& a = stations[upper - 1];
+  const LatticeStation& b = stations[upper];
   const auto s = static_cast<float>((t - static_cast<double>(a.t)) / static_cast<double>(b.t - a.t));
   const auto mix = [s](float p, float q) { return p + s * (q - p); };
   return {static_cast<float>(t),        mix(a.offset_x_m, b.offset_x_m), mix(a.offset_y_m, b.offset_y_m),
@@ -172,7 +172,7 @@ Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m, const 
   return mesh;
 }
 
-Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m,
+Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const LatticeStation> stations, double length_m,
                                   const Grading& grading) {
   if (auto ok = check_cells(cells); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_grading(grading); !ok) return tl::unexpected(ok.error());
@@ -188,7 +188,7 @@ Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStatio
   mesh.node.reserve(node_count(cells));
   for (const double plane : planes) {
     const double t = plane / cells[2];
-    const CageStation s = station_at(stations, t);
+    const LatticeStation s = station_at(stations, t);
     for (const double row : rows) {
       for (const double column : columns) {
         const double a = 2 * column / cells[0] - 1, b = 2 * row / cells[1] - 1;
@@ -247,12 +247,11 @@ Result<void> check_elements(const HexahedralMesh& mesh) {
   }
   for (std::uint32_t e = 0; e < element_count(mesh.cells); ++e) {
     const double quality = scaled_jacobian(mesh, e);
-    if (quality >= least_scaled_jacobian) continue;
+    if (quality >= min_scaled_jacobian) continue;
     return fail(fmt::format(
         "{} is {}: scaled Jacobian {:.3g}, must be at least {}; bring its stations closer together in offset or widen "
         "them",
-        element_label(mesh.cells, e), quality > 0 ? "nearly flat" : "inverted or flat", quality,
-        least_scaled_jacobian));
+        element_label(mesh.cells, e), quality > 0 ? "nearly flat" : "inverted or flat", quality, min_scaled_jacobian));
   }
   return {};
 }

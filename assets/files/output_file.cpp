@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;  // as the kernel has it
+constexpr int max_links = 40;  // as the kernel has it
 constexpr std::string_view advice = "choose a folder that exists, is writable and has space";
 
 /// Short, so that it fits wherever the final name does; hidden, so that nobody takes it for a result.
@@ -40,7 +40,7 @@ Result<fs::path> followed(const fs::path& path) {
   fs::path at = path;
   std::error_code error;
   for (int links = 0; fs::is_symlink(fs::symlink_status(at, error)); ++links) {
-    if (links == most_links) return fail(fmt::format("{}: its links go round in a circle; name a file", path.string()));
+    if (links == max_links) return fail(fmt::format("{}: its links go round in a circle; name a file", path.string()));
     const fs::path next = fs::read_symlink(at, error);
     if (error) break;
     at = next.is_absolute() ? next : folder_of_file(at) / next;

@@ -15,10 +15,10 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::size_t most_iterations = 16;
+constexpr std::size_t max_iterations = 16;
 constexpr double converged_share = 1e-5;  // of the length: a step of Newton's; the next one would be its square
 constexpr double longest_share = 0.05;
-constexpr double least_load = 1.0 / 64;
+constexpr double min_load = 1.0 / 64;
 
 double foundation_per_kg(const FiniteBelly& belly) {
   const double circular = 2 * std::numbers::pi * belly.foundation_hz;
@@ -85,7 +85,7 @@ bool converge(const FiniteBelly& belly, FiniteScratch& scratch, FiniteState& sta
   double pull_m = end_of(belly, state.shortening) - state.displacement_m[last + 2];
   std::vector<double> from = state.displacement_m;
   double before = 0, share = 1;
-  for (std::size_t i = 0; i < most_iterations; ++i) {
+  for (std::size_t i = 0; i < max_iterations; ++i) {
     const bool first = i == 0;
     ++scratch.iterations;
     const VectorXd step = scratch.step_m;
@@ -171,7 +171,7 @@ Result<void> settle(const FiniteBelly& belly, FiniteScratch& scratch, FiniteStat
     }
     ++scratch.halvings;
     load *= 0.5;
-    if (load < least_load) {
+    if (load < min_load) {
       return fail(
           fmt::format("no static shape found at shortening {:.4g} and activation {:.4g}; go there in smaller "
                       "steps, or from another side",

@@ -15,7 +15,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double hht = -0.1, newmark_beta = (1 - hht) * (1 - hht) / 4, newmark_gamma = 0.5 - hht;
-constexpr int most_iterations_a_step = 14;
+constexpr int max_iterations_a_step = 14;
 constexpr double settled_m = 1e-7, longest_m = 0.01;
 
 /// Forces that hold the nodes between the faces: elements' and foundation's; their tangent is left in scratch.chain.
@@ -70,7 +70,7 @@ Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const Fin
   };
   const double inertia =
       1 / (newmark_beta * h * h) / (1 + hht) + step.damping_per_s * newmark_gamma / (newmark_beta * h);
-  for (int iteration = 0; iteration < most_iterations_a_step; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations_a_step; ++iteration) {
     const VectorXd now = holding_force(belly, activity, step.foundation_hz, next.displacement_m, scratch);
     VectorXd change(rows);
     for (Eigen::Index row = 0; row < rows; ++row) {

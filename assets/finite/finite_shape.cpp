@@ -55,7 +55,7 @@ FiniteShape make_finite_shape(Muscle muscle, const HexahedralMesh& mesh, const S
   FiniteShape shape;
   shape.cells = mesh.cells;
   shape.length_m = static_cast<float>(length);
-  shape.vector.resize(shape_vectors * components);
+  shape.vector.resize(shape_modes * components);
   shape.even.resize(components);
   shape.stretch.assign(stretch.displacement.begin(), stretch.displacement.end());
   const auto& [nx, ny, nz] = mesh.cells;
@@ -68,19 +68,19 @@ FiniteShape make_finite_shape(Muscle muscle, const HexahedralMesh& mesh, const S
         const auto x = across(i, nx), y = across(j, ny);
         const auto z = along(sections, part);
         for (std::size_t c = 0; c < 3; ++c) {
-          for (std::size_t v = 0; v < shape_vectors; ++v) {
+          for (std::size_t v = 0; v < shape_modes; ++v) {
             double sum = 0;
             for (std::uint32_t kk = 1; kk < 8; ++kk) {  // the table has no ends: they are zero
               for (std::uint32_t at = 0; at < 9; ++at)
                 sum += z[kk] * y[at / 3] * x[at % 3] * table.vector[v][3 * (9 * (kk - 1) + at) + c];
             }
-            shape.vector[(std::size_t{3} * n + c) * shape_vectors + v] = static_cast<float>(sum);
+            shape.vector[(std::size_t{3} * n + c) * shape_modes + v] = static_cast<float>(sum);
           }
         }
       }
     }
   }
-  for (std::size_t v = 0; v < shape_vectors; ++v) {
+  for (std::size_t v = 0; v < shape_modes; ++v) {
     for (std::size_t f = 0; f < shape_amount_count; ++f) {
       for (std::size_t t = 0; t < shape_ratio_terms; ++t)
         shape.coefficient[v][f][t] = static_cast<float>(table.coefficient[t][v][f]);

@@ -16,16 +16,15 @@ namespace mobil::inline v0_3 {
 struct FiniteShape {
   Cells cells{};
   float length_m = 0;          // of the template's belly at rest
-  std::vector<float> vector;   // `shape_vectors` numbers a component
+  std::vector<float> vector;   // `shape_modes` numbers a component
   std::vector<float> even;     // of a belly drawn out evenly by 1 m: the part of the length, along z alone
   std::vector<float> stretch;  // of the linear belly drawn out by 1 m, statically
   /// By vector, amount and power of ln r.
-  std::array<std::array<std::array<float, shape_ratio_terms>, shape_amount_count>, shape_vectors> coefficient{};
+  std::array<std::array<std::array<float, shape_ratio_terms>, shape_amount_count>, shape_modes> coefficient{};
 };
 
 /// What tables say of: shortenings and slendernesses beyond are as at these ends.
-inline constexpr float least_shortening = -0.2F, most_shortening = 0.25F, least_slenderness = 0.8F,
-                       most_slenderness = 1.26F;
+inline constexpr float min_shortening = -0.2F, max_shortening = 0.25F, min_slenderness = 0.8F, max_slenderness = 1.26F;
 
 /// For the control points of `mesh`, a template's. Tables have 3×3×9 points; between them a section's are quadratic,
 /// and along the belly a cubic goes through the nearest four.

@@ -27,12 +27,12 @@ struct LineBreaker {
 }  // namespace
 
 Result<PackedShapes> pack_shapes(const ShapeTable& table) {
-  const bool fits = table.vector.size() == shape_vectors &&
+  const bool fits = table.vector.size() == shape_modes &&
                     std::all_of(table.vector.begin(), table.vector.end(),
                                 [](const auto& vector) { return vector.size() == packed_numbers; });
-  if (!fits) return fail("a table is packed with six vectors over 2x2x8 control cells; fit it so");
+  if (!fits) return fail("a table is packed with six modes over 2x2x8 control cells; fit it so");
   PackedShapes packed{};
-  for (std::size_t v = 0; v < shape_vectors; ++v) {
+  for (std::size_t v = 0; v < shape_modes; ++v) {
     double most = 1e-30;
     for (const double x : table.vector[v]) most = std::max(most, std::abs(x));
     // coarser than 16 bits allow: what is seen is some 10 mm, and four digits of that are 1 µm
@@ -52,8 +52,8 @@ Result<PackedShapes> pack_shapes(const ShapeTable& table) {
 
 ShapeTable unpack_shapes(const PackedShapes& packed) {
   ShapeTable table;
-  for (auto& term : table.coefficient) term.resize(shape_vectors);
-  for (std::size_t v = 0; v < shape_vectors; ++v) {
+  for (auto& term : table.coefficient) term.resize(shape_modes);
+  for (std::size_t v = 0; v < shape_modes; ++v) {
     auto& vector = table.vector.emplace_back(packed_numbers);
     for (std::size_t i = 0; i < packed_numbers; ++i) {
       vector[i] = static_cast<double>(packed.unit_m[v]) * packed.vector[v][i];

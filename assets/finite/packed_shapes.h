@@ -1,5 +1,5 @@
 #pragma once
-// A shape table as it is kept in source: vectors in 16 bits.
+// A shape table as it is kept in source: modes in 16 bits.
 
 #include <array>
 #include <cstddef>
@@ -16,12 +16,12 @@ inline constexpr std::size_t packed_numbers = 189;
 
 /// `vector[v]`: in units of `unit_m[v]`. `coefficient[v]`: of C₀, of C₁, of C₂.
 struct PackedShapes {
-  std::array<float, shape_vectors> unit_m;
-  std::array<std::array<std::int16_t, packed_numbers>, shape_vectors> vector;
-  std::array<std::array<float, shape_amount_count * shape_ratio_terms>, shape_vectors> coefficient;
+  std::array<float, shape_modes> unit_m;
+  std::array<std::array<std::int16_t, packed_numbers>, shape_modes> vector;
+  std::array<std::array<float, shape_amount_count * shape_ratio_terms>, shape_modes> coefficient;
 };
 
-/// Fails unless the table has six vectors over 2×2×8 cells.
+/// Fails unless the table has six modes over 2×2×8 cells.
 Result<PackedShapes> pack_shapes(const ShapeTable& table);
 
 ShapeTable unpack_shapes(const PackedShapes& packed);

@@ -9,7 +9,7 @@ namespace mobil::inline v0_3 {
 
 inline constexpr std::size_t shape_amount_count = 11, shape_ratio_terms = 3;
 /// Vectors of a table that is kept. With five, plantaris is off by 11 % at worst instead of 5; more change nothing.
-inline constexpr std::size_t shape_vectors = 6;
+inline constexpr std::size_t shape_modes = 6;
 
 /// Of activation_root: the one that fits best (0.003 to 0.1 tried).
 inline constexpr double activation_offset = 0.01;

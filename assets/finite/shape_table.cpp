@@ -63,13 +63,12 @@ std::vector<double> shape_at(const ShapeTable& table,
   return shape;
 }
 
-Result<ShapeTable> fit_shape_table(std::span<const ShapeSample> samples, const HexahedralMesh& rest,
-                                   std::size_t vectors, double along_weight) {
+Result<ShapeTable> fit_shape_table(std::span<const ShapeSample> samples, const HexahedralMesh& rest, std::size_t modes,
+                                   double along_weight) {
   if (samples.size() <= table_terms) {
     return fail(fmt::format("{} samples do not settle {} coefficients; give more", samples.size(), table_terms));
   }
-  if (vectors < 1 || vectors > table_terms)
-    return fail(fmt::format("{} vectors: 1 to {} can be had", vectors, table_terms));
+  if (modes < 1 || modes > table_terms) return fail(fmt::format("{} modes: 1 to {} can be had", modes, table_terms));
   const auto [first, count] = moving_numbers(rest.cells);
   const auto rows = static_cast<Index>(samples.size());
   MatrixXd terms(rows, static_cast<Index>(table_terms)), shapes(rows, static_cast<Index>(count));
@@ -98,14 +97,14 @@ Result<ShapeTable> fit_shape_table(std::span<const ShapeSample> samples, const H
   const MatrixXd shown = product(terms, fitted);
   // The first right singular vectors. (Eigen's own decomposition for them takes the compiler 20 s.)
   const MatrixXd most = symmetric_eigen(product(transposed(shown), shown))
-                            .vectors.rightCols(static_cast<Index>(vectors))
+                            .vectors.rightCols(static_cast<Index>(modes))
                             .rowwise()
                             .reverse();
-  const MatrixXd shares = product(fitted, most);  // terms × vectors
+  const MatrixXd shares = product(fitted, most);  // terms × modes
   ShapeTable table;
   table.control = rest.cells;
-  for (auto& term : table.coefficient) term.resize(vectors);
-  for (std::size_t v = 0; v < vectors; ++v) {
+  for (auto& term : table.coefficient) term.resize(modes);
+  for (std::size_t v = 0; v < modes; ++v) {
     auto& vector = table.vector.emplace_back(count);
     for (std::size_t i = 0; i < count; ++i) {
       vector[i] = most(static_cast<Index>(i), static_cast<Index>(v)) / (i % 3 == 2 ? along_weight : 1);

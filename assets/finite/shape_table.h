@@ -1,5 +1,5 @@
 #pragma once
-// The static shapes of a muscle's belly in all bodies, as a few vectors of control points:
+// The static shapes of a muscle's belly in all bodies, as a few modes of control points:
 //   displacement = −e·z along z + Σ_v b_v·c_v,  c = C(r)·f(e, ρ(a)),  C(r) = C₀ + C₁ ln r + C₂ ln² r
 // e the shortening over the length at rest, a the activation, r a body's size across over that along. All at the
 // template's size: in a body x and y are times its size across, z times that along. Both ends are exact: b is 0 there.
@@ -32,12 +32,12 @@ std::vector<double> shape_at(const ShapeTable& table,
                              std::span<const std::array<double, shape_amount_count>> coefficients,
                              const HexahedralMesh& rest, double shortening, double activation);
 
-/// The table of the samples (of the control mesh `rest`): least squares, then the `vectors` that keep the most of it,
+/// The table of the samples (of the control mesh `rest`): least squares, then the `modes` that keep the most of it,
 /// displacements along z counting `along_weight` times as much as those across, which are what is seen. Fails on no
 /// more samples than there are coefficients (three an amount), on one that has not three numbers a point, or on no or
-/// more vectors than those.
-Result<ShapeTable> fit_shape_table(std::span<const ShapeSample> samples, const HexahedralMesh& rest,
-                                   std::size_t vectors, double along_weight = 0.2);
+/// more modes than those.
+Result<ShapeTable> fit_shape_table(std::span<const ShapeSample> samples, const HexahedralMesh& rest, std::size_t modes,
+                                   double along_weight = 0.2);
 
 /// What a table makes of samples that it was not made from: of the displacement across of all control points, root of
 /// the sum of squares, over that of the sample or, where this is more, of the largest of |e| 0.07 to 0.13; the farthest

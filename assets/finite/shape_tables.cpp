@@ -6,7 +6,7 @@
 #include <mobil/assets/muscles/muscle_plan.h>
 #include <mobil/muscle_table.h>
 #include "assets/finite/packed_shapes.h"
-#include "assets/surfaces/muscle_cage.h"
+#include "assets/surfaces/muscle_lattice.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -47,7 +47,7 @@ constexpr PackedShapes tables[] = {
 #include "assets/finite/tables/plantaris.inl"
 };
 // clang-format on
-static_assert(std::size(tables) == caged_muscles);
+static_assert(std::size(tables) == lattice_muscles);
 
 // The mesh that control points are of; and what shapes are extrapolated from (shape_samples.h says how near).
 constexpr Cells control_cells = {2, 2, 8}, coarse_cells = {4, 4, 16}, fine_cells = {6, 6, 24};
@@ -59,7 +59,7 @@ ShapeTable shape_table(Muscle muscle) {
 }
 
 HexahedralMesh finite_mesh(Muscle muscle, const Cells& cells) {
-  return *bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle),
+  return *bend_block(cells, muscle_lattice(muscle), reference_belly_m(muscle),
                      belly_grading);  // a template's: it is sound
 }
 
@@ -80,7 +80,7 @@ Result<ShapeTable> make_shape_table(Muscle muscle) {
     if (!some) return tl::unexpected(some.error());
     samples.insert(samples.end(), std::move_iterator(some->begin()), std::move_iterator(some->end()));
   }
-  return fit_shape_table(samples, finite_mesh(muscle, control_cells), shape_vectors);
+  return fit_shape_table(samples, finite_mesh(muscle, control_cells), shape_modes);
 }
 
 }  // namespace mobil::inline v0_3

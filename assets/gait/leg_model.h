@@ -22,7 +22,7 @@ constexpr float extra_mass_of(Segment s) {
   return static_cast<float>(mass_per_extra_fat(index(s)));
 }
 
-/// Radii of gyration: Winter, Biomechanics and Motor Control of Human Movement, table of Dempster's segments.
+/// Radii of gyration: Winter, Biomechanics and Motor Control of Person Movement, table of Dempster's segments.
 inline constexpr Rod thigh = [] {
   using enum Segment;
   const double cap = -unit_body.joint_offset[index(patella_right)].y;

@@ -19,7 +19,7 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 /// the heel's pad yields.
 constexpr float usual_flat = 0.09F, usual_rise = 0.30F, pad_part = 0.05F;
 
-HWY_INLINE WideMask stands(const Strike<Lanes<float>>& strike) {
+HWY_INLINE WideMask stands(const HeelStrike<Lanes<float>>& strike) {
   return load(strike.speed_m_s) <= 0.0F;
 }
 
@@ -284,7 +284,7 @@ constexpr float cosine(double x) {
   return static_cast<float>(sum);
 }
 
-HWY_INLINE Wide manner(const Lanes<float>& from, const Lanes<float>& to, const Wide& part) {
+HWY_INLINE Wide posture(const Lanes<float>& from, const Lanes<float>& to, const Wide& part) {
   return mix(load(from), load(to), part);
 }
 
@@ -298,31 +298,31 @@ HWY_INLINE Wide wave(const StepWaves& w) {
 
 /// Of the pelvis, seen from the stance leg: that side forward, and that side up.
 HWY_INLINE Wide pelvis_rotation(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased) {
-  return manner(plan.from.manner.pelvis_rotation, plan.to.manner.pelvis_rotation, eased) *
+  return posture(plan.from.posture.pelvis_rotation, plan.to.posture.pelvis_rotation, eased) *
          wave<1, pelvis_phase::rotation_1000>(w);
 }
 HWY_INLINE Wide pelvis_list(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased) {
   namespace p = pelvis_phase;
-  return manner(plan.from.manner.pelvis_list, plan.to.manner.pelvis_list, eased) *
+  return posture(plan.from.posture.pelvis_list, plan.to.posture.pelvis_list, eased) *
          (p::list_first * wave<1, p::list_first_1000>(w) + p::list_third * wave<3, p::list_third_1000>(w));
 }
 
 /// Of the pelvis: its front down.
 HWY_INLINE Wide pelvis_tilt(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased) {
-  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
-  return fma(manner(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave<2, pelvis_phase::tilt_1000>(w),
-             manner(from.pelvis_tilt, to.pelvis_tilt, eased));
+  const PostureParameters<Lanes<float>>&from = plan.from.posture, &to = plan.to.posture;
+  return fma(posture(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave<2, pelvis_phase::tilt_1000>(w),
+             posture(from.pelvis_tilt, to.pelvis_tilt, eased));
 }
 
 /// How far the pelvis sinks in a step between unlike walks, so that no leg is straight: of the height, per m/s by which
 /// they differ; and the most.
-constexpr float sinks_by = 0.015F, most_sinking = 0.006F;
+constexpr float sinks_by = 0.015F, max_sinking = 0.006F;
 
 HWY_INLINE Wide hips_height(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height, const Wide& u,
                             const StepWaves& w) {
   constexpr auto standing = static_cast<float>(fraction::hip_height);
   const Wide unlike = abs(load(plan.to.speed_m_s) - load(plan.from.speed_m_s));
-  const Wide sunk = fnma(min(sinks_by * unlike, most_sinking), bump(u), wide(standing));
+  const Wide sunk = fnma(min(sinks_by * unlike, max_sinking), bump(u), wide(standing));
   return fma(sunk, height, harmonics(of, step_shape::hips_up, 4, w));
 }
 

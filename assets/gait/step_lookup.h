@@ -18,7 +18,7 @@ struct TabledStep {
 /// standing at 0; beyond the fastest, and beyond the table's step lengths, its ends.
 TabledStep tabled_step(float speed, float length);
 
-/// Adds to a shape what the manner of a walk changes at that speed: so many units of each effect of step_styles.h,
+/// Adds to a shape what the posture of a walk changes at that speed: so many units of each effect of step_styles.h,
 /// straight between nodes.
 void add_styles(float speed, std::span<const float, style_effects.size()> amounts, TabledShape& shape);
 

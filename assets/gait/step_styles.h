@@ -1,5 +1,5 @@
 #pragma once
-// How the table's steps change with the manner of a walk: README.md beside this file.
+// How the table's steps change with the posture of a walk: README.md beside this file.
 
 #include <array>
 #include <string_view>

@@ -58,7 +58,7 @@ HWY_INLINE Slopes slopes_of(const Footing<Lanes<float>>& footing, const Wide& he
 
 /// How a step over a rise differs from one on level ground: `rise_table::numbers` times a part that grows with
 /// the steepness at its strike.
-struct RiseManner {
+struct RiseParameters {
   Wide of[rise_table::count];
   Wide rate;  // of the hips' height, of the phase
   HWY_INLINE Wide operator[](rise_table::Number n) const { return of[n]; }
@@ -66,7 +66,7 @@ struct RiseManner {
 
 /// Between two footholds whose ground itself rises by `along`, m per m, on the mean: who steps off an edge does so from
 /// the forefoot however long the step, for the ankle bends no further.
-HWY_INLINE RiseManner rise_manner(const Wide& rise, const Wide& along, const Wide& length, const Wide& height) {
+HWY_INLINE RiseParameters rise_parameters(const Wide& rise, const Wide& along, const Wide& length, const Wide& height) {
   using namespace rise_table;
   const Wide one = wide(1.0F);
   const Wide steep = min(abs(rise) / (full * max(length, shortest_h * height)), one);
@@ -74,7 +74,7 @@ HWY_INLINE RiseManner rise_manner(const Wide& rise, const Wide& along, const Wid
   const WideMask upward = rise > 0.0F;
   const auto towards = [&](const Wide& by, std::size_t n)
                            HWY_ATTR { return by * select(upward, wide(numbers[0][n]), wide(numbers[1][n])); };
-  RiseManner m;
+  RiseParameters m;
   for (std::size_t n = 0; n < count; ++n) m.of[n] = towards(n == trunk_lean ? steep : part, n);
   const Wide drop = fma(along, length, -rise) / (edge_h * height);
   const Wide further = max(fma(length / height, wide(edge_further), wide(1.0F - edge_further * stairs_h)), one);
@@ -85,8 +85,8 @@ HWY_INLINE RiseManner rise_manner(const Wide& rise, const Wide& along, const Wid
 }
 
 /// What two strikes' manners are at a part of the way from one to the other.
-struct MixedManner {
-  const RiseManner &from, &to;
+struct MixedParameters {
+  const RiseParameters &from, &to;
   Wide part;
   HWY_INLINE Wide operator[](rise_table::Number n) const { return mix(from[n], to[n], part); }
 };
@@ -118,8 +118,8 @@ HWY_NOINLINE inline Wide reaches_higher(const StrikeLeg& leg, const Wide& ahead,
 
 /// How high over the stance foothold of the step the hips are at a strike, beside level ground: over the lower foot as
 /// they would be there, and no higher than both legs reach.
-HWY_NOINLINE inline Wide hips_at_strike(const Strike<Lanes<float>>& strike, const Slope& behind, const Slope& ahead,
-                                        const RiseManner& manner, const Wide& height) {
+HWY_NOINLINE inline Wide hips_at_strike(const HeelStrike<Lanes<float>>& strike, const Slope& behind, const Slope& ahead,
+                                        const RiseParameters& posture, const Wide& height) {
   using namespace rise_table;
   const OneShape of{strike.shape};
   Wide hips = of(step_shape::hips_forward, 0);
@@ -128,11 +128,11 @@ HWY_NOINLINE inline Wide hips_at_strike(const Strike<Lanes<float>>& strike, cons
   const Wide rise = usual_rise + of(step_shape::times, 1), double_support = load(strike.double_support);
   const Wide leaves = heel_rise(of, (half - rise) / (half + double_support - rise));
   const Wide nearer = 0.5F * (behind.moved_along - ahead.moved_along);  // the hips are moved half as far as both feet
-  const StrikeLeg leading = {hips, lands, fnma(manner[strike_less], lands, lands - manner[toes_first]), ahead.along};
+  const StrikeLeg leading = {hips, lands, fnma(posture[strike_less], lands, lands - posture[toes_first]), ahead.along};
   const StrikeLeg trailing = {hips + load(strike.length_m), leaves,
-                              fnma(manner[heel_up_more], heel_up(half, double_support), leaves), behind.along};
-  const Wide moved = manner[hips_ahead] * height;
-  return min(fma(manner[hips_up], height, min(behind.height, ahead.height)),
+                              fnma(posture[heel_up_more], heel_up(half, double_support), leaves), behind.along};
+  const Wide moved = posture[hips_ahead] * height;
+  return min(fma(posture[hips_up], height, min(behind.height, ahead.height)),
              min(ahead.height + reaches_higher(leading, moved + nearer, height),
                  behind.height + reaches_higher(trailing, moved - nearer, height)));
 }
@@ -141,7 +141,7 @@ HWY_NOINLINE inline Wide hips_at_strike(const Strike<Lanes<float>>& strike, cons
 /// its two strikes.
 struct Uneven {
   Slopes slopes;
-  RiseManner from, to;
+  RiseParameters from, to;
   Wide hips_from, hips_to;
 };
 
@@ -154,12 +154,13 @@ HWY_NOINLINE inline Uneven uneven_of(const StepPlan<Lanes<float>>& plan, const F
   const Slopes there = slopes_of(footing, heading + turn);
   // Who stands does so as on level ground.
   const Wide zero = wide(0.0F);
-  const auto level = [&](const Strike<Lanes<float>>& strike, const Wide& value)
+  const auto level = [&](const HeelStrike<Lanes<float>>& strike, const Wide& value)
                          HWY_ATTR { return select(stands(strike), zero, value); };
-  u.from = rise_manner(level(plan.from, -leaving.height), level(plan.from, 0.5F * (leaving.along + stance.along)),
-                       load(plan.length_before_m), height);
-  u.to = rise_manner(level(plan.to, landing.height), level(plan.to, 0.5F * (there.stance.along + there.landing.along)),
-                     load(plan.step_length_m), height);
+  u.from = rise_parameters(level(plan.from, -leaving.height), level(plan.from, 0.5F * (leaving.along + stance.along)),
+                           load(plan.length_before_m), height);
+  u.to =
+      rise_parameters(level(plan.to, landing.height), level(plan.to, 0.5F * (there.stance.along + there.landing.along)),
+                      load(plan.step_length_m), height);
   u.hips_from = hips_at_strike(plan.from, leaving, stance, u.from, height);
   // Who stands moves no foot.
   u.hips_to = select(load(plan.landing) > 0.0F, hips_at_strike(plan.to, there.stance, there.landing, u.to, height),
@@ -169,13 +170,14 @@ HWY_NOINLINE inline Uneven uneven_of(const StepPlan<Lanes<float>>& plan, const F
 
 /// On uneven ground legs that become straight hold the hips back over more than a fraction of a millimetre.
 HWY_INLINE Wide gentler(const Uneven& uneven, const Wide& eased, const Wide& height) {
-  constexpr float part_of_rise = 0.15F, most_h = 0.012F;
+  constexpr float part_of_rise = 0.15F, max_h = 0.012F;
   return min(part_of_rise * mix(abs(uneven.slopes.leaving.height), abs(uneven.slopes.landing.height), eased),
-             most_h * height);
+             max_h * height);
 }
 
 /// A bump with a value and a slant.
-HWY_INLINE Wide slanted_bump(const MixedManner& m, rise_table::Number value, rise_table::Number slant, const Wide& u) {
+HWY_INLINE Wide slanted_bump(const MixedParameters& m, rise_table::Number value, rise_table::Number slant,
+                             const Wide& u) {
   return bump(u) * fma(2.0F * u - 1.0F, m[slant], m[value]);
 }
 
@@ -193,7 +195,7 @@ HWY_NOINLINE inline HipsOver hips_over(const StepPlan<Lanes<float>>& plan, const
   const Wide r = to - from - rate_from, s = rate_to - rate_from, p = phase;
   const Wide even = fma(
       p, fma(p * p, fma(p, fma(p, 6.0F * r - 3.0F * s, 7.0F * s - 15.0F * r), 10.0F * r - 4.0F * s), rate_from), from);
-  const MixedManner mixed{uneven.from, uneven.to, smooth(p)};
+  const MixedParameters mixed{uneven.from, uneven.to, smooth(p)};
   const Wide walks = select(load(plan.landing) > 0.0F, wide(1.0F), zero);
   const Wide over = vault * mix(abs(uneven.slopes.leaving.height), abs(uneven.slopes.landing.height), mixed.part);
   return {fma(walks, fma(slanted_bump(mixed, hips_up_middle, hips_up_late, p), height, bump(p) * over), even),
@@ -286,7 +288,7 @@ HWY_NOINLINE inline void step_otherwise(const StepPlan<Lanes<float>>& plan, cons
   // The corner of the landing foot is as it is on the ground at the strike alone.
   const Wide rounded = fma(smooth(2.0F * part - 1.0F), wide(-0.199F), wide(0.2F));
   pitch_in_air(height, lifted, 1.0F - smooth(2.0F * part), wide(1e-3F), other);
-  const MixedManner mixed{uneven.from, uneven.to, lands};
+  const MixedParameters mixed{uneven.from, uneven.to, lands};
   const Wide in_air = max(bump(part), 0.0F) * height;
   pitch_in_air(height,
                fnma(lands * uneven.to[strike_less], other.pitch, fnma(lands, uneven.to[toes_first], other.pitch)) +

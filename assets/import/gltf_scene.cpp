@@ -28,7 +28,7 @@ class FolderFiles : public Assimp::DefaultIOSystem {
     std::error_code error;
     const bool inside = (path.parent_path() / "").native().starts_with((folder_ / "").native());
     const bool small =
-        std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) <= most_mesh_bytes;
+        std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) <= max_mesh_bytes;
     if (!inside || !small || mode == nullptr || mode[0] != 'r') return nullptr;
     return DefaultIOSystem::Open(path.c_str(), mode);
   }
@@ -54,8 +54,8 @@ void leave_gltf_alone(Assimp::Importer& importer) {
 
 Result<void> add_scene_mesh(const aiMesh& mesh, const aiMatrix4x4& transform, RawMesh& raw) {
   const auto first = static_cast<std::uint32_t>(raw.position.size());
-  if (raw.position.size() + mesh.mNumVertices > 3 * most_mesh_triangles) {
-    return fail(fmt::format("more than {} vertices; make the mesh coarser in a mesh editor", 3 * most_mesh_triangles));
+  if (raw.position.size() + mesh.mNumVertices > 3 * max_mesh_triangles) {
+    return fail(fmt::format("more than {} vertices; make the mesh coarser in a mesh editor", 3 * max_mesh_triangles));
   }
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const aiVector3D p = transform * mesh.mVertices[i];
@@ -79,8 +79,8 @@ Result<void> add_scene_mesh(const aiMesh& mesh, const aiMatrix4x4& transform, Ra
                                 face.mIndices[c], static_cast<std::int64_t>(mesh.mNumVertices) - 1));
       }
     }
-    if (raw.triangle.size() + 3 * (face.mNumIndices - 2) > 3 * most_mesh_triangles) {
-      return fail(fmt::format("more than {} triangles; make the mesh coarser in a mesh editor", most_mesh_triangles));
+    if (raw.triangle.size() + 3 * (face.mNumIndices - 2) > 3 * max_mesh_triangles) {
+      return fail(fmt::format("more than {} triangles; make the mesh coarser in a mesh editor", max_mesh_triangles));
     }
     for (unsigned c = 2; c < face.mNumIndices; ++c) {
       for (const unsigned v : {face.mIndices[0], face.mIndices[c - 1], face.mIndices[c]}) {

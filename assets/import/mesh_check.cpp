@@ -22,10 +22,10 @@ using namespace geometry;
 // Bounds, and in brackets the worst of the 40 muscles of a real leg made for display: up to 0.35 % of a muscle's
 // triangles cut others, 2.8 % of them are specks; no piece cuts another; volume / area^1.5 is 0.011 or more, twice
 // volume / area 1.5 mm or more. Its skin reaches 26 mm over the middle plane, bones and muscles not at all.
-constexpr double most_cut_share = 0.02, most_speck_share = 0.1;
-constexpr std::size_t most_cuts_between_pieces = 8;
-constexpr double least_fullness = 0.003, least_thickness_m = 0.0003;
-constexpr float most_over_middle_m = 0.05F;
+constexpr double max_cut_share = 0.02, max_speck_share = 0.1;
+constexpr std::size_t max_cuts_between_pieces = 8;
+constexpr double min_fullness = 0.003, min_thickness_m = 0.0003;
+constexpr float max_over_middle_m = 0.05F;
 /// A closed hole is at most so much of the surface, and all of them together.
 constexpr double hole_share = 0.01, all_holes_share = 0.03;
 /// A piece inside another counts as a copy from this share of the volume on; smaller ones are said.
@@ -53,11 +53,11 @@ Result<void> take_specks_away(SurfaceMesh& mesh, double share, bool fleshy, Surf
         fmt::format("{} of {} taken away", counted(specks, "speck", "specks"), counted(gone, "triangle", "triangles")));
   }
   const double lost = static_cast<double>(gone) / static_cast<double>(before);
-  if (fleshy && lost > most_speck_share) {
+  if (fleshy && lost > max_speck_share) {
     return fail(
         fmt::format("{:.0f} % of its triangles are specks; valid: at most {:.0f} %: take them away in a mesh "
                     "editor, or join the triangles at their vertices",
-                    100 * lost, 100 * most_speck_share));
+                    100 * lost, 100 * max_speck_share));
   }
   return {};
 }
@@ -111,28 +111,28 @@ Result<void> check_cuts(const SurfaceMesh& mesh, const Pieces& pieces, bool fles
     report.said.push_back(fmt::format("{}{} of triangles cut each other", more, counted(cuts.pairs, "pair", "pairs")));
   }
   if (!fleshy) return {};
-  if (cuts.between_pieces > most_cuts_between_pieces) {
+  if (cuts.between_pieces > max_cuts_between_pieces) {
     return fail(
         fmt::format("two pieces overlap, {}{} pairs of their triangles cut each other; valid: at most {}: keep "
                     "one of them, or unite them in a mesh editor",
-                    more, cuts.between_pieces, most_cuts_between_pieces));
+                    more, cuts.between_pieces, max_cuts_between_pieces));
   }
-  if (!cuts.complete || share > most_cut_share) {
+  if (!cuts.complete || share > max_cut_share) {
     return fail(
         fmt::format("cuts itself, {}{} pairs of triangles, {:.3g} % of all; valid: at most {:.0f} %: mend it in "
                     "a mesh editor",
-                    more, cuts.pairs, 100 * share, 100 * most_cut_share));
+                    more, cuts.pairs, 100 * share, 100 * max_cut_share));
   }
   return {};
 }
 
 Result<void> check_fullness(double volume, double area) {
   const double thickness = 2 * volume / area;
-  if (volume / std::pow(area, 1.5) >= least_fullness && thickness >= least_thickness_m) return {};
+  if (volume / std::pow(area, 1.5) >= min_fullness && thickness >= min_thickness_m) return {};
   return fail(
       fmt::format("is flat: {:.3g} cm3 within {:.3g} cm2, {:.2g} mm thick; valid: volume / area^1.5 from {} and "
                   "from {} mm: give it the muscle's thickness in a mesh editor",
-                  1e6 * volume, 1e4 * area, 1000 * thickness, least_fullness, 1000 * least_thickness_m));
+                  1e6 * volume, 1e4 * area, 1000 * thickness, min_fullness, 1000 * min_thickness_m));
 }
 
 }  // namespace
@@ -172,11 +172,11 @@ Result<void> keep_right_side(SurfaceMesh& mesh, float middle_x, SurfaceReport& r
   if (gone == pieces.count) {
     return fail("lies wholly on the left of the middle plane, its row says right; write left, or mirror the mesh");
   }
-  if (over > most_over_middle_m) {
+  if (over > max_over_middle_m) {
     return fail(
         fmt::format("reaches {:.0f} mm to the left of the middle plane, its row says right; valid: at most {:.0f} "
                     "mm: cut it there, or write mid for what spans both sides",
-                    1000 * over, 1000 * most_over_middle_m));
+                    1000 * over, 1000 * max_over_middle_m));
   }
   if (gone == 0) return {};
   report.said.push_back(fmt::format("{} on the left side taken away", counted(gone, "piece", "pieces")));

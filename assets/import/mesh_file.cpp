@@ -37,11 +37,11 @@ Result<MeshFormat> format_of(const std::string& path) {
 
 tl::unexpected<Error> too_large(const std::string& path, std::uintmax_t bytes) {
   return fail(fmt::format("{}: {:.0f} MB; valid: at most {} MB: make the mesh coarser in a mesh editor", path,
-                          static_cast<double>(bytes) / 1e6, most_mesh_bytes / 1'000'000));
+                          static_cast<double>(bytes) / 1e6, max_mesh_bytes / 1'000'000));
 }
 
 Result<MeshFile> read_bytes(std::string_view bytes, const std::string& path, MeshFormat format) {
-  if (bytes.size() > most_mesh_bytes) return too_large(path, bytes.size());
+  if (bytes.size() > max_mesh_bytes) return too_large(path, bytes.size());
   if (format == MeshFormat::obj) return read_obj(bytes, path);
   if (format == MeshFormat::stl) return read_stl(bytes, path);
   if (format == MeshFormat::ply) return read_ply(bytes, path);
@@ -64,7 +64,7 @@ Result<MeshFile> read_mesh(const std::string& path) try {
     return fail(fmt::format("{}: no such file; put the mesh there or take its row out of the manifest", path));
   }
   const auto size = std::filesystem::file_size(path, error);
-  if (!error && size > most_mesh_bytes) return too_large(path, size);
+  if (!error && size > max_mesh_bytes) return too_large(path, size);
   if (*format == MeshFormat::gltf) return read_gltf(path);
   std::string bytes(error ? 0 : static_cast<std::size_t>(size), '\0');
   std::ifstream in(path, std::ios::binary);

@@ -31,7 +31,7 @@ namespace {
 
 constexpr rlim_t processor_s = 10, memory_bytes = 2'000'000'000;
 constexpr std::chrono::seconds wall_limit{15};
-constexpr std::size_t most_words = 3 * most_mesh_triangles, most_line = 400;
+constexpr std::size_t max_words = 3 * max_mesh_triangles, max_line = 400;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool limit_memory = false;  // sanitizers reserve terabytes of addresses
@@ -96,7 +96,7 @@ void send(int pipe, const void* data, std::size_t bytes) {
     send(pipe, raw->position.data(), raw->position.size() * sizeof raw->position[0]);
     send(pipe, raw->triangle.data(), raw->triangle.size() * sizeof raw->triangle[0]);
   } else {
-    const auto line = raw.error().message.substr(0, most_line);
+    const auto line = raw.error().message.substr(0, max_line);
     answer.line = line.size();
     send(pipe, &answer, sizeof answer);
     send(pipe, line.data(), line.size());
@@ -141,7 +141,7 @@ void receive_answer(int pipe, Clock::time_point end, Child& child) {
   Answer answer;
   child.received = receive(pipe, &answer, sizeof answer, end);
   if (child.received != Received::all) return;
-  if (answer.positions > most_words || answer.indices > most_words || answer.line > most_line) {
+  if (answer.positions > max_words || answer.indices > max_words || answer.line > max_line) {
     child.received = Received::less;
     return;
   }

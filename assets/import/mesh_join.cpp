@@ -68,7 +68,7 @@ tl::unexpected<Error> fault_in_line(std::string_view path, std::size_t line, std
 
 tl::unexpected<Error> too_many_triangles(std::string_view path) {
   return fail(fmt::format("{}: more than {} triangles; valid: at most so many: make the mesh coarser in a mesh editor",
-                          path, most_mesh_triangles));
+                          path, max_mesh_triangles));
 }
 
 }  // namespace mobil::inline v0_3

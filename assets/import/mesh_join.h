@@ -26,7 +26,7 @@ Result<MeshFile> join_mesh(const RawMesh& raw, std::string_view path);
 /// "PATH line N: what", for faults of a text.
 tl::unexpected<Error> fault_in_line(std::string_view path, std::size_t line, std::string_view what);
 
-/// Fails for more triangles than most_mesh_triangles.
+/// Fails for more triangles than max_mesh_triangles.
 tl::unexpected<Error> too_many_triangles(std::string_view path);
 
 }  // namespace mobil::inline v0_3

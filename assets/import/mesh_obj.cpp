@@ -12,7 +12,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr std::size_t most_obj_vertices = 3 * most_mesh_triangles;
+constexpr std::size_t max_obj_vertices = 3 * max_mesh_triangles;
 
 /// What the format has beside vertices and faces.
 constexpr std::array<std::string_view, 44> passed_over = {
@@ -55,9 +55,9 @@ Result<void> read_obj_vertex(ObjReader& reader) {
     return fault_in_line(reader.path, reader.text.line,
                          fmt::format("a vertex of weight {}; valid: 1: export triangles, not curves", value[3]));
   }
-  if (reader.raw.position.size() == most_obj_vertices) {
+  if (reader.raw.position.size() == max_obj_vertices) {
     return fail(fmt::format("{}: more than {} vertices; make the mesh coarser in a mesh editor", reader.path,
-                            most_obj_vertices));
+                            max_obj_vertices));
   }
   reader.raw.position.push_back({value[0], value[1], value[2]});
   return {};
@@ -90,7 +90,7 @@ Result<void> read_obj_face(ObjReader& reader) {
                                        shown(word)));
     }
     if (*named < 0) *named += vertices + 1;
-    if (*named < 1 || *named > static_cast<std::int64_t>(most_obj_vertices)) {
+    if (*named < 1 || *named > static_cast<std::int64_t>(max_obj_vertices)) {
       return fault_in_line(reader.path, reader.text.line,
                            fmt::format("corner {} is out of range, {} vertices stand before it; export the mesh again",
                                        shown(word), vertices));
@@ -102,7 +102,7 @@ Result<void> read_obj_face(ObjReader& reader) {
     const auto corner = static_cast<std::uint32_t>(*named - 1);
     if (corners == 0) first = corner;
     if (corners >= 2) {
-      if (reader.raw.triangle.size() == 3 * most_mesh_triangles) return too_many_triangles(reader.path);
+      if (reader.raw.triangle.size() == 3 * max_mesh_triangles) return too_many_triangles(reader.path);
       reader.raw.triangle.insert(reader.raw.triangle.end(), {first, before, corner});
     }
     before = corner;

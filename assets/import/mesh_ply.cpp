@@ -17,7 +17,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr std::size_t most_ply_vertices = 3 * most_mesh_triangles;
+constexpr std::size_t max_ply_vertices = 3 * max_mesh_triangles;
 
 struct PlyReader {
   MeshText text;
@@ -150,7 +150,7 @@ Result<void> add_face(PlyReader& reader, const PlyElement& element, std::size_t 
                      fmt::format("vertex {} is out of range; valid: 0 to {}: export the mesh again", c,
                                  static_cast<std::int64_t>(reader.vertices) - 1));
   }
-  if (reader.raw.triangle.size() + 3 * (corner.size() - 2) > 3 * most_mesh_triangles) {
+  if (reader.raw.triangle.size() + 3 * (corner.size() - 2) > 3 * max_mesh_triangles) {
     return too_many_triangles(reader.path);
   }
   for (std::size_t c = 2; c < corner.size(); ++c) {
@@ -221,10 +221,10 @@ Result<void> check_elements(const PlyHeader& header, PlyReader& reader) {
   }
   if (face->count == 0)
     return fail(fmt::format("{}: its header promises no face; export it as triangles", reader.path));
-  if (face->count > most_mesh_triangles) return too_many_triangles(reader.path);
-  if (vertex->count > most_ply_vertices) {
+  if (face->count > max_mesh_triangles) return too_many_triangles(reader.path);
+  if (vertex->count > max_ply_vertices) {
     return fail(fmt::format("{}: more than {} vertices; make the mesh coarser in a mesh editor", reader.path,
-                            most_ply_vertices));
+                            max_ply_vertices));
   }
   reader.vertices = vertex->count;
   reader.raw.position.reserve(vertex->count);

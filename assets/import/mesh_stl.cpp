@@ -31,7 +31,7 @@ void add_facet(RawMesh& raw, const std::array<Vec3<float>, 3>& corner) {
 }
 
 Result<MeshFile> read_binary_stl(std::string_view bytes, std::string_view path, std::size_t facets) {
-  if (facets > most_mesh_triangles) return too_many_triangles(path);
+  if (facets > max_mesh_triangles) return too_many_triangles(path);
   RawMesh raw;
   raw.position.reserve(3 * facets);
   raw.triangle.reserve(3 * facets);
@@ -99,7 +99,7 @@ Result<void> read_facet(StlReader& reader) {
   }
   if (auto done = expect(reader, "endloop"); !done) return done;
   if (auto done = expect(reader, "endfacet"); !done) return done;
-  if (reader.raw.triangle.size() == 3 * most_mesh_triangles) return too_many_triangles(reader.path);
+  if (reader.raw.triangle.size() == 3 * max_mesh_triangles) return too_many_triangles(reader.path);
   add_facet(reader.raw, corner);
   return {};
 }

@@ -11,7 +11,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr std::size_t most_ply_elements = 64, most_ply_properties = 256;
+constexpr std::size_t max_ply_elements = 64, max_ply_properties = 256;
 
 constexpr std::array<std::pair<std::string_view, PlyType>, 16> ply_types = {{{"char", PlyType::int8},
                                                                              {"int8", PlyType::int8},
@@ -64,8 +64,8 @@ Result<void> add_property(const std::vector<std::string_view>& word, const MeshT
   if (header.element.empty()) return bad_header(path, text, "'element NAME COUNT' before the first property");
   auto& property = header.element.back().property;
   const std::string name(word.back());
-  if (property.size() == most_ply_properties || std::ranges::find(property, name, &PlyProperty::name) != property.end())
-    return bad_header(path, text, fmt::format("each property once, at most {}", most_ply_properties));
+  if (property.size() == max_ply_properties || std::ranges::find(property, name, &PlyProperty::name) != property.end())
+    return bad_header(path, text, fmt::format("each property once, at most {}", max_ply_properties));
   property.push_back({name, *type, count});
   return {};
 }
@@ -77,15 +77,15 @@ Result<void> add_element(const std::vector<std::string_view>& word, const MeshTe
     return bad_header(path, text, "'element NAME COUNT', the count from 0 to 4294967296");
   }
   const std::string name(word[1]);
-  if (header.element.size() == most_ply_elements ||
+  if (header.element.size() == max_ply_elements ||
       std::ranges::find(header.element, name, &PlyElement::name) != header.element.end())
-    return bad_header(path, text, fmt::format("each element once, at most {}", most_ply_elements));
+    return bad_header(path, text, fmt::format("each element once, at most {}", max_ply_elements));
   header.element.push_back({name, static_cast<std::size_t>(*count), {}});
   return {};
 }
 
 /// The least bytes that one item takes: a value as text takes a digit and a separator.
-std::size_t least_size(const PlyElement& element, PlyFormat format) {
+std::size_t min_size(const PlyElement& element, PlyFormat format) {
   std::size_t bytes = 0;
   for (const auto& property : element.property) {
     bytes += format == PlyFormat::ascii ? 2 : size_of(property.count.value_or(property.type));
@@ -96,7 +96,7 @@ std::size_t least_size(const PlyElement& element, PlyFormat format) {
 Result<void> check_counts(const PlyHeader& header, std::size_t left, std::string_view path) {
   left += header.format == PlyFormat::ascii ? 1 : 0;  // the last separator may be missing
   for (const auto& element : header.element) {
-    const std::size_t each = least_size(element, header.format);
+    const std::size_t each = min_size(element, header.format);
     if (element.count == 0) continue;
     if (each == 0 || element.count > left / each) {
       return fail(

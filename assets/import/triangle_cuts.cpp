@@ -14,7 +14,7 @@ namespace {
 using namespace geometry;
 
 constexpr std::uint32_t triangles_of_leaf = 4;
-constexpr std::size_t most_comparisons = 300'000'000;
+constexpr std::size_t max_comparisons = 300'000'000;
 
 struct CutBox {
   Vec3<float> least, most;
@@ -106,7 +106,7 @@ bool neighbours(const SurfaceMesh& mesh, std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
-CutCount count_cuts(const SurfaceMesh& mesh, std::span<const std::uint32_t> piece, std::size_t most_pairs) {
+CutCount count_cuts(const SurfaceMesh& mesh, std::span<const std::uint32_t> piece, std::size_t max_pairs) {
   const auto triangles = static_cast<std::uint32_t>(mesh.triangle.size() / 3);
   CutCount count;
   if (triangles == 0) return count;
@@ -128,7 +128,7 @@ CutCount count_cuts(const SurfaceMesh& mesh, std::span<const std::uint32_t> piec
     count.between_pieces += piece[s] != piece[t] ? 1 : 0;
   };
   for (std::size_t comparisons = 0; !open.empty(); ++comparisons) {
-    if (count.pairs >= most_pairs || comparisons >= most_comparisons) {
+    if (count.pairs >= max_pairs || comparisons >= max_comparisons) {
       count.complete = false;
       break;
     }

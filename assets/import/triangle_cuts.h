@@ -16,8 +16,8 @@ struct CutCount {
   bool complete = true;  // false: the search ended early, and there may be more
 };
 
-/// `piece`: a number for each triangle; see label_pieces. The search ends at `most_pairs`, or after so many comparisons
+/// `piece`: a number for each triangle; see label_pieces. The search ends at `max_pairs`, or after so many comparisons
 /// of boxes that only a tangle needs them.
-CutCount count_cuts(const SurfaceMesh& mesh, std::span<const std::uint32_t> piece, std::size_t most_pairs = 100'000);
+CutCount count_cuts(const SurfaceMesh& mesh, std::span<const std::uint32_t> piece, std::size_t max_pairs = 100'000);
 
 }  // namespace mobil::inline v0_3

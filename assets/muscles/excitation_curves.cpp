@@ -36,8 +36,8 @@ MemberExcitation member_excitation(const MemberMuscle& muscle) {
 }
 
 double excitation(const MemberExcitation& of, double cycle, double speed) {
-  const double least = static_cast<double>(least_excitation_speed);
-  const double s = std::clamp(speed, least, static_cast<double>(most_excitation_speed));
+  const double least = static_cast<double>(min_excitation_speed);
+  const double s = std::clamp(speed, least, static_cast<double>(max_excitation_speed));
   const auto term = [&](std::size_t i) {
     const auto& c = of.curve->terms[i];
     return static_cast<double>(c[0]) + s * (static_cast<double>(c[1]) + s * static_cast<double>(c[2]));
@@ -49,7 +49,7 @@ double excitation(const MemberExcitation& of, double cycle, double speed) {
   }
   const double part = std::clamp(speed / least, 0.0, 1.0), standing = static_cast<double>(of.standing);
   return std::clamp(standing + part * (static_cast<double>(excitation_scale) * sum - standing),
-                    static_cast<double>(least_activation), static_cast<double>(most_activation));
+                    static_cast<double>(min_activation), static_cast<double>(max_activation));
 }
 
 }  // namespace mobil::inline v0_3

@@ -27,7 +27,7 @@ inline constexpr float excitation_scale = 2.4F;
 
 /// The speeds that the curves are fitted to begin and end at these. Below the first they pass to the standing tone in
 /// proportion to speed; beyond the second they are as there.
-inline constexpr float least_excitation_speed = 0.27F, most_excitation_speed = 0.61F;
+inline constexpr float min_excitation_speed = 0.27F, max_excitation_speed = 0.61F;
 
 struct ExcitationCurve {
   std::string_view measured_muscle;  // the table's column

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "assets/muscles/drawn_line.h"
+#include "assets/muscles/belly_axis.h"
 #include "assets/muscles/published_frames.h"
 
 namespace mobil::inline v0_3 {
@@ -135,8 +135,8 @@ static_assert(std::all_of(groups.begin(), groups.end(),
                           }),
               "every group has members, and is drawn towards one of them");
 static_assert(std::all_of(groups.begin(), groups.end(),
-                          [](const MuscleRow& g) { return g.members.size() <= most_row_members; }));
-static_assert(groups.size() + std::size(members) <= most_muscles);
+                          [](const MuscleRow& g) { return g.members.size() <= max_row_members; }));
+static_assert(groups.size() + std::size(members) <= max_muscles);
 
 /// Groups, then the members of those that have several.
 std::vector<MuscleRow> make_rows() {

@@ -1,9 +1,9 @@
 #pragma once
-// The arrays of a reduced basis, one after the other: what its fingerprint is of, and what a file keeps of it.
+// The arrays of a modal basis, one after the other: what its fingerprint is of, and what a file keeps of it.
 
 #include <cstddef>
 
-#include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/modal_basis.h"
 
 namespace mobil::inline v0_3 {
 
@@ -11,8 +11,8 @@ namespace mobil::inline v0_3 {
 /// order. The motions of its middle body (`turned`) may lack: their lengths are then 0.
 template <class Basis, class F>
 void each_array(Basis& basis, bool has_turned, F&& f) {
-  const ReducedOptions& o = basis.options;
-  const std::size_t n = basis.vectors, nodes = node_count(o.control_cells);
+  const ModalBasisOptions& o = basis.options;
+  const std::size_t n = basis.modes, nodes = node_count(o.control_cells);
   const bool braced = o.foundation_hz > 0;
   const std::size_t held = o.far_end == FarEnd::held ? 1 : 0, framed = o.frame_loads ? frame_inputs : 0;
   const std::size_t ends = o.far_end == FarEnd::free ? 3 : 1;

@@ -2,7 +2,7 @@
 // Algebra of dense matrices, each operation compiled once: to the compiler every expression of Eigen's is one of its own,
 // and takes it a second.
 
-#include "assets/reduction/reduced_cholesky.h"
+#include "assets/reduction/modal_cholesky.h"
 #include "engine/eigen.h"
 
 namespace mobil::inline v0_3 {

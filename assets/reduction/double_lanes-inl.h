@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "assets/reduction/reduced_bellies.h"
+#include "assets/reduction/modal_bellies.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
@@ -23,7 +23,7 @@ using Tag = dn::CappedTag<double, 8>;
 using V = dn::Vec<Tag>;
 constexpr std::size_t width = dn::MaxLanes(Tag{});
 #else
-// Highway 1.0 has no vectors of doubles for WebAssembly: one body at a time.
+// Highway 1.0 has no modes of doubles for WebAssembly: one body at a time.
 namespace dn {
 struct Tag {};
 using V = double;
@@ -101,7 +101,7 @@ using Tag = dn::Tag;
 using V = dn::V;
 constexpr std::size_t width = 1;
 #endif
-constexpr std::size_t most = most_vectors;
+constexpr std::size_t most = max_modes;
 
 HWY_INLINE V all(double x) {
   return dn::Set(Tag{}, x);

@@ -15,7 +15,7 @@ using namespace geometry;
 using form::BodyForm;
 using form::TrunkFit;
 
-constexpr double least_fit = 0.7, most_fit = 1.4, least_thighs = 0.9;  // beyond, a body is no longer one
+constexpr double min_fit = 0.7, max_fit = 1.4, min_thighs = 0.9;  // beyond, a body is no longer one
 
 std::vector<Vec> normals(const std::vector<std::uint32_t>& triangle, const std::vector<Vec>& place) {
   std::vector<Vec> normal(place.size(), Vec{0, 0, 0});
@@ -33,7 +33,7 @@ constexpr std::array<int, skin_details> shared_turns = {256, 96, 40, 16};  // of
 /// How much of a vertex arms carry, from the shoulder's joint on.
 double share_of_arm(const std::vector<SkinFrame>& frames, const SkinVertex& vertex) {
   double share = 0;
-  for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+  for (std::size_t k = 0; k < SkinVertex::max_frames; ++k) {
     if (vertex.weight[k] == 0) continue;
     const std::size_t to = segment_of(frames[vertex.frame[k]].to);
     const bool is_arm = to >= index(Segment::clavicle_right) && to <= index(Segment::thumb_left);
@@ -102,13 +102,13 @@ void fit_girths(const Body& body, double over, TrunkFit& fit) {
   for (int round = 0; round < rounds; ++round) {
     const BodyForm form(body, fit);
     const auto fitted = [over](double now, double girth, double wanted) {
-      return std::clamp(now * over * wanted / girth, least_fit, most_fit);
+      return std::clamp(now * over * wanted / girth, min_fit, max_fit);
     };
     for (const auto& [y_m, girth, by] : places) fit.*by = fitted(fit.*by, form.girth(y_m * form.size()), girth);
     double hips = 0;  // where they are widest
     for (const double y_m : {0.885, 0.905, 0.925}) hips = std::max(hips, form.girth(y_m * form.size()));
     fit.hips = fitted(fit.hips, hips, m.buttock_girth);
-    if (fit.hips <= least_fit) fit.thighs = std::clamp(fit.thighs * over * m.buttock_girth / hips, least_thighs, 1.0);
+    if (fit.hips <= min_fit) fit.thighs = std::clamp(fit.thighs * over * m.buttock_girth / hips, min_thighs, 1.0);
   }
 }
 
@@ -179,13 +179,12 @@ double enclosed_volume(const std::vector<std::uint32_t>& triangle, const std::ve
 }
 
 SkinBuild skin_build(const BodyRequest& body, float index_step) {
-  constexpr float least_index = 13.5F, most_index = 64.5F, most_kg = 200;
+  constexpr float min_index = 13.5F, max_index = 64.5F, max_kg = 200;
   const float index = body.mass_kg / (body.height_m * body.height_m);
-  const int step = static_cast<int>(std::clamp(std::round(index / index_step), std::ceil(least_index / index_step),
-                                               std::floor(most_index / index_step)));
+  const int step = static_cast<int>(std::clamp(std::round(index / index_step), std::ceil(min_index / index_step),
+                                               std::floor(max_index / index_step)));
   const float tall = skin_body(body.sex).height_m;
-  BodyRequest usual{.height_m = tall,
-                    .mass_kg = std::min(index_step * static_cast<float>(step) * tall * tall, most_kg)};
+  BodyRequest usual{.height_m = tall, .mass_kg = std::min(index_step * static_cast<float>(step) * tall * tall, max_kg)};
   usual.sex = body.sex;
   return {step, usual};
 }
@@ -226,7 +225,7 @@ TrunkFit fit_trunk(const Body& body) {
   fit.between = 1 + sense * (trial - 1);
   const double more = sense * (volume(over, fit) - usual) - gain;
   const double beyond = more > 0 ? left / more : 1;
-  fit.between = std::clamp(1 + sense * (trial - 1) * beyond, least_fit, most_fit);
+  fit.between = std::clamp(1 + sense * (trial - 1) * beyond, min_fit, max_fit);
   fit_girths(body, over, fit);
   return fit;
 }

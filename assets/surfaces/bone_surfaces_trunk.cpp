@@ -11,7 +11,7 @@ namespace {
 
 using namespace geometry;
 
-/// Half-widths and processes of a vertebra, mm; T1–T12 also the ribs: half-width of the cage, drop to the end of the
+/// Half-widths and processes of a vertebra, mm; T1–T12 also the ribs: half-width of the lattice, drop to the end of the
 /// bony rib, and where its cartilage ends (beside the middle, over the ground, forward).
 struct VertebraSize {
   double half_width, half_depth;

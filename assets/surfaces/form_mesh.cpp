@@ -246,11 +246,11 @@ std::vector<form::Vec> neighbour_means(std::span<const std::uint32_t> triangle, 
 }
 
 form::Vec onto_surface(const BodyForm& body, Vec p, int steps) {
-  constexpr double most_m = 0.02, least_slope = 0.1;
+  constexpr double max_m = 0.02, min_slope = 0.1;
   for (int i = 0; i < steps; ++i) {
     const Vec slope = body.slope(p);
-    const double off = body.distance(p) / std::max(dot(slope, slope), least_slope);
-    p = p - std::clamp(off, -most_m, most_m) * slope;
+    const double off = body.distance(p) / std::max(dot(slope, slope), min_slope);
+    p = p - std::clamp(off, -max_m, max_m) * slope;
   }
   return p;
 }
@@ -263,8 +263,8 @@ SurfaceMesh mesh_form(const BodyForm& body, double coarseness) {
 }
 
 void split_long_edges(const BodyForm& body, SurfaceMesh& mesh, double longest_m) {
-  constexpr int most_rounds = 6;
-  for (int round = 0; round < most_rounds; ++round) {
+  constexpr int max_rounds = 6;
+  for (int round = 0; round < max_rounds; ++round) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;  // of an edge, by its ends
     const auto middle_of = [&](std::uint32_t a, std::uint32_t b) -> std::optional<std::uint32_t> {
       const Vec p = to_double(mesh.position[a]), q = to_double(mesh.position[b]);

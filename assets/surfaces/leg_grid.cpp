@@ -39,7 +39,7 @@ LegGrid leg_grid(const form::BodyForm& form, const BodyComposition& composition)
       grid.base[i * leg_angles + j] =
           static_cast<float>(skin_radius(form, s, tau * static_cast<double>(j) / leg_angles));
   }
-  constexpr double share = 0.145, density = 900, least_m = 0.0015;
+  constexpr double share = 0.145, density = 900, min_m = 0.0015;
   const double mean = share * static_cast<double>(composition.fat_kg) / (density * area);
   for (std::size_t i = 0; i < leg_stations; ++i) {
     const double s = first_leg_s + step_s * static_cast<double>(i);
@@ -47,7 +47,7 @@ LegGrid leg_grid(const form::BodyForm& form, const BodyComposition& composition)
     for (std::size_t j = 0; j < leg_angles; ++j) {
       const double front = std::cos(tau * static_cast<double>(j) / leg_angles - 0.5);
       const double bony = smoothstep(0.75, 1, s) * smoothstep(0.2, 0.9, front);
-      grid.fat[i * leg_angles + j] = static_cast<float>(std::max(least_m, mean * along * (1 - 0.75 * bony)));
+      grid.fat[i * leg_angles + j] = static_cast<float>(std::max(min_m, mean * along * (1 - 0.75 * bony)));
     }
   }
   return grid;

@@ -173,7 +173,7 @@ Region region_of(const SkinMesh& mesh, const std::uint32_t* corner) {
   std::array<float, regions> share{};
   for (int k = 0; k < 3; ++k) {
     const SkinVertex& vertex = mesh.vertex[corner[k]];
-    for (std::size_t i = 0; i < SkinVertex::most_frames; ++i) {
+    for (std::size_t i = 0; i < SkinVertex::max_frames; ++i) {
       const SkinFrame& frame = mesh.frame[vertex.frame[i]];
       share[static_cast<std::size_t>(region_of(segment_of(frame.from)))] += vertex.weight[i] * (1 - frame.turn);
       share[static_cast<std::size_t>(region_of(segment_of(frame.to)))] += vertex.weight[i] * frame.turn;

@@ -156,7 +156,7 @@ class Binder {
 
   void finish(const Vec& r) {
     std::ranges::sort(taken_, std::greater{}, &Taken::weight);
-    if (taken_.size() > SkinVertex::most_frames) taken_.resize(SkinVertex::most_frames);
+    if (taken_.size() > SkinVertex::max_frames) taken_.resize(SkinVertex::max_frames);
     double sum = 0;
     for (const Taken& taken : taken_) sum += taken.weight;
     SkinVertex vertex;
@@ -179,7 +179,7 @@ class Binder {
       place[order[i]] = static_cast<std::uint16_t>(i);
     }
     for (SkinVertex& vertex : binding_.vertex) {
-      for (std::size_t k = 0; k < SkinVertex::most_frames; ++k)
+      for (std::size_t k = 0; k < SkinVertex::max_frames; ++k)
         if (vertex.weight[k] != 0) vertex.frame[k] = place[vertex.frame[k]];
     }
   }

@@ -11,10 +11,10 @@ namespace {
 
 using namespace geometry;
 
-double plane_height(const HexahedralMesh& cage, std::uint32_t k) {
-  const std::uint32_t n = plane_nodes(cage.cells);
+double plane_height(const HexahedralMesh& lattice, std::uint32_t k) {
+  const std::uint32_t n = plane_nodes(lattice.cells);
   double sum = 0;
-  for (std::uint32_t i = 0; i < n; ++i) sum += cage.node[k * n + i].z;
+  for (std::uint32_t i = 0; i < n; ++i) sum += lattice.node[k * n + i].z;
   return sum / n;
 }
 
@@ -49,12 +49,12 @@ std::array<double, 8> weights(const std::array<double, 3>& t) {
 }
 
 /// The map at a position and its three derivatives by the parameters.
-std::array<Vec, 4> map(const HexahedralMesh& cage, const Position& p) {
-  const Hexahedron nodes = element_nodes(cage.cells, p.element);
+std::array<Vec, 4> map(const HexahedralMesh& lattice, const Position& p) {
+  const Hexahedron nodes = element_nodes(lattice.cells, p.element);
   const auto w = weights(p.local);
   std::array<Vec, 4> r{};
   for (std::size_t c = 0; c < 8; ++c) {
-    const Vec& node = cage.node[nodes[c]];
+    const Vec& node = lattice.node[nodes[c]];
     r[0] = r[0] + w[c] * node;
     for (std::size_t d = 0; d < 3; ++d) {
       double slope = corner[c][d] == 1 ? 1 : -1;
@@ -67,19 +67,19 @@ std::array<Vec, 4> map(const HexahedralMesh& cage, const Position& p) {
   return r;
 }
 
-/// Looks points up in one cage whose planes' heights are known.
-struct CageSearch {
-  const HexahedralMesh& cage;
+/// Looks points up in one lattice whose planes' heights are known.
+struct LatticeSearch {
+  const HexahedralMesh& lattice;
   std::vector<double> height;
 
-  explicit CageSearch(const HexahedralMesh& mesh) : cage(mesh) {
+  explicit LatticeSearch(const HexahedralMesh& mesh) : lattice(mesh) {
     for (std::uint32_t k = 0; k <= mesh.cells[2]; ++k) height.push_back(plane_height(mesh, k));
   }
-  CagePlace place(const Vec& point) const;
+  LatticePlace place(const Vec& point) const;
 };
 
-CagePlace CageSearch::place(const Vec& point) const {
-  const Cells& cells = cage.cells;
+LatticePlace LatticeSearch::place(const Vec& point) const {
+  const Cells& cells = lattice.cells;
   std::array<double, 3> parameter = {0.5 * cells[0], 0.5 * cells[1], 0};
   for (std::uint32_t k = 0; k < cells[2]; ++k) {
     const double low = height[k], high = height[k + 1];
@@ -87,7 +87,7 @@ CagePlace CageSearch::place(const Vec& point) const {
   }
   double stride = 1;
   for (int iteration = 0; iteration < 60; ++iteration) {
-    const auto r = map(cage, split(cells, parameter));
+    const auto r = map(lattice, split(cells, parameter));
     const Vec off = point - r[0];
     const double det = dot(r[1], cross(r[2], r[3]));
     if (std::abs(det) < 1e-30) break;
@@ -136,20 +136,20 @@ Vec in_frame(const RestFrame& frame, const Vec3<float>& position) {
 
 }  // namespace
 
-CagePlace place_in_cage(const HexahedralMesh& cage, const Vec3<double>& point) {
-  return CageSearch(cage).place(point);
+LatticePlace place_in_lattice(const HexahedralMesh& lattice, const Vec3<double>& point) {
+  return LatticeSearch(lattice).place(point);
 }
 
-void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
+void bind_surface(MuscleSurface& surface, const HexahedralMesh& lattice, const RestFrame& frame,
                   const Passages& passages) {
-  const CageSearch search(cage);
+  const LatticeSearch search(lattice);
   surface.binding.clear();
-  surface.rest_in_cage.clear();
+  surface.rest_in_lattice.clear();
   surface.rest_rotation = frame.rotation;
   surface.origin_turn = surface.insertion_turn = 0;
   for (const auto& position : surface.mesh.position) {
     const Vec q = in_frame(frame, position);
-    const CagePlace place = search.place(q);
+    const LatticePlace place = search.place(q);
     VertexBinding b{};
     for (std::size_t c = 0; c < 8; ++c) {
       b.node[c] = static_cast<std::uint16_t>(place.node[c]);
@@ -157,22 +157,22 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const Rest
     }
     b.origin = static_cast<float>(1 - smoothstep(passages.origin_to, passages.origin_from, q.z));
     b.insertion = static_cast<float>(smoothstep(passages.insertion_from, passages.insertion_to, q.z));
-    b.cage = 1 - b.origin - b.insertion;
+    b.lattice = 1 - b.origin - b.insertion;
     surface.binding.push_back(b);
-    surface.rest_in_cage.push_back(to_float(q));
+    surface.rest_in_lattice.push_back(to_float(q));
   }
 }
 
-void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame, double blend_m) {
-  const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
-  bind_surface(surface, cage, frame, Passages{low - blend_m, low, high, high + blend_m});
+void bind_surface(MuscleSurface& surface, const HexahedralMesh& lattice, const RestFrame& frame, double blend_m) {
+  const double low = plane_height(lattice, 0), high = plane_height(lattice, lattice.cells[2]);
+  bind_surface(surface, lattice, frame, Passages{low - blend_m, low, high, high + blend_m});
 }
 
-Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
-                     const Attachments& attachments, double least_m) {
+Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& lattice, const RestFrame& frame,
+                     const Attachments& attachments, double min_m) {
   constexpr double attached = 0.95, lengths_of_thickness = 4.5;
   constexpr float origin_turn = 0.8F, insertion_turn = 0.4F;
-  const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
+  const double low = plane_height(lattice, 0), high = plane_height(lattice, lattice.cells[2]);
   std::vector<Vec> place;
   double first = in_frame(frame, attachments.origin_m).z, last = in_frame(frame, attachments.insertion_m).z;
   for (const auto& position : surface.mesh.position) {
@@ -181,15 +181,15 @@ Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const R
     last = std::max(last, place.back().z);
   }
   const auto least = [&](double from, double to) {
-    return std::max(least_m, lengths_of_thickness * radius(place, from, to));
+    return std::max(min_m, lengths_of_thickness * radius(place, from, to));
   };
   Passages p{};
   p.origin_to = low - attached * std::max(0.0, low - first);
-  p.origin_from = std::max(low, p.origin_to + least(p.origin_to - least_m, p.origin_to + least_m));
+  p.origin_from = std::max(low, p.origin_to + least(p.origin_to - min_m, p.origin_to + min_m));
   p.insertion_to = high + attached * std::max(0.0, last - high);
-  p.insertion_from = std::min(high, p.insertion_to - least(p.insertion_to - least_m, p.insertion_to + least_m));
+  p.insertion_from = std::min(high, p.insertion_to - least(p.insertion_to - min_m, p.insertion_to + min_m));
   if (p.origin_from > p.insertion_from) p.origin_from = p.insertion_from = 0.5 * (p.origin_from + p.insertion_from);
-  bind_surface(surface, cage, frame, p);
+  bind_surface(surface, lattice, frame, p);
   surface.origin_m = attachments.origin_m;
   surface.insertion_m = attachments.insertion_m;
   surface.origin_turn = origin_turn;
@@ -197,9 +197,9 @@ Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const R
   return p;
 }
 
-void bind_beyond(MuscleSurface& beyond, const MuscleSurface& surface, const HexahedralMesh& cage,
+void bind_beyond(MuscleSurface& beyond, const MuscleSurface& surface, const HexahedralMesh& lattice,
                  const RestFrame& frame, const Passages& passages, const Attachments& ligament) {
-  bind_surface(beyond, cage, frame, passages);
+  bind_surface(beyond, lattice, frame, passages);
   beyond.origin = surface.insertion;
   beyond.origin_m = surface.insertion_m;
   beyond.origin_turn = surface.insertion_turn;
@@ -207,7 +207,7 @@ void bind_beyond(MuscleSurface& beyond, const MuscleSurface& surface, const Hexa
   const Vec from = to_double(ligament.origin_m), along = to_double(ligament.insertion_m) - from;
   for (std::size_t v = 0; v < beyond.binding.size(); ++v) {
     VertexBinding& b = beyond.binding[v];
-    const float past = 1 - b.cage;
+    const float past = 1 - b.lattice;
     const double t = dot(to_double(beyond.mesh.position[v]) - from, along) / dot(along, along);
     b.insertion = past * static_cast<float>(smoothstep(0, 1, t));
     b.origin = past - b.insertion;
@@ -217,7 +217,7 @@ void bind_beyond(MuscleSurface& beyond, const MuscleSurface& surface, const Hexa
 void bind_ligament(MuscleSurface& surface, const Vec3<float>& origin_m, const Vec3<float>& insertion_m) {
   const Vec from = to_double(origin_m), along = to_double(insertion_m) - from;
   surface.binding.clear();
-  surface.rest_in_cage.assign(surface.mesh.position.size(), {0, 0, 0});
+  surface.rest_in_lattice.assign(surface.mesh.position.size(), {0, 0, 0});
   surface.origin_turn = surface.insertion_turn = 0;
   for (const auto& position : surface.mesh.position) {
     const double t = dot(to_double(position) - from, along) / dot(along, along);

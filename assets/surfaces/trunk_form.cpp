@@ -125,7 +125,7 @@ double TrunkForm::distance(const Vec& p) const {
                    0.035);
   d = smooth_union(d, capsule(q, size_ * Vec{-0.050, 1.446, -0.030}, shoulder_ + Vec{0.004, -0.022, 0}, 0.038, 0.046),
                    0.03);
-  // What bones carry in the thin: rib cage, spines of the shoulder blades, crests of the pelvis, collar bones.
+  // What bones carry in the thin: rib lattice, spines of the shoulder blades, crests of the pelvis, collar bones.
   d = smooth_union(d, ellipsoid(p, size_ * Vec{0, 1.262, -0.031}, size_ * Vec{0.137, 0.175, 0.1075}), 0.02);
   d = smooth_union(d, capsule(q, size_ * Vec{-0.075, 1.432, -0.110}, size_ * Vec{-0.155, 1.454, -0.070}, 0.022, 0.020),
                    0.03);

@@ -38,11 +38,11 @@ struct TubeSection {
 };
 
 /// The section at the fraction `t` (0–1) of the polyline's length through the centres. Centres follow a Catmull–Rom
-/// curve on chord lengths, sections a monotone cubic of the matrix's entries. Needs at least two stations whose
+/// curve on chord lengths, sections a monotone cubic of the matrix's entries. LodRequest at least two stations whose
 /// neighbours differ, with positive semi-axes.
 TubeSection tube_section(std::span<const TubeStation> stations, double t);
 
-/// A closed surface through the stations, wound outwards. Needs what tube_section needs.
+/// A closed surface through the stations, wound outwards. LodRequest what tube_section needs.
 SurfaceMesh loft(std::span<const TubeStation> stations, const TubeShape& shape = {});
 
 /// A closed ellipsoid with its axes along x, y and z.

@@ -18,8 +18,8 @@
 #include <mobil/muscle_table.h>
 #include <mobil/png.h>
 #include <mobil/renderer.h>
-#include <mobil/systems/capture/image.h>
-#include <mobil/systems/capture/matrix.h>
+#include <mobil/systems/render/image.h>
+#include <mobil/systems/render/matrix.h>
 #include "demo/pictures/contact_sheet.h"
 #include "demo/program/commands.h"
 #include "demo/program/json.h"

@@ -11,15 +11,15 @@ namespace mobil {
 namespace {
 
 /// Binds a surface, and what there is of it beyond the kneecap, to the mesh of the muscle that drives it.
-Result<void> bind(const Human& human, const SurfaceChoice& choice, FittedMuscle& muscle, DrawnSurfaces& drawn) {
+Result<void> bind(const Person& person, const SurfaceChoice& choice, FittedMuscle& muscle, DrawnSurfaces& drawn) {
   const auto driver = driving_muscle(choice.simulated, muscle.group, muscle.muscle);
   if (!driver) return {};
-  const auto mesh = rest_mesh(human.body, *driver, choice.cells);
+  const auto mesh = rest_mesh(person.body, *driver, choice.cells);
   if (!mesh) return tl::unexpected(mesh.error());
-  auto ligament = cut_at_kneecap(muscle, human.body);
+  auto ligament = cut_at_kneecap(muscle, person.body);
   const Passages passages =
-      bind_muscle(muscle.surface, mesh->cage, mesh->frame, muscle.attachments, mesh->least_passage_m);
-  if (ligament) bind_beyond(ligament->surface, muscle.surface, mesh->cage, mesh->frame, passages, ligament->ends);
+      bind_muscle(muscle.surface, mesh->lattice, mesh->frame, muscle.attachments, mesh->min_passage_m);
+  if (ligament) bind_beyond(ligament->surface, muscle.surface, mesh->lattice, mesh->frame, passages, ligament->ends);
   drawn.muscles.push_back({*driver, std::move(muscle.surface)});
   if (ligament) drawn.muscles.push_back({*driver, std::move(ligament->surface)});
   return {};
@@ -35,29 +35,29 @@ std::vector<std::string> all_said(const Anatomy& anatomy) {
 
 }  // namespace
 
-Result<Figure> real_figure(const Human& human, const std::filesystem::path& folder, bool contact) {
-  const SurfaceChoice choice = simulated_surfaces(human);
+Result<Figure> real_figure(const Person& person, const std::filesystem::path& folder, bool contact) {
+  const SurfaceChoice choice = simulated_surfaces(person);
   const auto anatomy = load_anatomy(folder.string(), {.skin = true});
   if (!anatomy) return tl::unexpected(anatomy.error());
-  auto fitted = fit_anatomy(*anatomy, human.body);
+  auto fitted = fit_anatomy(*anatomy, person.body);
   if (!fitted) return tl::unexpected(fitted.error());
   DrawnSurfaces drawn;
   // The folder holds a pelvis and legs; the rest of the skeleton is generated.
   std::array<bool, segment_count> real{};
   for (const auto& bone : fitted->bones) real[index(bone.segment)] = true;
   drawn.bones = std::move(fitted->bones);
-  auto generated = draw_surfaces(human.body, {.bones = true, .simulated = {}, .cells = choice.cells});
+  auto generated = draw_surfaces(person.body, {.bones = true, .simulated = {}, .cells = choice.cells});
   if (!generated) return tl::unexpected(generated.error());
   for (auto& bone : generated->bones) {
     if (!real[index(bone.segment)]) drawn.bones.push_back(std::move(bone));
   }
   for (auto& muscle : fitted->muscles) {
-    if (auto done = bind(human, choice, muscle, drawn); !done) return tl::unexpected(done.error());
+    if (auto done = bind(person, choice, muscle, drawn); !done) return tl::unexpected(done.error());
   }
   std::vector<Vec3<float>> rest_m;
   for (const auto& muscle : drawn.muscles)
     rest_m.insert(rest_m.end(), muscle.surface.mesh.position.begin(), muscle.surface.mesh.position.end());
-  auto figure = bound_figure(human, std::move(drawn), choice, contact);
+  auto figure = bound_figure(person, std::move(drawn), choice, contact);
   if (!figure) return figure;
   figure->said = all_said(*anatomy);
   figure->skins = std::move(fitted->skins);

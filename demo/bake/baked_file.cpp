@@ -46,7 +46,7 @@ Result<void> bake(const BakeText& text) {
   options.leg_muscles.inertia = text.inertia;
   Lod lod = simulation.lod();
   if (auto done = lod.set_options(options); !done) return done;
-  SceneNeeds all;
+  LodScene all;
   all.muscles = text.muscles == "members" ? muscle_members() : muscle_groups();
   all.camera = Viewpoint{};  // who walks towards it needs every method
   if (auto done = lod.set_scene(all); !done) return done;
@@ -128,7 +128,7 @@ Subcommand bake_command() {
       "processors that compute alike: others refuse it. What is lacking is still made when it is called for.\n"
       "\nExamples: mobil bake\n"
       "          mobil bake --inertia --out game/assets/mobil.baked\n"
-      "          mobil crowd --humans 5000 --baked mobil.baked";
+      "          mobil crowd --people 5000 --baked mobil.baked";
   add_options(
       command,
       {{"--out", &text->out, "FILE to write"},

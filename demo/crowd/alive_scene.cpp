@@ -62,7 +62,7 @@ Result<std::unique_ptr<AliveScene>> AliveScene::make_empty(const AliveRequest& r
   if (request.library == nullptr) {
     if (auto done = load_baked_option(*scene->simulation_, request.baked); !done) return tl::unexpected(done.error());
   }
-  SceneNeeds needs;
+  LodScene needs;
   needs.camera = scene->camera_;
   needs.tolerance_px = tolerance_px;
   if (!request.muscles) needs.muscles = 0;
@@ -181,7 +181,7 @@ Result<std::size_t> AliveScene::decide(const Viewpoint& camera) {
   now.clear();
   if (auto done = simulation_->change_gait(changes_); !done) return tl::unexpected(done.error());
   camera_ = camera;
-  SceneNeeds needs = simulation_->lod().scene();
+  LodScene needs = simulation_->lod().scene();
   needs.camera = camera_;
   if (auto done = simulation_->lod().set_scene(needs); !done) return tl::unexpected(done.error());
   return changes_.size();
@@ -189,11 +189,11 @@ Result<std::size_t> AliveScene::decide(const Viewpoint& camera) {
 
 std::vector<CrowdCamera::Drawn> AliveScene::seen() const {
   std::vector<CrowdCamera::Drawn> people;
-  each(simulation().world(), [&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
+  each(simulation().world(), [&](const Rows& rows, const LodState<Lanes<float>>& lod_state) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
-      if (tiers.view[lane] != static_cast<std::uint32_t>(View::seen)) continue;
+      if (lod_state.view[lane] != static_cast<std::uint32_t>(View::seen)) continue;
       const Entity who = rows.entity[lane];
-      people.push_back({who, number_of(who), (tiers.effects[lane] & tier_bare) == 0});
+      people.push_back({who, number_of(who), (lod_state.effects[lane] & lod_bare) == 0});
     }
   });
   return people;
@@ -245,17 +245,17 @@ Result<void> AliveScene::restore(std::span<const std::byte> saved) {
   due_ = std::move(due);
   camera_ = camera;
   for (std::uint32_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);
-  SceneNeeds needs = simulation_->lod().scene();
+  LodScene needs = simulation_->lod().scene();
   needs.camera = camera_;
   return simulation_->lod().set_scene(needs);
 }
 
 AliveScene::Count AliveScene::count() const {
   Count count;
-  each(simulation().world(), [&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
+  each(simulation().world(), [&](const Rows& rows, const LodState<Lanes<float>>& lod_state) {
     count.awake += rows.live;
     for (std::uint32_t lane = 0; lane < rows.live; ++lane)
-      count.seen += tiers.view[lane] == static_cast<std::uint32_t>(View::seen) ? 1 : 0;
+      count.seen += lod_state.view[lane] == static_cast<std::uint32_t>(View::seen) ? 1 : 0;
   });
   return count;
 }

@@ -13,8 +13,8 @@
 #include <mobil/schedule.h>
 #include <mobil/shard_bytes.h>
 #include <mobil/step_report.h>
-#include <mobil/systems/capture/camera.h>
 #include <mobil/systems/cluster/ranks.h>
+#include <mobil/systems/render/camera.h>
 #include "demo/bake/baked_file.h"
 #include "demo/crowd/city_shard.h"
 #include "demo/measure/measure.h"
@@ -46,7 +46,7 @@ void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::opt
   }
   arrange(seen);
   PlainBytes chosen;
-  for (std::size_t i = 0; i < std::min(seen.size(), most_legs) && seen[i].near != 0; ++i) chosen.put(seen[i].number);
+  for (std::size_t i = 0; i < std::min(seen.size(), max_legs) && seen[i].near != 0; ++i) chosen.put(seen[i].number);
   const auto numbers = ranks.share(chosen.bytes());
   PlainBytes own_legs;
   CrowdLegs makes;
@@ -134,7 +134,7 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
     // What saving took of the processor is not known apart.
     tick.cpu_ms = after.snapshots == before.snapshots ? 1e3 * (process_cpu_now_s() - cpu_s) : tick.wall_ms;
     tick.host_ms = 1e3 * (counts.host_s - counted.host_s);
-    tick.relevance_ms = 1e3 * (counts.relevance_s - counted.relevance_s);
+    tick.lod_ms = 1e3 * (counts.lod_s - counted.lod_s);
     if ((cluster.ticks() - run.first_tick) % city_hash_every == 0 || cluster.ticks() == run.first_tick + ticks)
       run.hashes.push_back(cluster.state_hash());
     const std::uint32_t since = cluster.ticks() - run.first_tick;
@@ -206,7 +206,7 @@ Result<void> run_city(const CrowdOptions& asked, Ranks& ranks) {
   const Cluster::Make make = city_shards(options, library, counts);
   if (auto done = prepare(options, ranks, library, make); !done) return done;
   Host host;
-  host.director.next_number = options.crowd.humans;
+  host.director.next_number = options.crowd.people;
   ClusterOptions cluster_options = options.cluster;
   cluster_options.host = [&] {
     PlainBytes bytes;
@@ -228,7 +228,7 @@ Result<void> run_city(const CrowdOptions& asked, Ranks& ranks) {
   CityPart own;
   run.tick_s = library.tick_s();
   run.first_tick = static_cast<std::uint32_t>(ranks.sum(std::uint64_t{ranks.first() ? host.first_tick : 0}));
-  run.side_m = options.alive ? side_of(*options.alive) : crowd_side_m(options.crowd.humans);
+  run.side_m = options.alive ? side_of(*options.alive) : crowd_side_m(options.crowd.people);
   each_shard(*cluster, [](CityShard& shard) { shard.simulation().schedule().reset_timings(); });
   const ClusterReport begun = cluster->report();
   counts = {};

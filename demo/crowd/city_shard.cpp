@@ -42,7 +42,7 @@ Result<Orders> read_orders(std::span<const std::byte> commands) {
 
 void count(Simulation& simulation, CityCounts& counts) {
   const LodReport& report = simulation.lod().report();
-  counts.relevance_s += phase_s(simulation, "level of detail");
+  counts.lod_s += phase_s(simulation, "level of detail");
   counts.switched += report.switched;
   counts.refused += report.refused;
   counts.woken += report.woken;
@@ -52,8 +52,8 @@ void count(Simulation& simulation, CityCounts& counts) {
 
 class CrowdShard : public CityShard {
  public:
-  CrowdShard(std::unique_ptr<CrowdScene> scene, std::size_t humans, CityCounts& counts)
-      : scene_(std::move(scene)), humans_(humans), counts_(counts) {}
+  CrowdShard(std::unique_ptr<CrowdScene> scene, std::size_t people, CityCounts& counts)
+      : scene_(std::move(scene)), people_(people), counts_(counts) {}
 
   Simulation& simulation() override { return scene_->simulation(); }
   std::uint32_t ticks() const override { return std::as_const(*scene_).simulation().ticks(); }
@@ -66,7 +66,7 @@ class CrowdShard : public CityShard {
   Result<void> restore(std::span<const std::byte> saved) override { return scene_->restore(saved); }
 
   Result<void> populate() override {
-    if (auto done = scene_->resize(humans_); !done) return done;
+    if (auto done = scene_->resize(people_); !done) return done;
     return scene_->settle({}, false);
   }
 
@@ -88,7 +88,7 @@ class CrowdShard : public CityShard {
     CityState state{.people = scene_->walkers().size(), .bytes = scene_->bytes_of_people()};
     state.awake = state.people;
     for (const CrowdWalker& walker : scene_->walkers()) state.seen += walker.near ? 1 : 0;
-    state.muscles_by_rung = scene_->muscles_by_rung();
+    state.muscles_by_level = scene_->muscles_by_level();
     return state;
   }
 
@@ -100,7 +100,7 @@ class CrowdShard : public CityShard {
 
  private:
   std::unique_ptr<CrowdScene> scene_;
-  std::size_t humans_;
+  std::size_t people_;
   CityCounts& counts_;
 };
 
@@ -183,7 +183,7 @@ void put_together(CityRun& run) {
       CrowdTick& tick = run.ticks[i];
       tick.wall_ms = std::max(tick.wall_ms, part.ticks[i].wall_ms);
       tick.host_ms = std::max(tick.host_ms, part.ticks[i].host_ms);
-      tick.relevance_ms = std::max(tick.relevance_ms, part.ticks[i].relevance_ms);
+      tick.lod_ms = std::max(tick.lod_ms, part.ticks[i].lod_ms);
       tick.cpu_ms += part.ticks[i].cpu_ms;
     }
     for (std::size_t s = 0; s < std::min(run.systems.size(), part.system_ms.size()); ++s)
@@ -210,7 +210,7 @@ std::string city_text(const CityRun& run, const CrowdOptions& options) {
   const std::size_t ranks = run.parts.size();
   const int threads = threads_of_rank(options);
   std::string text = fmt::format("{} {} on {:.0f} m x {:.0f} m, {} rank{} of {} thread{}, {} shards, seed {}\n",
-                                 run.state.people, options.alive ? "people alive" : "humans", run.side_m, run.side_m,
+                                 run.state.people, options.alive ? "people alive" : "people", run.side_m, run.side_m,
                                  ranks, ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", options.cluster.shards,
                                  options.alive ? options.alive->seed : options.crowd.seed);
   text += ticks_line(run.ticks, run.tick_s, run.missed, ranks == 1 ? "" : ", of the slowest rank");
@@ -218,7 +218,7 @@ std::string city_text(const CityRun& run, const CrowdOptions& options) {
   text += parts_line(run.ticks, run.systems, 5e-3);
   if (!options.alive) {
     text += "\nmuscles:";
-    for (const auto& [method, count] : by_method(run.state.muscles_by_rung, options.crowd.effects.activation))
+    for (const auto& [method, count] : by_method(run.state.muscles_by_level, options.crowd.effects.activation))
       text += fmt::format(" {} {}", count, method);
     text +=
         fmt::format("\n{} came, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.counts.spawned,
@@ -254,7 +254,7 @@ std::string city_text(const CityRun& run, const CrowdOptions& options) {
 
 std::string city_json(const CityRun& run, const CrowdOptions& options) {
   Json json;
-  json[options.alive ? "alive" : "humans"] = run.state.people;
+  json[options.alive ? "alive" : "people"] = run.state.people;
   json["ranks"] = run.parts.size();
   json["shards"] = options.cluster.shards;
   json["threads"] = threads_of_rank(options);
@@ -268,7 +268,7 @@ std::string city_json(const CityRun& run, const CrowdOptions& options) {
   json["wall_ms_mean"] = mean_wall_ms(run);
   add_systems(run.systems, json);
   json["muscles_by_method"] = Json::object();
-  for (const auto& [method, count] : by_method(run.state.muscles_by_rung, options.crowd.effects.activation))
+  for (const auto& [method, count] : by_method(run.state.muscles_by_level, options.crowd.effects.activation))
     json["muscles_by_method"][method] = count;
   json["spawns"] = run.counts.spawned;
   json["despawns"] = run.counts.despawned;
@@ -282,7 +282,7 @@ std::string city_json(const CityRun& run, const CrowdOptions& options) {
   json["got_muscles"] = run.counts.begun;
   json["awake"] = run.state.awake;
   json["seen"] = run.state.seen;
-  json["bytes_per_human"] = run.state.bytes / std::max<std::uint64_t>(run.state.people, 1);
+  json["bytes_per_person"] = run.state.bytes / std::max<std::uint64_t>(run.state.people, 1);
   json["sent_bytes_a_tick"] = run.sent_bytes_a_tick;
   json["of_rank"] = Json::array();
   for (const CityPart& part : run.parts) {
@@ -309,7 +309,7 @@ void add(CityState& to, const CityState& more) {
   to.bytes += more.bytes;
   to.awake += more.awake;
   to.seen += more.seen;
-  for (std::size_t r = 0; r < to.muscles_by_rung.size(); ++r) to.muscles_by_rung[r] += more.muscles_by_rung[r];
+  for (std::size_t r = 0; r < to.muscles_by_level.size(); ++r) to.muscles_by_level[r] += more.muscles_by_level[r];
 }
 
 Cluster::Make city_shards(const CrowdOptions& options, const Simulation& library, CityCounts& counts) {
@@ -329,7 +329,7 @@ Cluster::Make city_shards(const CrowdOptions& options, const Simulation& library
     request.library = &library;
     auto scene = CrowdScene::make_empty(request);
     if (!scene) return tl::unexpected(scene.error());
-    return std::make_unique<CrowdShard>(std::move(*scene), options.crowd.humans, counts);
+    return std::make_unique<CrowdShard>(std::move(*scene), options.crowd.people, counts);
   };
 }
 

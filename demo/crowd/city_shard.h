@@ -12,13 +12,13 @@ namespace mobil {
 struct CityCounts {
   std::uint64_t spawned = 0, despawned = 0, turned = 0, changed_speed = 0, asked = 0;
   std::uint64_t switched = 0, refused = 0, woken = 0, slept = 0, begun = 0;
-  double host_s = 0, relevance_s = 0;
+  double host_s = 0, lod_s = 0;
 };
 
 /// What a shard is like now.
 struct CityState {
   std::uint64_t people = 0, bytes = 0, awake = 0, seen = 0;
-  std::array<std::size_t, rung_count + 1> muscles_by_rung{};
+  std::array<std::size_t, level_count + 1> muscles_by_level{};
 };
 
 /// The sums of both.

@@ -80,7 +80,7 @@ Result<void> run(const CrowdOptions& options) {
       fmt::print("{}\n", tried_line(tried));
       std::fflush(stdout);
     };
-    const auto limit = raise_crowd(scene, ticks, most_crowd, told, show_progress);
+    const auto limit = raise_crowd(scene, ticks, max_crowd, told, show_progress);
     show("");
     if (!limit) return tl::unexpected(limit.error());
     fmt::print("{}", limit_text(*limit));
@@ -151,7 +151,7 @@ Subcommand crowd_command() {
       "Who they are and what they do follows from --seed and a person's number alone: the same seed gives the same\n"
       "state_hash for any number of threads (not with --budget, where methods follow the clock).\n"
       "The --near nearest to the middle of one edge are looked at: their muscles' control points are placed, within\n"
-      "--near-tolerance; the others move on within --tolerance, along the vectors of their muscles alone.\n"
+      "--near-tolerance; the others move on within --tolerance, along the modes of their muscles alone.\n"
       "A tick as measured is what the host decides, the choosing of methods and the simulation; missed is one that\n"
       "took longer than it simulates, by the wall's clock. It is a measurement: exit status 0 also where ticks were "
       "missed.\n"
@@ -164,12 +164,12 @@ Subcommand crowd_command() {
       "shard.\n"
       "\n"
       "Examples: mobil crowd\n"
-      "          mobil crowd --humans 10000 --churn 100 --report crowd.json\n"
-      "          mobil crowd --humans 10000 --seconds 5 --raise\n"
-      "          mobil crowd --humans 2000 --seconds 1 --capture crowd.png\n"
-      "          mobil crowd --humans 200 --seconds 0.1 --export crowd.glb --export-seconds 5\n"
-      "          mpirun -n 4 mobil crowd --humans 40000 --save run\n"
-      "          mpirun -n 2 mobil crowd --humans 40000 --resume run";
+      "          mobil crowd --people 10000 --churn 100 --report crowd.json\n"
+      "          mobil crowd --people 10000 --seconds 5 --raise\n"
+      "          mobil crowd --people 2000 --seconds 1 --capture crowd.png\n"
+      "          mobil crowd --people 200 --seconds 0.1 --export crowd.glb --export-seconds 5\n"
+      "          mpirun -n 4 mobil crowd --people 40000 --save run\n"
+      "          mpirun -n 2 mobil crowd --people 40000 --resume run";
   command.options = crowd_options(*text);
   command.empty_refused = true;
   command.run = [text] { return run_command(*text); };

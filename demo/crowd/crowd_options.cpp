@@ -56,12 +56,12 @@ Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options, Op
   if (options.raise) return fail("--raise: measures alone; leave --export out");
   if (options.crowd.churn_per_s > 0 || options.crowd.burst > 0)
     return fail("--export: nobody may leave while it is recorded; leave --churn and --burst out");
-  const double poses = static_cast<double>(options.crowd.humans) * options.export_s * 30;
-  if (poses > static_cast<double>(most_recorded_poses)) {
+  const double poses = static_cast<double>(options.crowd.people) * options.export_s * 30;
+  if (poses > static_cast<double>(max_recorded_poses)) {
     return fail(
         fmt::format("--export: {} people for {} s are more than the {} poses that a scene may have; "
-                    "lower --humans or --export-seconds",
-                    options.crowd.humans, options.export_s, most_recorded_poses));
+                    "lower --people or --export-seconds",
+                    options.crowd.people, options.export_s, max_recorded_poses));
   }
   return check_crowd_exports(options.exports);
 }
@@ -71,8 +71,8 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options, OptionRead
   if (text.alive.empty()) return {};
   const CrowdText usual;
   AliveRequest alive;
-  alive.alive = read(read_count("--people", text.alive, 100, most_alive));
-  alive.in_view = read(read_count("--in-view", text.in_view, 1, most_crowd));
+  alive.alive = read(read_count("--people", text.alive, 100, max_alive));
+  alive.in_view = read(read_count("--in-view", text.in_view, 1, max_crowd));
   if (text.in_view == usual.in_view) alive.in_view = std::min(alive.in_view, alive.alive / 10);
   if (alive.in_view > alive.alive / 4)
     return fail(fmt::format("--in-view {}: is more than a quarter of those alive", alive.in_view));
@@ -93,7 +93,7 @@ std::string about_run(const CrowdOptions& options) {
   }
   const CrowdRequest& crowd = options.crowd;
   std::string about = fmt::format(
-      "--humans {} --seed {} --tolerance {}mm --near {} --near-tolerance {}mm --churn {} --burst {}", crowd.humans,
+      "--people {} --seed {} --tolerance {}mm --near {} --near-tolerance {}mm --churn {} --burst {}", crowd.people,
       crowd.seed, 1e3 * crowd.tolerance_m, crowd.near, 1e3 * crowd.near_tolerance_m, crowd.churn_per_s, crowd.burst);
   if (crowd.budget_s) about += fmt::format(" --budget {}ms", 1e3 * *crowd.budget_s);
   std::string of_effects;
@@ -107,7 +107,7 @@ std::string about_run(const CrowdOptions& options) {
 Result<void> read_city(const CrowdText& text, CrowdOptions& options, OptionReader& read) {
   const bool ranks = started_as_rank();
   std::uint64_t shards = !text.resume.empty() ? 0 : ranks ? usual_shards : 1;
-  if (!text.shards.empty()) shards = read(read_count("--shards", text.shards, 1, most_shards));
+  if (!text.shards.empty()) shards = read(read_count("--shards", text.shards, 1, max_shards));
   if (!text.save.empty() && !text.resume.empty())
     return fail("--save: a run that goes on by --resume saves where it was; leave --save out");
   const bool several = ranks || shards > 1 || !text.save.empty() || !text.resume.empty();
@@ -162,7 +162,7 @@ std::vector<Option> common_options(CrowdText& text) {
        "has kept in ~/.cache/mobil, is taken unasked)",
        of_muscles},
       {"--shards", &text.shards,
-       fmt::format("Parts of the crowd that are simulated by themselves, 1 to {}; under mpirun {}", most_shards,
+       fmt::format("Parts of the crowd that are simulated by themselves, 1 to {}; under mpirun {}", max_shards,
                    usual_shards),
        of_ranks},
       {"--save", &text.save, "Snapshots and commands go into this FOLDER, which all ranks must see", of_ranks},
@@ -185,7 +185,7 @@ std::vector<Option> with_common(std::vector<Option> own, CrowdText& text) {
 
 std::vector<Option> crowd_options(CrowdText& text) {
   return with_common(
-      {{"--humans", &text.humans, fmt::format("How many walk, 1 to {}, all different", most_crowd), of_people},
+      {{"--people", &text.people, fmt::format("How many walk, 1 to {}, all different", max_crowd), of_people},
        {"--churn", &text.churn, "How many leave and as many come each second, spread over its ticks", of_people},
        {"--burst", &text.burst, "How many leave and as many come in a single tick of each second", of_people},
        {"--effects", &text.effects,
@@ -197,7 +197,7 @@ std::vector<Option> crowd_options(CrowdText& text) {
        {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s",
         of_muscles},
        {"--raise", &text.raise,
-        "Raise the number of people from --humans until ticks are missed, in runs of --seconds each", of_results},
+        "Raise the number of people from --people until ticks are missed, in runs of --seconds each", of_results},
        {"--capture", &text.capture, "Picture of the crowd at the end, FILE.png; with --frames a folder", of_results},
        {"--frames", &text.frames, "So many pictures, 30 a second from the end on, into the folder", of_results},
        {"--export", &text.exports,
@@ -210,7 +210,7 @@ std::vector<Option> crowd_options(CrowdText& text) {
 std::vector<Option> city_options(CrowdText& text) {
   return with_common(
       {{"--people", &text.alive,
-        fmt::format("How many live on 1 m2 each, 100 to {}; who is far from being seen sleeps", most_alive), of_people},
+        fmt::format("How many live on 1 m2 each, 100 to {}; who is far from being seen sleeps", max_alive), of_people},
        {"--in-view", &text.in_view, "How many of those the flying camera sees", of_people},
        {.name = "--effects",
         .target = &text.effects,
@@ -228,17 +228,17 @@ Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
   const auto quantity = [&](std::string_view option, const std::string& given, std::string_view unit, Quantity kind,
                             double low,
                             double high) { return read(read_value(option, with_unit(given, unit), kind, low, high)); };
-  crowd.humans = read(read_count("--humans", text.humans, 1, most_crowd));
+  crowd.people = read(read_count("--people", text.people, 1, max_crowd));
   options.seconds = quantity("--seconds", text.seconds, "s", Quantity::time, 0.1, 3600);
   crowd.threads = static_cast<int>(read(read_count("--threads", text.threads, 0, 256)));
   crowd.seed = read(read_count("--seed", text.seed, 0, 999'999'999'999'999'999));
   crowd.churn_per_s = quantity("--churn", text.churn, "", Quantity::rate, 0, 100'000);
-  crowd.burst = read(read_count("--burst", text.burst, 0, crowd.humans));
+  crowd.burst = read(read_count("--burst", text.burst, 0, crowd.people));
   crowd.effects = read(read_effects(text.effects));
   crowd.tolerance_m = quantity("--tolerance", text.tolerance, "mm", Quantity::length, 1e-5, 1);
   crowd.near_tolerance_m = quantity("--near-tolerance", text.near_tolerance, "mm", Quantity::length, 1e-5, 1);
-  crowd.near = read(read_count("--near", text.near, 0, most_crowd));
-  if (text.near == CrowdText{}.near) crowd.near = std::min(crowd.near, crowd.humans / 2);
+  crowd.near = read(read_count("--near", text.near, 0, max_crowd));
+  if (text.near == CrowdText{}.near) crowd.near = std::min(crowd.near, crowd.people / 2);
   if (!text.budget.empty()) {
     crowd.budget_s = quantity("--budget", text.budget, "ms", Quantity::time, 1e-6, 10);
     if (!crowd.effects.muscles) read.refuse("--budget: is of muscles; add muscles to --effects");

@@ -16,7 +16,7 @@
 #include <mobil/renderer.h>
 #include <mobil/shard_bytes.h>
 #include <mobil/skin_writer.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/usd_writer.h>
 #include "demo/program/commands.h"
 #include "demo/walk/drawn_skin.h"
@@ -83,18 +83,18 @@ Result<void> record_poses(const CrowdScene& scene, CrowdRecording& recording) {
 }  // namespace
 
 Result<const WalkRecording*> CrowdLegs::of(const Simulation& simulation, Entity person, std::uint64_t number) {
-  const auto human = simulation.human(person);
-  if (!human) return fail("a person who is to be drawn has left");
+  const auto subject = simulation.person(person);
+  if (!subject) return fail("a person who is to be drawn has left");
   auto found = shown_.find(number);
   if (found == shown_.end()) {
-    auto figure = make_figure(*human);
+    auto figure = make_figure(*subject);
     if (!figure) return tl::unexpected(figure.error());
     found = shown_.emplace(number, Shown{std::move(*figure), {}}).first;
   }
   Shown& shown = found->second;
   shown.recording = begin_recording(shown.figure, 1.0F / 30);
   std::erase_if(shown.recording.bones, [](const BoneSurface& bone) { return !is_leg(bone.segment); });
-  record_frame(shown.figure, simulation, *human, shown.recording);
+  record_frame(shown.figure, simulation, *subject, shown.recording);
   return &shown.recording;
 }
 
@@ -248,7 +248,7 @@ Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camer
   for (const Drawn& person : people)
     if (person.near) entity.emplace(person.number, person.entity);
   Legs legs;
-  for (std::size_t i = 0; i < std::min(seen.size(), most_legs) && seen[i].near != 0; ++i) {
+  for (std::size_t i = 0; i < std::min(seen.size(), max_legs) && seen[i].near != 0; ++i) {
     const auto own = parts_->legs.of(simulation, entity.at(seen[i].number), seen[i].number);
     if (!own) return tl::unexpected(own.error());
     legs.emplace(seen[i].number, *own);
@@ -306,9 +306,9 @@ Result<CrowdRecording> record_crowd(CrowdScene& scene, double seconds, const Cro
   for (const CrowdWalker& walker : scene.walkers()) {
     RecordedPerson& person = recording.people.emplace_back();
     person.name = fmt::format("person_{}", walker.number);
-    const auto human = scene.simulation().human(walker.entity);
-    if (!human) return fail(fmt::format("{} has left", person.name));
-    const auto shape = skins.of(human->body.request, SkinDetail::far);
+    const auto subject = scene.simulation().person(walker.entity);
+    if (!subject) return fail(fmt::format("{} has left", person.name));
+    const auto shape = skins.of(subject->body.request, SkinDetail::far);
     if (!shape) return tl::unexpected(shape.error());
     person.figure = figure_of(*shape->skin, known, recording);
     person.scale = {shape->lengths, shape->lengths, shape->lengths};

@@ -5,8 +5,8 @@
 #include <map>
 
 #include <mobil/assets/export/walk_recording.h>
-#include <mobil/systems/capture/image.h>
-#include <mobil/systems/capture/scene.h>
+#include <mobil/systems/render/image.h>
+#include <mobil/systems/render/scene.h>
 #include "demo/crowd/crowd_scene.h"
 #include "demo/walk/figure.h"
 
@@ -46,7 +46,7 @@ struct PicturedPerson {
 /// Who is drawn first, whatever order they were found in: those who are near, then the nearest.
 void arrange(std::vector<PicturedPerson>& seen);
 /// Of how many at most, the first of who is near, legs are drawn.
-inline constexpr std::size_t most_legs = 64;
+inline constexpr std::size_t max_legs = 64;
 
 /// Behind and above the viewer (CrowdScene::viewer_m), over a crowd on a square of that side.
 Camera crowd_camera(double side_m);
@@ -89,7 +89,7 @@ class CrowdCamera {
 };
 
 /// Poses that a recording may hold, 1.3 kB each.
-inline constexpr std::size_t most_recorded_poses = 800'000;
+inline constexpr std::size_t max_recorded_poses = 800'000;
 
 /// Files that a crowd can be written to, by their ending. Errors: another ending, twice the same name, a place that
 /// cannot be written.

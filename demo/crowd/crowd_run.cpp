@@ -26,7 +26,8 @@ constexpr double live_every_s = 0.25;
 std::size_t fading(const World& world) {
   std::size_t rows = 0;
   for (const Table& table : world.tables()) {
-    if (table.row_count() > 0 && find_part(table.key(), type_id<Fade<float>>()) != nullptr) rows += table.row_count();
+    if (table.row_count() > 0 && find_component(table.key(), type_id<Fade<float>>()) != nullptr)
+      rows += table.row_count();
   }
   return rows;
 }
@@ -47,7 +48,7 @@ Result<void> measured_tick(CrowdScene& scene, CrowdRun& run) {
   const LodReport& chosen = scene.simulation().lod().report();
   tick.wall_ms = 1e3 * (end - start);
   tick.host_ms = 1e3 * (decided - start);
-  tick.relevance_ms = 1e3 * phase_s(scene.simulation(), "level of detail");
+  tick.lod_ms = 1e3 * phase_s(scene.simulation(), "level of detail");
   tick.steady = !decisions->structural() && chosen.switched + chosen.compacted + chosen.expanded == 0 &&
                 fading(scene.simulation().world()) == fading_before;
   if (tick.steady) {
@@ -124,7 +125,7 @@ Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, co
   Simulation& simulation = scene.simulation();
   CrowdRun run;
   run.tick_s = simulation.tick_s();
-  run.living = scene.request().effects.activation;
+  run.active = scene.request().effects.activation;
   run.ticks.reserve(ticks);
   simulation.schedule().reset_timings();
   double live_s = wall_now_s();
@@ -132,11 +133,11 @@ Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, co
     if (auto done = measured_tick(scene, run); !done) return tl::unexpected(done.error());
     if (hashes && (i + 1) % hash_every == 0) run.hashes.push_back(simulation.state_hash());
     if (!live || wall_now_s() < live_s) continue;
-    run.muscles_by_rung = scene.muscles_by_rung();
+    run.muscles_by_level = scene.muscles_by_level();
     live(run, ticks);
     live_s = wall_now_s() + live_every_s;
   }
-  run.muscles_by_rung = scene.muscles_by_rung();
+  run.muscles_by_level = scene.muscles_by_level();
   run.systems = mean_systems(simulation.schedule(), ticks);
   return run;
 }
@@ -158,13 +159,13 @@ Result<CrowdLimit> raise_crowd(CrowdScene& scene, std::size_t ticks, std::size_t
                                const CrowdScene::Progress& progress) {
   constexpr int attempts = 3, halvings = 4;
   CrowdLimit limit;
-  const auto keeps_up = [&](std::size_t humans) -> Result<bool> {
-    if (auto done = scene.resize(humans, progress); !done) return tl::unexpected(done.error());
+  const auto keeps_up = [&](std::size_t people) -> Result<bool> {
+    if (auto done = scene.resize(people, progress); !done) return tl::unexpected(done.error());
     if (auto done = scene.settle(progress); !done) return tl::unexpected(done.error());
     for (int attempt = 0; attempt < attempts; ++attempt) {
       const auto run = run_crowd(scene, ticks, false);
       if (!run) return tl::unexpected(run.error());
-      const CrowdLimit::Tried tried = {humans,
+      const CrowdLimit::Tried tried = {people,
                                        run->missed,
                                        ticks,
                                        percentile_ms(run->ticks, 0.5),
@@ -178,22 +179,22 @@ Result<CrowdLimit> raise_crowd(CrowdScene& scene, std::size_t ticks, std::size_t
     }
     return false;
   };
-  for (std::size_t humans = scene.walkers().size();;) {
-    const auto kept = keeps_up(humans);
+  for (std::size_t people = scene.walkers().size();;) {
+    const auto kept = keeps_up(people);
     if (!kept) return tl::unexpected(kept.error());
     if (!*kept) {
-      limit.missed_with = humans;
+      limit.missed_with = people;
       break;
     }
-    limit.humans = humans;
-    if (humans == most) return limit;
-    humans = std::min(2 * humans, most);
+    limit.people = people;
+    if (people == most) return limit;
+    people = std::min(2 * people, most);
   }
-  for (int i = 0; i < halvings && limit.missed_with - limit.humans > 1; ++i) {
-    const std::size_t middle = (limit.humans + limit.missed_with) / 2;
+  for (int i = 0; i < halvings && limit.missed_with - limit.people > 1; ++i) {
+    const std::size_t middle = (limit.people + limit.missed_with) / 2;
     const auto kept = keeps_up(middle);
     if (!kept) return tl::unexpected(kept.error());
-    (*kept ? limit.humans : limit.missed_with) = middle;
+    (*kept ? limit.people : limit.missed_with) = middle;
   }
   return limit;
 }
@@ -210,8 +211,8 @@ std::size_t peak_bytes() {
 
 CrowdMemory crowd_memory(const CrowdScene& scene) {
   CrowdMemory memory;
-  if (!scene.walkers().empty()) memory.per_human = scene.bytes_of_people() / scene.walkers().size();
-  memory.far_human = far_bytes(scene);
+  if (!scene.walkers().empty()) memory.per_person = scene.bytes_of_people() / scene.walkers().size();
+  memory.far_person = far_bytes(scene);
   memory.peak = peak_bytes();
   return memory;
 }
@@ -219,7 +220,7 @@ CrowdMemory crowd_memory(const CrowdScene& scene) {
 std::string crowd_live_line(const CrowdRun& run, std::size_t of) {
   std::string line = fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms  missed {}", run.ticks.size(), of,
                                  percentile_ms(run.ticks, 0.5), percentile_ms(run.ticks, 0.99), run.missed);
-  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+  for (const auto& [method, count] : by_method(run.muscles_by_level, run.active))
     line += fmt::format("  {} {}", method, count);
   return line;
 }
@@ -227,16 +228,16 @@ std::string crowd_live_line(const CrowdRun& run, std::size_t of) {
 std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene) {
   const CrowdRequest& crowd = scene.request();
   std::string text =
-      fmt::format("{} humans on {:.0f} m x {:.0f} m, {} thread{}, seed {}\n", scene.walkers().size(), scene.side_m(),
+      fmt::format("{} people on {:.0f} m x {:.0f} m, {} thread{}, seed {}\n", scene.walkers().size(), scene.side_m(),
                   scene.side_m(), threads_of(crowd), threads_of(crowd) == 1 ? "" : "s", crowd.seed);
   text += ticks_line(run.ticks, run.tick_s, run.missed) + processor_line(run.ticks, "threads");
   text += parts_line(run.ticks, run.systems, 5e-4) + "\nmuscles:";
-  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+  for (const auto& [method, count] : by_method(run.muscles_by_level, run.active))
     text += fmt::format(" {} {}", count, method);
   text += fmt::format("\n{} came, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.spawned,
                       run.despawned, run.turned, run.changed_speed, 2 * run.switched);
-  text += fmt::format("memory: {} bytes a human, {} of those far away; {:.0f} MB at most\n", memory.per_human,
-                      memory.far_human, 1e-6 * static_cast<double>(memory.peak));
+  text += fmt::format("memory: {} bytes a person, {} of those far away; {:.0f} MB at most\n", memory.per_person,
+                      memory.far_person, 1e-6 * static_cast<double>(memory.peak));
   if (heap_is_counted()) {
     text += fmt::format("heap: {} requests in the {} ticks in which nobody came, went or changed method\n",
                         run.steady_allocations, run.steady_ticks);
@@ -256,19 +257,19 @@ std::string processor_line(const std::vector<CrowdTick>& ticks, std::string_view
                      percentile_ms(ticks, 1, &CrowdTick::cpu_ms));
 }
 
-std::string parts_line(const std::vector<CrowdTick>& ticks, const std::vector<CrowdSystem>& systems, double least_ms) {
+std::string parts_line(const std::vector<CrowdTick>& ticks, const std::vector<CrowdSystem>& systems, double min_ms) {
   std::string line = fmt::format("a tick, mean: host's decisions {:.3f} ms, choosing of methods {:.3f} ms",
-                                 mean_ms(ticks, &CrowdTick::host_ms), mean_ms(ticks, &CrowdTick::relevance_ms));
+                                 mean_ms(ticks, &CrowdTick::host_ms), mean_ms(ticks, &CrowdTick::lod_ms));
   for (const CrowdSystem& system : systems) {
-    if (system.mean_ms >= least_ms) line += fmt::format(", {} {:.3f} ms", system.name, system.mean_ms);
+    if (system.mean_ms >= min_ms) line += fmt::format(", {} {:.3f} ms", system.name, system.mean_ms);
   }
   return line;
 }
 
-std::vector<std::pair<std::string, std::size_t>> by_method(const MusclesByRung& muscles, bool living) {
+std::vector<std::pair<std::string, std::size_t>> by_method(const MusclesByLevel& muscles, bool active) {
   std::vector<std::pair<std::string, std::size_t>> all;
   for (std::size_t r = 0; r < muscles.size(); ++r) {
-    if (muscles[r] > 0) all.emplace_back(r < rung_count ? rungs_of(living)[r].name : "other", muscles[r]);
+    if (muscles[r] > 0) all.emplace_back(r < level_count ? levels_of(active)[r].name : "other", muscles[r]);
   }
   return all;
 }
@@ -283,7 +284,7 @@ void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& js
   json["tick_cpu_ms_p99"] = percentile_ms(ticks, 0.99, &CrowdTick::cpu_ms);
   json["tick_cpu_ms_max"] = percentile_ms(ticks, 1, &CrowdTick::cpu_ms);
   json["host_ms"] = mean_ms(ticks, &CrowdTick::host_ms);
-  json["relevance_ms"] = mean_ms(ticks, &CrowdTick::relevance_ms);
+  json["lod_ms"] = mean_ms(ticks, &CrowdTick::lod_ms);
 }
 
 void add_systems(const std::vector<CrowdSystem>& systems, Json& json) {
@@ -294,15 +295,15 @@ void add_systems(const std::vector<CrowdSystem>& systems, Json& json) {
 std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene,
                        const CrowdOptions& options) {
   Json json;
-  json["humans"] = scene.walkers().size();
+  json["people"] = scene.walkers().size();
   json["muscles_by_method"] = Json::object();
-  for (const auto& [method, count] : by_method(run.muscles_by_rung, run.living))
+  for (const auto& [method, count] : by_method(run.muscles_by_level, run.active))
     json["muscles_by_method"][method] = count;
   json["tick_s"] = run.tick_s;
   add_ticks(run.ticks, run.missed, json);
   add_systems(run.systems, json);
-  json["bytes_per_human"] = memory.per_human;
-  json["far_bytes_per_human"] = memory.far_human;
+  json["bytes_per_person"] = memory.per_person;
+  json["far_bytes_per_person"] = memory.far_person;
   json["peak_bytes"] = memory.peak;
   json["steady_allocations"] = heap_is_counted() ? Json(run.steady_allocations) : Json(nullptr);
   json["steady_ticks"] = run.steady_ticks;
@@ -323,24 +324,24 @@ std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const Cro
 
 std::string tried_line(const CrowdLimit::Tried& tried) {
   return fmt::format(
-      "{:>7} humans: {} of {} ticks missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms; processor "
+      "{:>7} people: {} of {} ticks missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms; processor "
       "time p50 {:.2f} ms",
-      tried.humans, tried.missed, tried.ticks, tried.p50_ms, tried.p99_ms, tried.max_ms, tried.cpu_p50_ms);
+      tried.people, tried.missed, tried.ticks, tried.p50_ms, tried.p99_ms, tried.max_ms, tried.cpu_p50_ms);
 }
 
 std::string limit_text(const CrowdLimit& limit) {
-  if (limit.humans == 0) return fmt::format("{} humans already miss ticks; begin with fewer\n", limit.missed_with);
-  if (limit.missed_with == 0) return fmt::format("{} humans, the most there can be: no tick missed\n", limit.humans);
-  return fmt::format("{} humans: no tick missed; {}: missed\n", limit.humans, limit.missed_with);
+  if (limit.people == 0) return fmt::format("{} people already miss ticks; begin with fewer\n", limit.missed_with);
+  if (limit.missed_with == 0) return fmt::format("{} people, the most there can be: no tick missed\n", limit.people);
+  return fmt::format("{} people: no tick missed; {}: missed\n", limit.people, limit.missed_with);
 }
 
 std::string limit_json(const CrowdLimit& limit, const CrowdOptions& options) {
   Json json;
-  json["humans"] = limit.humans;
+  json["people"] = limit.people;
   json["missed_with"] = limit.missed_with;
   json["tried"] = Json::array();
   for (const CrowdLimit::Tried& t : limit.tried) {
-    json["tried"].push_back({{"humans", t.humans},
+    json["tried"].push_back({{"people", t.people},
                              {"missed_ticks", t.missed},
                              {"ticks", t.ticks},
                              {"tick_ms_p50", t.p50_ms},

@@ -13,7 +13,7 @@ namespace mobil {
 /// One tick as it was measured, ms: what the host decides, the choosing of methods, the simulation; the wall's clock,
 /// and the processor time of all threads.
 struct CrowdTick {
-  double wall_ms = 0, cpu_ms = 0, host_ms = 0, relevance_ms = 0;
+  double wall_ms = 0, cpu_ms = 0, host_ms = 0, lod_ms = 0;
   bool steady = false;  // nobody came, went, changed method or was done with that
 };
 
@@ -26,8 +26,8 @@ struct CrowdRun {
   std::vector<CrowdTick> ticks;
   std::vector<CrowdSystem> systems;   // in the order of running
   std::vector<std::uint64_t> hashes;  // every 60 ticks, of everybody's state
-  bool living = false;                // whose ladder the rungs are of
-  std::array<std::size_t, rung_count + 1> muscles_by_rung{};
+  bool active = false;                // whose lod_table the levels are of
+  std::array<std::size_t, level_count + 1> muscles_by_level{};
   std::size_t missed = 0, spawned = 0, despawned = 0, switched = 0, refused = 0, turned = 0, changed_speed = 0;
   std::size_t steady_ticks = 0, steady_allocations = 0;
   double tick_s = 0;
@@ -51,9 +51,9 @@ std::size_t far_bytes(const CrowdScene& scene);
 
 /// The most people that no tick is missed with.
 struct CrowdLimit {
-  std::size_t humans = 0, missed_with = 0;  // the least that was tried and missed; 0: none did
+  std::size_t people = 0, missed_with = 0;  // the least that was tried and missed; 0: none did
   struct Tried {
-    std::size_t humans, missed, ticks;
+    std::size_t people, missed, ticks;
     double p50_ms, p99_ms, max_ms, cpu_p50_ms;
   };
   std::vector<Tried> tried;
@@ -67,7 +67,7 @@ Result<CrowdLimit> raise_crowd(CrowdScene& scene, std::size_t ticks, std::size_t
 
 /// Heap and resident memory, bytes; 0 where the machine does not tell.
 struct CrowdMemory {
-  std::size_t per_human = 0, far_human = 0, peak = 0;
+  std::size_t per_person = 0, far_person = 0, peak = 0;
 };
 /// Of a settled crowd as it is now.
 CrowdMemory crowd_memory(const CrowdScene& scene);
@@ -87,11 +87,11 @@ std::string ticks_line(const std::vector<CrowdTick>& ticks, double tick_s, std::
                        std::string_view of = "");
 /// A line of what they took of the processor.
 std::string processor_line(const std::vector<CrowdTick>& ticks, std::string_view of);
-/// A line of what a tick's parts took, with the systems that took `least_ms` or more; its end is the reader's.
-std::string parts_line(const std::vector<CrowdTick>& ticks, const std::vector<CrowdSystem>& systems, double least_ms);
+/// A line of what a tick's parts took, with the systems that took `min_ms` or more; its end is the reader's.
+std::string parts_line(const std::vector<CrowdTick>& ticks, const std::vector<CrowdSystem>& systems, double min_ms);
 /// Muscles by their method's name, those that there are.
-using MusclesByRung = std::array<std::size_t, rung_count + 1>;
-std::vector<std::pair<std::string, std::size_t>> by_method(const MusclesByRung& muscles, bool living);
+using MusclesByLevel = std::array<std::size_t, level_count + 1>;
+std::vector<std::pair<std::string, std::size_t>> by_method(const MusclesByLevel& muscles, bool active);
 /// Ticks, those missed, and what they took.
 void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& json);
 /// What systems took, by name.

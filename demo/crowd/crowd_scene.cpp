@@ -22,8 +22,8 @@ constexpr std::uint64_t exchange_stream = 0x30000;
 
 }  // namespace
 
-double crowd_side_m(std::size_t humans) {
-  return std::sqrt(square_metres_each * static_cast<double>(humans));
+double crowd_side_m(std::size_t people) {
+  return std::sqrt(square_metres_each * static_cast<double>(people));
 }
 
 CrowdScene::CrowdScene(const CrowdRequest& request) : request_(request) {
@@ -39,18 +39,18 @@ LegMuscles CrowdScene::first_muscles() const {
   choice.inertia = request_.effects.inertia;
   choice.line_motion = request_.effects.line_motion;
   if (request_.effects.activation) choice.activation = ExcitationSource::phase;
-  const RungLadder ladder(accuracy_table());
+  const LodTable lod_table(accuracy_table());
   const float limit_m = static_cast<float>(request_.tolerance_m) / LodOptions{}.margin;
-  std::array<std::size_t, rung_count> wanted{};
+  std::array<std::size_t, level_count> wanted{};
   for (std::uint32_t m = 0; m < muscle_group_count; ++m) {
-    const RungCase of = {m, RungLadder::speed_step(1.35F, 1.72F), choice.inertia, request_.all_seen,
-                         request_.effects.activation};
-    ++wanted[ladder.cheapest(of, limit_m)];
+    const LevelCase of = {m, LodTable::speed_step(1.35F, 1.72F), choice.inertia, request_.all_seen,
+                          request_.effects.activation};
+    ++wanted[lod_table.cheapest(of, limit_m)];
   }
   const auto most = static_cast<std::size_t>(std::ranges::max_element(wanted) - wanted.begin());
-  const MuscleMethod method = rung_method(most, request_.all_seen, request_.effects.activation);
+  const MuscleMethod method = level_method(most, request_.all_seen, request_.effects.activation);
   choice.method = method.method;
-  choice.reduced = method.reduced;
+  choice.modal = method.modal;
   return choice;
 }
 
@@ -61,13 +61,13 @@ std::size_t CrowdScene::bytes_of_people() const {
 Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request, const Progress& progress) {
   auto scene = make_empty(request, progress);
   if (!scene) return scene;
-  if (auto done = (*scene)->resize(request.humans, progress); !done) return tl::unexpected(done.error());
+  if (auto done = (*scene)->resize(request.people, progress); !done) return tl::unexpected(done.error());
   return scene;
 }
 
 Result<std::unique_ptr<CrowdScene>> CrowdScene::make_empty(const CrowdRequest& request, const Progress& progress) {
   std::unique_ptr<CrowdScene> scene(new CrowdScene(request));
-  scene->request_.humans = 0;
+  scene->request_.people = 0;
   if (request.library == nullptr) {
     if (auto done = load_baked_option(*scene->simulation_, request.baked); !done) return tl::unexpected(done.error());
   }
@@ -75,12 +75,12 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make_empty(const CrowdRequest& r
     LodOptions& options = scene->choosing_.emplace();
     options.switches = 8;  // near ones change every second: spread over it
     // Who needs otherwise says so once a second: some hundreds looked at each tick are soon enough.
-    options.stagger = static_cast<std::uint32_t>(std::clamp<std::size_t>(request.humans / request.shards / 500, 8, 60));
+    options.stagger = static_cast<std::uint32_t>(std::clamp<std::size_t>(request.people / request.shards / 500, 8, 60));
     options.leg_muscles = scene->muscles_;
     if (!request.budget_s) options.machine_factor = 1;
     Lod lod = scene->simulation_->lod();
     if (auto done = lod.set_options(options); !done) return tl::unexpected(done.error());
-    SceneNeeds needs;
+    LodScene needs;
     needs.tolerance_m = static_cast<float>(request.tolerance_m);
     needs.looked_at = request.all_seen;
     needs.compact_unseen = true;
@@ -108,27 +108,27 @@ std::size_t CrowdScene::first_slot_from(std::uint32_t place) const {
   return static_cast<std::size_t>(found - walkers_.begin());
 }
 
-Result<void> CrowdScene::resize(std::size_t humans, const Progress& progress) {
-  const std::size_t before = std::exchange(request_.humans, humans);
-  side_m_ = crowd_side_m(humans);
-  if (humans < before) {
-    const std::size_t first = first_slot_from(static_cast<std::uint32_t>(humans));
+Result<void> CrowdScene::resize(std::size_t people, const Progress& progress) {
+  const std::size_t before = std::exchange(request_.people, people);
+  side_m_ = crowd_side_m(people);
+  if (people < before) {
+    const std::size_t first = first_slot_from(static_cast<std::uint32_t>(people));
     slots_.resize(walkers_.size() - first);
     std::iota(slots_.begin(), slots_.end(), static_cast<std::uint32_t>(first));
     leave(slots_);
     walkers_.resize(first);
   }
-  walkers_.reserve(humans / request_.shards);
-  for (std::size_t first = before; first < humans; first += batch) {
+  walkers_.reserve(people / request_.shards);
+  for (std::size_t first = before; first < people; first += batch) {
     slots_.clear();
-    for (std::size_t place = first; place < std::min(first + batch, humans); ++place) {
+    for (std::size_t place = first; place < std::min(first + batch, people); ++place) {
       const std::uint64_t number = director_.next_number++;
       if (!is_own(static_cast<std::uint32_t>(place))) continue;
       slots_.push_back(static_cast<std::uint32_t>(walkers_.size()));
       walkers_.push_back({.number = number, .place = static_cast<std::uint32_t>(place)});
     }
     if (auto done = come(slots_); !done) return done;
-    if (progress) progress("spawning", std::min(first + batch, humans), humans);
+    if (progress) progress("spawning", std::min(first + batch, people), people);
   }
   distance_.reserve(walkers_.size());
   CrowdDecisions decisions;
@@ -136,7 +136,7 @@ Result<void> CrowdScene::resize(std::size_t humans, const Progress& progress) {
 }
 
 Result<void> CrowdScene::settle(const Progress& progress, bool exchanges) {
-  constexpr int most_ticks = 2000, quiet_ticks = 4;
+  constexpr int max_ticks = 2000, quiet_ticks = 4;
   const auto tick_once = [&]() -> Result<void> {
     if (auto done = exchanges ? decide() : decide({}); !done) return tl::unexpected(done.error());
     tick();
@@ -148,7 +148,7 @@ Result<void> CrowdScene::settle(const Progress& progress, bool exchanges) {
     at_once.switches = 1'000'000;
     at_once.switching_s = 1;
     if (auto done = simulation_->lod().set_options(at_once); !done) return done;
-    for (int i = 0, settled = 0; i < most_ticks && settled < quiet_ticks; ++i) {
+    for (int i = 0, settled = 0; i < max_ticks && settled < quiet_ticks; ++i) {
       if (auto done = tick_once(); !done) return done;
       const LodReport& report = simulation_->lod().report();
       settled = report.switched + report.waiting == 0 ? settled + 1 : 0;
@@ -223,17 +223,17 @@ CrowdOrders CrowdDirector::order(const CrowdRequest& request, std::uint32_t tick
   auto leaving = static_cast<std::size_t>(owed);
   owed -= static_cast<double>(leaving);
   if (tick % a_second == a_second / 2) leaving += request.burst;
-  leaving = std::min(leaving, request.humans);
+  leaving = std::min(leaving, request.people);
   if (leaving == 0) return {};
   CrowdRandom random(request.seed, exchanges++, exchange_stream);
-  const CrowdOrders orders{next_number, static_cast<std::uint32_t>(random.below(request.humans)),
+  const CrowdOrders orders{next_number, static_cast<std::uint32_t>(random.below(request.people)),
                            static_cast<std::uint32_t>(leaving)};
   next_number += leaving;
   return orders;
 }
 
 Result<void> CrowdScene::exchange(const CrowdOrders& orders, CrowdDecisions& decisions) {
-  const auto places = static_cast<std::uint32_t>(request_.humans);
+  const auto places = static_cast<std::uint32_t>(request_.people);
   slots_.clear();
   const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint64_t number) {
     for (std::size_t s = first_slot_from(from); s < walkers_.size() && walkers_[s].place < to; ++s) {
@@ -264,7 +264,7 @@ Result<CrowdDecisions> CrowdScene::decide(const CrowdOrders& orders) {
     if (auto done = look_round(decisions); !done) return tl::unexpected(done.error());
   }
   if (orders.count > 0) {
-    if (orders.count > request_.humans || orders.first_place >= request_.humans)
+    if (orders.count > request_.people || orders.first_place >= request_.people)
       return fail("orders name people who are not in the crowd");
     if (auto done = exchange(orders, decisions); !done) return tl::unexpected(done.error());
   }
@@ -283,7 +283,7 @@ Result<std::vector<std::byte>> CrowdScene::save() const {
   host.put(std::uint64_t{walkers_.size()});
   host.put_all(std::span<const CrowdWalker>(walkers_));
   host.put(due_);
-  host.put(std::uint64_t{request_.humans});
+  host.put(std::uint64_t{request_.people});
   return pack_shard(*simulation_, host.bytes());
 }
 
@@ -291,14 +291,14 @@ Result<void> CrowdScene::restore(std::span<const std::byte> saved) {
   const auto host = unpack_shard(saved, *simulation_);
   if (!host) return tl::unexpected(host.error());
   PlainReader reader(*host);
-  std::uint64_t count = 0, humans = 0;
+  std::uint64_t count = 0, people = 0;
   reader.take(count);
   walkers_ = reader.take_many<CrowdWalker>(static_cast<std::size_t>(count));
   reader.take(due_);
-  reader.take(humans);
+  reader.take(people);
   if (!reader.whole()) return fail("a crowd's bytes do not agree with themselves");
-  request_.humans = static_cast<std::size_t>(humans);
-  side_m_ = crowd_side_m(request_.humans);
+  request_.people = static_cast<std::size_t>(people);
+  side_m_ = crowd_side_m(request_.people);
   for (std::size_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);
   distance_.reserve(walkers_.size());
   return {};
@@ -308,9 +308,9 @@ void CrowdScene::tick() {
   simulation_->tick();
 }
 
-std::array<std::size_t, rung_count + 1> CrowdScene::muscles_by_rung() const {
-  return choosing_ ? simulation_->lod().muscles_by_rung(request_.effects.activation)
-                   : std::array<std::size_t, rung_count + 1>{};
+std::array<std::size_t, level_count + 1> CrowdScene::muscles_by_level() const {
+  return choosing_ ? simulation_->lod().muscles_by_level(request_.effects.activation)
+                   : std::array<std::size_t, level_count + 1>{};
 }
 
 }  // namespace mobil

@@ -27,7 +27,7 @@ struct CrowdEffects {
 
 /// Lengths in m, times in s.
 struct CrowdRequest {
-  std::size_t humans = 1000, near = 500;
+  std::size_t people = 1000, near = 500;
   int threads = 0;  // 0: as many as the machine has
   double tolerance_m = 0.005, near_tolerance_m = 0.001;
   std::optional<double> budget_s{};  // a tick, of all deformation
@@ -100,7 +100,7 @@ class MeteredMemory : public std::pmr::memory_resource {
 };
 
 /// The side of the square that so many walk on, m.
-double crowd_side_m(std::size_t humans);
+double crowd_side_m(std::size_t people);
 
 class CrowdScene {
  public:
@@ -113,7 +113,7 @@ class CrowdScene {
   CrowdScene& operator=(const CrowdScene&) = delete;
 
   /// Another number of people from here on.
-  Result<void> resize(std::size_t humans, const Progress& progress = {});
+  Result<void> resize(std::size_t people, const Progress& progress = {});
   /// Runs on until methods have been chosen and what that excited has died away. `exchanges`: whether people come and
   /// go meanwhile, by the scene's own director.
   Result<void> settle(const Progress& progress = {}, bool exchanges = true);
@@ -133,8 +133,8 @@ class CrowdScene {
   Vec3<float> viewer_m() const { return viewer_m(side_m_); }
   static Vec3<float> viewer_m(double side_m) { return {0, 0, static_cast<float>(-0.5 * side_m)}; }
 
-  /// Muscles by the rung that they are on; the last is of those that were refused another.
-  std::array<std::size_t, rung_count + 1> muscles_by_rung() const;
+  /// Muscles by the level that they are on; the last is of those that were refused another.
+  std::array<std::size_t, level_count + 1> muscles_by_level() const;
   /// What the simulation holds in memory of its people: tables, registers, records.
   std::size_t bytes_of_people() const;
 

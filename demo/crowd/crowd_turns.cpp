@@ -41,10 +41,10 @@ void CrowdScene::forget_plan(std::size_t slot) {
 /// Who avoids others is asked through Avoidance, which asks for the steps.
 Result<void> CrowdScene::head_for(const CrowdWalker& walker, float heading_rad) {
   if (!request_.effects.avoidance) return simulation_->turn_to(walker.entity, heading_rad);
-  const auto course = simulation_->get<Course>(walker.entity);
+  const auto course = simulation_->get<AvoidanceState>(walker.entity);
   if (!course) return fail(course.error().status);
-  const WalkWish wish = {walker.entity, course->speed_m_s, heading_rad};
-  return simulation_->avoidance().want({&wish, 1});
+  const DesiredVelocity wish = {walker.entity, course->speed_m_s, heading_rad};
+  return simulation_->avoidance().set_desired_velocity({&wish, 1});
 }
 
 /// A speed that the body cannot walk at in its own style is left alone.
@@ -59,8 +59,8 @@ Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decision
       if (auto done = simulation_->set_gait(walker.entity, gait); !done) return done;
     }
     if (request_.effects.avoidance) {
-      const WalkWish wish = {walker.entity, *gait.speed_m_s, walker.heading_rad};
-      if (auto done = simulation_->avoidance().want({&wish, 1}); !done) return done;
+      const DesiredVelocity wish = {walker.entity, *gait.speed_m_s, walker.heading_rad};
+      if (auto done = simulation_->avoidance().set_desired_velocity({&wish, 1}); !done) return done;
     }
     walker.stopped = change.speed_m_s == 0;
     ++decisions.changed_speed;
@@ -137,7 +137,7 @@ Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
     if (is_near == walker.near) continue;
     walker.near = is_near;
     ++decisions.near_changed;
-    PersonNeeds needs;
+    LodOverrides needs;
     if (is_near) {
       needs.tolerance_m = static_cast<float>(request_.near_tolerance_m);
       needs.looked_at = true;

@@ -55,13 +55,13 @@ int main() {
       for (std::size_t j = 0; j < i; ++j)
         nearest_m = std::min(nearest_m, std::hypot(roots[i].x_m - roots[j].x_m, roots[i].z_m - roots[j].z_m));
   }
-  double least_m = 1e9, mean_m = 0;
+  double min_m = 1e9, mean_m = 0;
   for (std::size_t i = 0; i < roots.size(); ++i) {
     const bool along_x = i < a_stream;
     const double way = along_x ? roots[i].x_m - double{requests[i].x_m} : roots[i].z_m - double{requests[i].z_m};
-    least_m = std::min(least_m, way);
+    min_m = std::min(min_m, way);
     mean_m += way / static_cast<double>(roots.size());
   }
-  std::printf("in 25 s: %.1f m on average, %.1f m at least; nobody nearer than %.2f m\n", mean_m, least_m, nearest_m);
-  return nearest_m > 2 * radius_m - overlap_m && least_m > 5 ? 0 : 1;
+  std::printf("in 25 s: %.1f m on average, %.1f m at least; nobody nearer than %.2f m\n", mean_m, min_m, nearest_m);
+  return nearest_m > 2 * radius_m - overlap_m && min_m > 5 ? 0 : 1;
 }

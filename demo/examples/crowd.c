@@ -43,7 +43,7 @@ static void spawn(mobil_id* ids) {
   }
   need(mobil_spawn(sim, people, 0, crowd, NULL, ids));
   mobil_defaults(MOBIL_MUSCLES, &muscles, sizeof muscles);
-  muscles.method = MOBIL_REDUCED;
+  muscles.method = MOBIL_MODAL;
   need(mobil_set_muscles(sim, ids, seen, &muscles));
 }
 

@@ -10,14 +10,14 @@
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
 
-using mobil::Lanes, mobil::Whole;
+using mobil::Lanes, mobil::UInt32;
 
 /// How tired a walker is, 0 to 1; what part of the speed asked for the system has left, and in which request; and the
 /// steps counted so far. All zero: fresh.
 template <class F>
 struct Fatigue {
   F level, left;
-  Whole<F> revision, steps;
+  UInt32<F> revision, steps;
 };
 
 /// At each step a walker tires by half a percent at 1 m/s, faster in proportion to the square of speed; wholly tired
@@ -41,9 +41,9 @@ void tire(mobil::Previous<mobil::GaitState> before, mobil::Gait<Lanes<float>>& g
 }
 
 mobil::Module fatigue_module() {
-  return {.name = "fatigue",
-          .parts = {mobil::component_part<Fatigue>()},
-          .systems = [](mobil::ScheduleBuilder& systems) { systems.add("fatigue", &tire); }};
+  return {.name = "fatigue", .parts = {mobil::component_id<Fatigue>()}, .systems = [](mobil::ScheduleBuilder& systems) {
+            systems.add("fatigue", &tire);
+          }};
 }
 
 int main() {

@@ -8,7 +8,7 @@
 #include <mobil/forces.h>
 #include <mobil/retarget.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 
 namespace {
 
@@ -82,12 +82,12 @@ int main() {
   if (!limbs) return failed(limbs.error());
   const auto person = simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80, .limbs = *limbs});
   if (!person) return failed(person.error());
-  const auto map = mobil::Retarget::make(simulation.human(*person)->body, bones, rest, unreal);
+  const auto map = mobil::Retarget::make(simulation.person(*person)->body, bones, rest, unreal);
   if (!map) return failed(map.error());
   if (const auto done = simulation.set_muscles(*person); !done) return failed(done.error());
   if (const auto done = simulation.enable(*person, mobil::Feature::forces); !done) return failed(done.error());
   const mobil::Entity quadriceps = simulation.muscle(*person, mobil::Muscle::quadriceps, mobil::Side::right);
-  float longest_m = 0, deepest_rad = 0, most_n = 0;
+  float longest_m = 0, deepest_rad = 0, max_n = 0;
   for (int tick = 0; tick <= 240; ++tick) {
     const float part = 0.5F - 0.5F * std::cos(static_cast<float>(tick) * 0.0262F);
     const auto pose = map->pose(squat(0.9F * part, 1.6F * part, 0.4F * part));
@@ -100,12 +100,12 @@ int main() {
     deepest_rad = std::max(deepest_rad, knee);
     const auto ground = *simulation.get<mobil::GroundReaction>(*person);
     const float up_n = ground.force_n[mobil::Side::right].y + ground.force_n[mobil::Side::left].y;
-    most_n = std::max(most_n, up_n);
+    max_n = std::max(max_n, up_n);
     if (tick % 60 == 0)
       std::printf("%.0f s: knee %3.0f deg, quadriceps %+3.0f mm, %3.0f N on the ground\n", tick / 60.0,
                   57.3 * static_cast<double>(knee), 1e3 * static_cast<double>(line.length_m - line.rest_length_m),
                   static_cast<double>(up_n));
   }
   // Knees bend, their extensors lengthen, and to come up takes more than the weight.
-  return deepest_rad > 1.5F && longest_m > 0.02F && most_n > 80 * 9.81F ? 0 : 1;
+  return deepest_rad > 1.5F && longest_m > 0.02F && max_n > 80 * 9.81F ? 0 : 1;
 }

@@ -13,7 +13,7 @@ namespace {
 
 template <class F>
 struct Score {
-  mobil::Whole<F> points;
+  mobil::UInt32<F> points;
 };
 
 constexpr std::uint32_t late_ticks = 6;
@@ -26,7 +26,7 @@ void apply_input(mobil::Simulation& simulation, const std::vector<mobil::Entity>
 }  // namespace
 
 int main() {
-  const mobil::SimulationOptions options{.modules = {{.name = "game", .parts = {mobil::component_part<Score>()}}}};
+  const mobil::SimulationOptions options{.modules = {{.name = "game", .parts = {mobil::component_id<Score>()}}}};
   mobil::Simulation server(options), client(options), joiner(options);
   std::vector<mobil::Entity> people(200);
   std::vector<mobil::SpawnRequest> asked(people.size());

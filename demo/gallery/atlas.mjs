@@ -1,6 +1,6 @@
 // A picture of a skin's texture coordinates: checks on the first person of a crowd, from ahead and from behind.
 //
-//   mobil crowd --humans 2 --seconds 0.5 --export crowd.glb --export-seconds 0.2
+//   mobil crowd --people 2 --seconds 0.5 --export crowd.glb --export-seconds 0.2
 //   node demo/gallery/atlas.mjs MODULES crowd.glb assets/surfaces/atlas.jpg
 //
 // MODULES: the folder where tests/web/run installs three and playwright-core.

@@ -44,9 +44,9 @@ walk 7 "Up stairs of 16 and 30 cm." --view skin --ground stairs:16cm/30cm
 walk 7 "Down a slope of a fifth." --view skin --sex woman --height 1.66 --mass 60 --ground slope:-20%
 "$program" town --quiet --seconds 46 --capture town.mp4 >/dev/null
 part 46 town.mp4 "A town: places to go, ways by Recast, avoidance, kerbs, stairs and a ramp."
-"$program" town --quiet --humans 120 --seconds 17 --view above --seed 4 --capture above.mp4 >/dev/null
+"$program" town --quiet --people 120 --seconds 17 --view above --seed 4 --capture above.mp4 >/dev/null
 part 17 above.mp4 "A hundred and twenty people, from above."
-"$program" crowd --quiet --humans 2000 --seconds 0.1 --seed 3 --frames 150 --capture crowd >/dev/null
+"$program" crowd --quiet --people 2000 --seconds 0.1 --seed 3 --frames 150 --capture crowd >/dev/null
 ffmpeg -y -loglevel error -framerate 30 -i crowd/frame_%04d.png -c:v libx264 -preset veryfast -pix_fmt yuv420p crowd.mp4
 part 5 crowd.mp4 "Two thousand who are all different; of the nearest the muscles are simulated."
 still 4 "Up and down, step by step." "$gallery/ground.jpg"

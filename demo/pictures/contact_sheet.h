@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <mobil/systems/capture/image.h>
+#include <mobil/systems/render/image.h>
 
 namespace mobil {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What commands share that run the entries of a list, `mobil bench` and `mobil stress`: choosing them by name.
+// What commands share that run the entries of a list, `mobil bench` and `mobil robustness`: choosing them by name.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

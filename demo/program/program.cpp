@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -39,14 +40,41 @@ int run_beside(const SubcommandRow& row, std::string_view program, char** argv) 
   return 2;
 }
 
-/// `crowd --alive N` was what `city --people N` is.
-void take_former_words(std::vector<std::string>& arguments) {
-  if (arguments.size() < 2 || arguments[1] != "crowd") return;
-  const auto alive =
-      std::ranges::find_if(arguments, [](const std::string& a) { return a == "--alive" || a.starts_with("--alive="); });
-  if (alive == arguments.end()) return;
-  arguments[1] = "city";
-  alive->replace(0, std::string_view("--alive").size(), "--people");
+struct FormerWord {
+  std::string_view option, was, is;  // a value of `option`; the option itself where that is empty
+};
+constexpr std::array former_words = {
+    FormerWord{"", "--humans", "--people"},
+    FormerWord{"", "--members", "--single-muscles"},
+    FormerWord{"", "--vectors", "--modes"},
+    FormerWord{"--method", "ecd", "explicit-central"},
+    FormerWord{"--method", "icd", "implicit-central"},
+    FormerWord{"--method", "caa", "newmark"},
+    FormerWord{"--method", "reduced", "modal"},
+};
+
+/// `--name VALUE` is two arguments, `--name=VALUE` is one. Removed in 0.5, with `crowd --alive N`, now `city --people
+/// N`.
+void replace_former_words(std::vector<std::string>& arguments) {
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    std::string& argument = arguments[i];
+    const std::size_t end = argument.starts_with("--") ? std::min(argument.find('='), argument.size()) : 0;
+    if (i > 1 && arguments[1] == "crowd" && argument.substr(0, end) == "--alive") {
+      arguments[1] = "city";
+      argument.replace(0, end, "--people");
+    }
+    for (const auto& [option, was, is] : former_words) {
+      const std::string_view word = argument;
+      std::string_view value = option.empty() ? word.substr(0, end) : word;
+      if (!option.empty() && word.substr(0, end) == option && end < word.size())
+        value = word.substr(end + 1);
+      else if (!option.empty() && arguments[i - 1] != option)
+        continue;
+      if (value != was) continue;
+      fmt::print(stderr, "mobil: '{}' is deprecated; use '{}'\n", was, is);
+      argument.replace(static_cast<std::size_t>(value.data() - word.data()), value.size(), is);
+    }
+  }
 }
 
 }  // namespace
@@ -85,7 +113,7 @@ int run_own(std::string_view name, std::vector<Subcommand> commands, int argc, c
     if (program != name) return run_beside(*row, program, argv);
     arguments[1] = row->name;
   }
-  take_former_words(arguments);
+  replace_former_words(arguments);
   handle_interruption();  // not before another program takes over, which would inherit blocked signals
   const auto program = make_program(name, std::move(commands));
   if (!program) {

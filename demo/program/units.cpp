@@ -97,8 +97,8 @@ Result<double> read_value(std::string_view name, const std::string& text, Quanti
 }
 
 std::optional<std::uint64_t> parse_count(std::string_view text, std::uint64_t least, std::uint64_t most) {
-  constexpr std::size_t most_digits = 18;  // which 64 bits hold
-  if (text.empty() || text.size() > most_digits) return std::nullopt;
+  constexpr std::size_t max_digits = 18;  // which 64 bits hold
+  if (text.empty() || text.size() > max_digits) return std::nullopt;
   std::uint64_t count = 0;
   for (const char c : text) {
     if (c < '0' || c > '9') return std::nullopt;

@@ -74,14 +74,13 @@ CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t
 }
 
 Result<CrowdPerson> crowd_walker(std::uint64_t seed, std::uint64_t number, std::uint8_t& draw) {
-  constexpr std::uint8_t most_draws = 20;
+  constexpr std::uint8_t max_draws = 20;
   for (;; ++draw) {
     const CrowdPerson person = crowd_person(seed, number, draw);
     const auto body = make_body(person.body);
     const auto gait = body ? resolve_gait(*body, person.gait) : tl::unexpected(body.error());
     if (gait) return person;
-    if (draw == most_draws)
-      return fail(fmt::format("person {} cannot walk as drawn: {}", number, gait.error().message));
+    if (draw == max_draws) return fail(fmt::format("person {} cannot walk as drawn: {}", number, gait.error().message));
   }
 }
 

@@ -88,7 +88,7 @@ class TownCamera {
 };
 
 struct TownText {
-  std::string humans = "40", seconds = "45", seed = "1", threads = "0", view = "follow", capture, report;
+  std::string people = "40", seconds = "45", seed = "1", threads = "0", view = "follow", capture, report;
 };
 
 struct TownRun {
@@ -104,7 +104,7 @@ constexpr int width = 1280, height = 720, ticks_a_picture = 2;
 Result<TownRun> read_options(const TownText& text) {
   TownRun run;
   OptionReader read;
-  run.town.humans = read(read_count("--humans", text.humans, 1, 300));
+  run.town.people = read(read_count("--people", text.people, 1, 300));
   run.town.seed = read(read_count("--seed", text.seed, 0, 999'999'999'999'999'999));
   run.town.threads = static_cast<int>(read(read_count("--threads", text.threads, 0, 256)));
   run.seconds = read(read_value("--seconds", text.seconds, Quantity::time, 0.1, 3600));
@@ -140,7 +140,7 @@ std::string report_text(const TownScene& scene) {
 std::string report_json(const TownScene& scene, const TownRun& run) {
   const TownReport& r = scene.report();
   Json json;
-  json["humans"] = scene.people().size();
+  json["people"] = scene.people().size();
   json["seed"] = run.town.seed;
   json["seconds"] = scene.simulation().time_s();
   json["mean_speed_m_s"] = r.walked_m / scene.simulation().time_s() / static_cast<double>(scene.people().size());
@@ -219,8 +219,8 @@ Subcommand town_command() {
       "\n"
       "Examples: mobil town\n"
       "          mobil town --capture town.mp4\n"
-      "          mobil town --humans 120 --seconds 20 --view above --capture town.png";
-  add_options(command, {{"--humans", &text->humans, "How many people, 1 to 300"},
+      "          mobil town --people 120 --seconds 20 --view above --capture town.png";
+  add_options(command, {{"--people", &text->people, "How many people, 1 to 300"},
                         {"--seconds", &text->seconds, "How long"},
                         {"--seed", &text->seed, "Who they are and where they go"},
                         {"--threads", &text->threads, "Threads that work, 1 to 256; 0: as many as the machine has"},

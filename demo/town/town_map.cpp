@@ -193,7 +193,7 @@ struct TownPaths::Mesh {
   Owned<dtNavMeshQuery, dtFreeNavMeshQuery> query{dtAllocNavMeshQuery()};
   dtQueryFilter filter;
 
-  static constexpr int most_polygons = 256, most_corners = 64;
+  static constexpr int max_polygons = 256, max_corners = 64;
 
   dtPolyRef nearest(GroundPoint place, float* on_mesh) const {
     const float at[3] = {place.x_m, town_ground(place.x_m, place.z_m).height_m, place.z_m};
@@ -252,13 +252,13 @@ void TownPaths::find(GroundPoint from, GroundPoint to, std::vector<GroundPoint>&
   corners.clear();
   float begin[3], end[3];
   const dtPolyRef first = mesh_->nearest(from, begin), last = mesh_->nearest(to, end);
-  dtPolyRef polygon[Mesh::most_polygons];
+  dtPolyRef polygon[Mesh::max_polygons];
   int polygons = 0, count = 0;
   if (first == 0 || last == 0) return;
-  mesh_->query->findPath(first, last, begin, end, &mesh_->filter, polygon, &polygons, Mesh::most_polygons);
-  float corner[3 * Mesh::most_corners];
+  mesh_->query->findPath(first, last, begin, end, &mesh_->filter, polygon, &polygons, Mesh::max_polygons);
+  float corner[3 * Mesh::max_corners];
   if (polygons == 0) return;
-  mesh_->query->findStraightPath(begin, end, polygon, polygons, corner, nullptr, nullptr, &count, Mesh::most_corners);
+  mesh_->query->findStraightPath(begin, end, polygon, polygons, corner, nullptr, nullptr, &count, Mesh::max_corners);
   for (int i = 1; i < count; ++i) corners.push_back({corner[3 * i], corner[3 * i + 2]});
 }
 

@@ -10,7 +10,7 @@
 #include <mobil/components/lanes.h>
 #include <mobil/engine/error.h>
 #include <mobil/systems/avoidance/obstacles.h>
-#include <mobil/systems/capture/scene.h>
+#include <mobil/systems/render/scene.h>
 #include <mobil/terrain.h>
 
 namespace mobil {

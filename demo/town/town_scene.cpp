@@ -56,11 +56,11 @@ Result<TownScene> TownScene::make(const TownOptions& options) {
 /// Everybody stands somewhere on the way between two places, the first where the tour begins.
 Result<void> TownScene::people_come(const TownOptions& options) {
   const auto places = town_places();
-  std::vector<SpawnRequest> requests(options.humans);
-  pedestrians_.resize(options.humans);
+  std::vector<SpawnRequest> requests(options.people);
+  pedestrians_.resize(options.people);
   std::vector<GroundPoint> way;
   std::vector<GroundPoint> taken;
-  for (std::size_t i = 0; i < options.humans; ++i) {
+  for (std::size_t i = 0; i < options.people; ++i) {
     const CrowdPerson person = crowd_person(options.seed, i, 0);
     SpawnRequest& request = requests[i];
     request.body = person.body;
@@ -86,15 +86,15 @@ Result<void> TownScene::people_come(const TownOptions& options) {
     request.heading_rad = random.even(-3, 3);
     if (i == 0) request.heading_rad = 0;
   }
-  people_.resize(options.humans);
-  roots_.resize(options.humans);
+  people_.resize(options.people);
+  roots_.resize(options.people);
   if (auto done = simulation_->spawn(requests, people_); !done) return done;
   if (auto done = simulation_->avoidance().set_walls(town_walls()); !done) return done;
   if (auto done = simulation_->avoidance().manage(people_); !done) return done;
   if (auto done = simulation_->terrain().manage(people_); !done) return done;
   if (auto done = simulation_->roots(people_, roots_); !done) return done;
   for (std::size_t i = 0; i < people_.size(); ++i) {
-    pedestrians_[i].radius_m = simulation_->get<Course>(people_[i])->radius_m;
+    pedestrians_[i].radius_m = simulation_->get<AvoidanceState>(people_[i])->radius_m;
     choose_place(i);
   }
   return {};
@@ -132,7 +132,7 @@ void TownScene::follow_way(std::size_t number) {
     ++report_.arrivals;
     choose_place(number);
   }
-  WalkWish wish{people_[number], 0, pedestrian.wish.heading_rad};
+  DesiredVelocity wish{people_[number], 0, pedestrian.wish.heading_rad};
   if (!pedestrian.corners.empty()) {  // else they wait until a way is found
     const GroundPoint& to = pedestrian.corners[pedestrian.next];
     wish.heading_rad = std::atan2(to.x_m - at.x_m, to.z_m - at.z_m);
@@ -155,7 +155,7 @@ void TownScene::tick() {
     if ((now + turn) % ways_every == 0) find_way(i);
     if ((now + turn) % wishes_every == 0 || !pedestrians_[i].asked) follow_way(i);
   }
-  (void)simulation_->avoidance().want(wishes_);  // speeds and headings are in range
+  (void)simulation_->avoidance().set_desired_velocity(wishes_);  // speeds and headings are in range
   const double begin_s = wall_now_s();
   simulation_->tick();
   report_.tick_s += wall_now_s() - begin_s;
@@ -176,7 +176,7 @@ void TownScene::measure() {
       const float between_m = apart_m(at, place_of(roots_[j])) - pedestrians_[i].radius_m - pedestrians_[j].radius_m;
       report_.nearest_m = std::min(report_.nearest_m, static_cast<double>(between_m));
     }
-    const float waits_s = simulation_->get<Course>(people_[i])->waits_s;
+    const float waits_s = simulation_->get<AvoidanceState>(people_[i])->waits_s;
     report_.longest_wait_s = std::max(report_.longest_wait_s, static_cast<double>(waits_s));
   }
 }

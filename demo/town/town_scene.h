@@ -11,7 +11,7 @@
 namespace mobil {
 
 struct TownOptions {
-  std::size_t humans = 40;
+  std::size_t people = 40;
   std::uint64_t seed = 1;
   int threads = 0;
 };
@@ -52,7 +52,7 @@ class TownScene {
     std::vector<GroundPoint> corners;
     std::size_t next = 0;
     std::uint32_t drawn = 0;
-    WalkWish wish{};
+    DesiredVelocity wish{};
     bool asked = false;
   };
 
@@ -69,7 +69,7 @@ class TownScene {
   std::vector<Entity> people_;
   std::vector<Pedestrian> pedestrians_;
   std::vector<Root> roots_;
-  std::vector<WalkWish> wishes_;
+  std::vector<DesiredVelocity> wishes_;
   TownReport report_;
 };
 

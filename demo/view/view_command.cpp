@@ -28,8 +28,13 @@ struct ViewTime {
 
 constexpr std::array<const char*, view_groups> group_name = {"hamstrings", "quadriceps", "triceps surae",
                                                              "tibialis anterior"};
-constexpr std::array methods = {Method::ecd,     Method::icd,    Method::caa, Method::statics,
-                                Method::reduced, Method::finite, Method::none};
+constexpr std::array methods = {Method::explicit_central,
+                                Method::implicit_central,
+                                Method::newmark,
+                                Method::statics,
+                                Method::modal,
+                                Method::finite,
+                                Method::none};
 
 void slide(const char* name, float& value, float low, float high, const char* format) {
   ImGui::SliderFloat(name, &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
@@ -90,9 +95,9 @@ void muscles(const ViewScene& scene, ViewChoice& choice) {
                           static_cast<double>(is.cost_us));
     }
   }
-  int vectors = static_cast<int>(choice.vectors);
-  ImGui::SliderInt("vectors", &vectors, 1, 32, "%d", ImGuiSliderFlags_AlwaysClamp);
-  choice.vectors = static_cast<std::uint32_t>(vectors);
+  int modes = static_cast<int>(choice.modes);
+  ImGui::SliderInt("modes", &modes, 1, 32, "%d", ImGuiSliderFlags_AlwaysClamp);
+  choice.modes = static_cast<std::uint32_t>(modes);
   constexpr std::array<ExcitationSource, 3> sources = {ExcitationSource::none, ExcitationSource::phase,
                                                        ExcitationSource::moments};
   constexpr std::array<std::string_view, 3> pulls = {"not at all", "by the phase of gait", "by joint moments"};

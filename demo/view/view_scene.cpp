@@ -11,7 +11,7 @@
 #include <mobil/muscle_table.h>
 #include <mobil/step_report.h>
 #include <mobil/systems/accuracy/accuracy_table.h>
-#include <mobil/systems/accuracy/ladder.h>
+#include <mobil/systems/accuracy/lod_table.h>
 
 namespace mobil {
 namespace {
@@ -22,8 +22,8 @@ constexpr std::uint64_t crowd_number = 1'000'000;  // figures of the person have
 LegMuscles muscles_of(const ViewChoice& choice) {
   LegMuscles muscles;
   muscles.method = choice.method[0];
-  muscles.reduced.vectors = choice.vectors;
-  muscles.reduced.control_points = muscles.reduced.reported = true;
+  muscles.modal.modes = choice.modes;
+  muscles.modal.control_points = muscles.modal.reported = true;
   muscles.activation = choice.activation;
   muscles.inertia = choice.inertia;
   return muscles;
@@ -75,7 +75,7 @@ void push(std::array<float, N>& trace, float value) {
 }  // namespace
 
 bool same_choice(const ViewChoice& a, const ViewChoice& b) {
-  return same_body(a.body, b.body) && same_gait(a.gait, b.gait) && a.method == b.method && a.vectors == b.vectors &&
+  return same_body(a.body, b.body) && same_gait(a.gait, b.gait) && a.method == b.method && a.modes == b.modes &&
          a.activation == b.activation && a.inertia == b.inertia && a.forces == b.forces && a.people == b.people &&
          a.choose == b.choose && a.tolerance_px == b.tolerance_px && a.budget_s == b.budget_s;
 }
@@ -116,7 +116,7 @@ Result<Entity> ViewScene::spawned(const ViewChoice& choice) const {
 
 Result<void> ViewScene::set_methods(Entity person, const ViewChoice& choice) const {
   for (std::size_t g = 0; g < view_groups; ++g) {
-    MuscleMethod method{choice.method[g], muscles_of(choice).reduced};
+    MuscleMethod method{choice.method[g], muscles_of(choice).modal};
     if (same_method(simulation_->method(person, static_cast<Muscle>(g)), method)) continue;
     if (auto done = simulation_->set_method(person, static_cast<Muscle>(g), method); !done) return done;
   }
@@ -200,7 +200,7 @@ Result<void> ViewScene::look(const Camera& camera, int width, int height) {
   const Vec3<float> to = {camera.target.x - camera.eye.x, camera.target.y - camera.eye.y,
                           camera.target.z - camera.eye.z};
   const float high = std::tan(camera.vertical_fov_deg * std::numbers::pi_v<float> / 360);
-  SceneNeeds needs;
+  LodScene needs;
   needs.tolerance_px = choice_.tolerance_px;
   needs.camera = Viewpoint{camera.eye,
                            to,
@@ -227,22 +227,21 @@ Vec3<float> ViewScene::place() const {
 }
 
 ViewMethod ViewScene::method(std::size_t group) const {
-  static const RungLadder ladder(accuracy_table());
+  static const LodTable lod_table(accuracy_table());
   ViewMethod is{simulation_->method(person_, static_cast<Muscle>(group)), 0, 0};
   const auto size = simulation_->get<BodySize>(person_);
   const auto gait = simulation_->get<Gait>(person_);
   if (!size || !gait) return is;
-  const bool living = choice_.activation != ExcitationSource::none;
-  const RungCase of{static_cast<std::uint32_t>(group), RungLadder::speed_step(gait->speed_m_s, size->height_m),
-                    choice_.inertia, true, living};
-  for (std::uint32_t rung = 0; rung < rung_count; ++rung) {
-    const Rung& way = rungs_of(living)[rung];
+  const bool active = choice_.activation != ExcitationSource::none;
+  const LevelCase of{static_cast<std::uint32_t>(group), LodTable::speed_step(gait->speed_m_s, size->height_m),
+                     choice_.inertia, true, active};
+  for (std::uint32_t level = 0; level < level_count; ++level) {
+    const LodLevel& way = levels_of(active)[level];
     if (way.method != is.method.method) continue;
-    if (way.method == Method::reduced &&
-        (way.vectors != is.method.reduced.vectors || way.moving != is.method.reduced.moving))
+    if (way.method == Method::modal && (way.modes != is.method.modal.modes || way.moving != is.method.modal.moving))
       continue;
-    is.error_m = ladder.error_m(of, rung, size->height_m);
-    is.cost_us = ladder.cost_us(of, rung);
+    is.error_m = lod_table.error_m(of, level, size->height_m);
+    is.cost_us = lod_table.cost_us(of, level);
     break;
   }
   return is;

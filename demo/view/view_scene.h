@@ -14,7 +14,7 @@
 #include <mobil/engine/error.h>
 #include <mobil/lod.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/capture/camera.h>
+#include <mobil/systems/render/camera.h>
 #include "demo/crowd/crowd_picture.h"
 
 namespace mobil {
@@ -25,8 +25,8 @@ inline constexpr std::size_t view_groups = 4;
 struct ViewChoice {
   BodyRequest body{};
   GaitRequest gait{};
-  std::array<Method, view_groups> method{Method::reduced, Method::reduced, Method::reduced, Method::reduced};
-  std::uint32_t vectors = 12;
+  std::array<Method, view_groups> method{Method::modal, Method::modal, Method::modal, Method::modal};
+  std::uint32_t modes = 12;
   ExcitationSource activation = ExcitationSource::none;
   bool inertia = false, forces = true;
   std::size_t people = 60;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <mobil/engine/error.h>
-#include <mobil/systems/capture/image.h>
+#include <mobil/systems/render/image.h>
 
 namespace mobil {
 

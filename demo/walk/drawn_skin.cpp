@@ -94,7 +94,7 @@ Result<void> DrawnSkin::follow(const Body& body, std::span<const SurfaceMesh> le
   if (!made) return tl::unexpected(made.error());
   bare = std::move(*made);
   const PosedSkin under = posed(*bare, 1, bare->standing, legs_at_rest(rest_m), nullptr);
-  own = bind_own_skin(*bare, under.position, under.normal, legs, shorts_stay);
+  own = bind_custom_skin(*bare, under.position, under.normal, legs, shorts_stay);
   return {};
 }
 

@@ -11,9 +11,9 @@
 
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/assets/surfaces/body_skin.h>
-#include <mobil/assets/surfaces/own_skin.h>
+#include <mobil/assets/surfaces/custom_skin.h>
 #include <mobil/components/pose.h>
-#include <mobil/systems/capture/scene.h>
+#include <mobil/systems/render/scene.h>
 #include <mobil/systems/surfaces/place_skin.h>
 
 namespace mobil {
@@ -46,12 +46,12 @@ struct DrawnSkin {
   SkinColours colours{};
   std::array<float, skin_parts> opacity = opacity_of(1);
   std::vector<Vec3<float>> position{}, normal{};
-  std::optional<OwnSkin> own{};  // the legs', in their place, and what it moves with
+  std::optional<CustomSkin> own{};  // the legs', in their place, and what it moves with
   std::optional<BodySkin> bare{};
   std::vector<Vec3<float>> own_position{}, own_normal{};
 
-  /// Legs are drawn as these meshes of right legs (bind_own_skin). `rest_m`: of the right leg's muscles. `body`: whose
-  /// skin it is. `shorts_stay`: as there.
+  /// Legs are drawn as these meshes of right legs (bind_custom_skin). `rest_m`: of the right leg's muscles. `body`:
+  /// whose skin it is. `shorts_stay`: as there.
   Result<void> follow(const Body& body, std::span<const SurfaceMesh> legs, std::span<const Vec3<float>> rest_m,
                       bool shorts_stay);
   /// `muscles`: of the right and the left leg, as they are drawn in that pose; the skin covers them. `fat`: what

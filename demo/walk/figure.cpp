@@ -3,7 +3,7 @@
 #include <mobil/assets/surfaces/muscle_surfaces.h>
 #include <mobil/assets/surfaces/surface_binding.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/rest_surfaces.h>
 
 namespace mobil {
@@ -37,38 +37,38 @@ WrittenSurfaces written(const BodySurfaces& surfaces, const Simulation& simulati
 
 }  // namespace
 
-SurfaceChoice simulated_surfaces(const Human& human) {
-  SurfaceChoice choice{.bones = false, .simulated = {}, .cells = human.leg_muscles.cells};
-  for (const HumanMuscle& own : human.muscles) {
-    const auto& [method, reduced] = own.method;
-    const bool belly = method != Method::none && (method != Method::reduced || reduced.control_points);
+SurfaceChoice simulated_surfaces(const Person& person) {
+  SurfaceChoice choice{.bones = false, .simulated = {}, .cells = person.leg_muscles.cells};
+  for (const PersonMuscle& own : person.muscles) {
+    const auto& [method, modal] = own.method;
+    const bool belly = method != Method::none && (method != Method::modal || modal.control_points);
     choice.simulated.set(static_cast<std::size_t>(own.plan.muscle), belly);
   }
   return choice;
 }
 
-Result<Figure> bound_figure(const Human& human, DrawnSurfaces drawn, const SurfaceChoice& choice, bool contact) {
+Result<Figure> bound_figure(const Person& person, DrawnSurfaces drawn, const SurfaceChoice& choice, bool contact) {
   Figure figure;
   figure.bones = std::move(drawn.bones);
   drawn.bones = contact ? figure.bones : std::vector<BoneSurface>{};
-  auto muscles = bind_surfaces(human.body, drawn, choice);
+  auto muscles = bind_surfaces(person.body, drawn, choice);
   if (!muscles) return tl::unexpected(muscles.error());
   figure.muscles = std::move(*muscles);
   for (const SurfacePart& part : figure.muscles.part)
     figure.colours.push_back(is_tendon(part.name) ? tendon_colour : belly_colour);
   if (!contact) return figure;
-  auto contacts = find_contacts(figure.muscles, human.body, human.leg_muscles);
+  auto contacts = find_contacts(figure.muscles, person.body, person.leg_muscles);
   if (!contacts) return tl::unexpected(contacts.error());
   figure.contacts = std::move(*contacts);
   return figure;
 }
 
-Result<Figure> make_figure(const Human& human, bool contact) {
-  SurfaceChoice choice = simulated_surfaces(human);
+Result<Figure> make_figure(const Person& person, bool contact) {
+  SurfaceChoice choice = simulated_surfaces(person);
   choice.bones = true;
-  auto drawn = draw_surfaces(human.body, choice);
+  auto drawn = draw_surfaces(person.body, choice);
   if (!drawn) return tl::unexpected(drawn.error());
-  return bound_figure(human, std::move(*drawn), choice, contact);
+  return bound_figure(person, std::move(*drawn), choice, contact);
 }
 
 WalkRecording begin_recording(const Figure& figure, double frame_s) {
@@ -89,11 +89,11 @@ WalkRecording begin_recording(const Figure& figure, double frame_s) {
   return recording;
 }
 
-void record_frame(const Figure& figure, const Simulation& simulation, const Human& human, WalkRecording& recording) {
-  const auto pose = simulation.get<Pose>(human.entity);
+void record_frame(const Figure& figure, const Simulation& simulation, const Person& person, WalkRecording& recording) {
+  const auto pose = simulation.get<Pose>(person.entity);
   if (!pose) return;
   recording.frames.push_back(*pose);
-  WrittenSurfaces now = written(figure.muscles, simulation, human.entity);
+  WrittenSurfaces now = written(figure.muscles, simulation, person.entity);
   if (figure.contacts) {
     ContactWork work;
     keep_apart(*figure.contacts, now.position, now.normal, work);

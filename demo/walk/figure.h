@@ -8,7 +8,7 @@
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/surface_contacts.h>
 
 namespace mobil {
@@ -19,24 +19,24 @@ struct Figure {
   std::vector<Vec3<float>> colours;  // linear; of each part
   std::optional<SurfaceContacts> contacts;
   std::vector<std::string> said;    // about the folder and its meshes, "FILE: …"
-  std::vector<SurfaceMesh> skins;   // of right legs, where the folder has some (mobil/assets/surfaces/own_skin.h)
+  std::vector<SurfaceMesh> skins;   // of right legs, where the folder has some (mobil/assets/surfaces/custom_skin.h)
   std::vector<Vec3<float>> rest_m;  // then all vertices of the right leg's muscles at rest
 };
 
 /// Surfaces for one person with muscles, generated from published dimensions. `contact`: muscles are kept out of each
 /// other and of bones.
-Result<Figure> make_figure(const Human& human, bool contact = false);
+Result<Figure> make_figure(const Person& person, bool contact = false);
 
 /// The person's muscles with a mesh that a surface can follow; no bones.
-SurfaceChoice simulated_surfaces(const Human& human);
+SurfaceChoice simulated_surfaces(const Person& person);
 
 /// Binds surfaces to the meshes of the person's muscles.
-Result<Figure> bound_figure(const Human& human, DrawnSurfaces drawn, const SurfaceChoice& choice, bool contact);
+Result<Figure> bound_figure(const Person& person, DrawnSurfaces drawn, const SurfaceChoice& choice, bool contact);
 
 /// Begins a recording of the figure: bones, and each muscle's name, triangles and colour, right then left.
 WalkRecording begin_recording(const Figure& figure, double frame_s);
 
 /// Adds the person's present pose and surfaces as one frame.
-void record_frame(const Figure& figure, const Simulation& simulation, const Human& human, WalkRecording& recording);
+void record_frame(const Figure& figure, const Simulation& simulation, const Person& person, WalkRecording& recording);
 
 }  // namespace mobil

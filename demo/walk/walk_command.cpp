@@ -18,9 +18,9 @@
 #include <mobil/engine/world.h>
 #include <mobil/schedule.h>
 #include <mobil/systems/gait/shown_fat.h>
-#include <mobil/systems/limits/limit_watch.h>
+#include <mobil/systems/limits/limit_monitor.h>
 #include <mobil/systems/limits/style_limits.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/terrain.h>
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
@@ -69,9 +69,9 @@ std::optional<WalkForces> walk_forces(const Simulation& simulation, Entity entit
   return forces;
 }
 
-void add_muscle_rows(const Simulation& simulation, const Human& human, std::string_view method, MuscleTable& table) {
+void add_muscle_rows(const Simulation& simulation, const Person& person, std::string_view method, MuscleTable& table) {
   for (const Side side : {Side::right, Side::left}) {
-    for (const HumanMuscle& own : human.muscles) {
+    for (const PersonMuscle& own : person.muscles) {
       const Entity muscle = own.entity[side];
       const auto belly = simulation.get<BellyReport>(muscle);
       MuscleTableRow row{simulation.time_s(),
@@ -102,7 +102,7 @@ void tell_style_changes(const BodyRequest& body, const GaitRequest& asked, std::
 
 /// Notes what limits are not kept in this tick.
 void note_limits(const Simulation& simulation, Entity person, std::vector<LimitPassed>& passed) {
-  for (const BrokenLimit& broken : broken_limits(simulation.world(), person)) {
+  for (const LimitViolation& broken : limit_violations(simulation.world(), person)) {
     auto known = std::ranges::find(passed, broken.bound, [](const LimitPassed& limit) { return limit.furthest.bound; });
     if (known == passed.end()) known = passed.insert(known, {broken, simulation.time_s(), 0, 0});
     if (broken.value > known->furthest.value) known->furthest = broken;
@@ -126,7 +126,7 @@ Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std
     if (change.gait) {
       const auto done = simulation.set_gait(entity, *change.gait);
       if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
-      tell_style_changes(simulation.human(entity)->body.request, *change.gait, outcome.style_changes);
+      tell_style_changes(simulation.person(entity)->body.request, *change.gait, outcome.style_changes);
     }
     if (change.heading_rad) {
       const auto done = simulation.turn_to(entity, *change.heading_rad);
@@ -141,11 +141,11 @@ Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std
 }
 
 /// Begins to record each tick.
-WalkRecording begin_ticks(const Simulation& simulation, const Human& human) {
+WalkRecording begin_ticks(const Simulation& simulation, const Person& person) {
   WalkRecording ticks;
   ticks.frame_s = simulation.tick_s();
   ticks.start_s = simulation.time_s() + simulation.tick_s();
-  ticks.tip_m.assign(human.body.tip_m.begin(), human.body.tip_m.end());
+  ticks.tip_m.assign(person.body.tip_m.begin(), person.body.tip_m.end());
   return ticks;
 }
 
@@ -163,7 +163,7 @@ Result<DrawnSkin> own_legs(const BodySkin& skin, const Body& body, const Figure&
   return standing;
 }
 
-Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
+Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& figure, const WalkOptions& options,
                     const std::vector<ScriptedChange>& changes) {
   Walked walked{MotionTable(options.muscles.activation == ExcitationSource::moments),
                 MuscleTable(has_activation(options.muscles)),
@@ -174,25 +174,25 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
                 {},
                 {}};
   WalkOutcome& outcome = walked.outcome;
-  outcome.gait = human.gait;
+  outcome.gait = person.gait;
   outcome.anatomy_said = figure.said;
   tell_style_changes(options.body, options.gait, outcome.style_changes);
   walked.recording = begin_recording(figure, ticks_per_frame * simulation.tick_s());
   if (options.skin) {
-    const auto skin = make_body_skin(human.body, SkinDetail::near);
+    const auto skin = make_body_skin(person.body, SkinDetail::near);
     if (!skin) return tl::unexpected(skin.error());
-    auto own = own_legs(*skin, human.body, figure);
+    auto own = own_legs(*skin, person.body, figure);
     if (!own) return tl::unexpected(own.error());
     walked.recording.skin = recorded_skin(*skin, 1, own->own ? &*own->own : nullptr);
     if (own->own)
       walked.recording.skin.push_back(
-          recorded_own_skin(*own->bare, *own->own, own->own_position, own->own_normal, 1 + skin_parts));
+          recorded_custom_skin(*own->bare, *own->own, own->own_position, own->own_normal, 1 + skin_parts));
     walked.recording.standing_m = standing_of(*skin);
     walked.recording.colours = {ivory};
     for (const Colour& colour : skin_colours(0)) walked.recording.colours.push_back(linear_colour(colour));
     walked.recording.colours.push_back(walked.recording.colours[1]);  // of a skin of one's own
   }
-  walked.ticks = begin_ticks(simulation, human);
+  walked.ticks = begin_ticks(simulation, person);
   const bool all_ticks = std::ranges::any_of(options.exports, of_every_tick);
   const std::string method = method_label(options.muscles);
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
@@ -200,25 +200,26 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   std::uint32_t steps_before = 0;
   for (std::uint32_t i = 0; i < total; ++i) {
     if (options.script) {
-      auto done = apply_changes(changes, options.script->path, human.entity, simulation, outcome);
+      auto done = apply_changes(changes, options.script->path, person.entity, simulation, outcome);
       if (!done) return tl::unexpected(done.error());
     }
     const auto start = SteadyClock::now();
     simulation.tick();
     outcome.simulation_s += seconds_since(start);
-    const std::uint32_t steps = simulation.get<GaitState>(human.entity)->steps;
-    if (steps != steps_before) outcome.clamped_steps += simulation.get<StepPlan>(human.entity)->clamped;
+    const std::uint32_t steps = simulation.get<GaitState>(person.entity)->steps;
+    if (steps != steps_before) outcome.clamped_steps += simulation.get<StepPlan>(person.entity)->clamped;
     steps_before = steps;
-    note_limits(simulation, human.entity, outcome.limits_passed);
-    walked.motion.add(motion_row(simulation, human.entity), walk_forces(simulation, human.entity));
-    add_muscle_rows(simulation, human, method, walked.muscles);
-    if (all_ticks) record_tick(simulation, human.entity, walked.ticks);
+    note_limits(simulation, person.entity, outcome.limits_passed);
+    walked.motion.add(motion_row(simulation, person.entity), walk_forces(simulation, person.entity));
+    add_muscle_rows(simulation, person, method, walked.muscles);
+    if (all_ticks) record_tick(simulation, person.entity, walked.ticks);
     if (i % ticks_per_frame == 0) {
       show_progress("walking", i + std::size_t{1}, total);
-      record_frame(figure, simulation, human, walked.recording);
-      if (options.fat) walked.fat.push_back(shown_fat(body_size(human.body), *simulation.get<FatWobble>(human.entity)));
-      if (options.view == WalkView::stick) walked.action_line.push_back(action_lines(simulation, human));
-      if (options.view == WalkView::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, human));
+      record_frame(figure, simulation, person, walked.recording);
+      if (options.fat)
+        walked.fat.push_back(shown_fat(body_size(person.body), *simulation.get<FatWobble>(person.entity)));
+      if (options.view == WalkView::stick) walked.action_line.push_back(action_lines(simulation, person));
+      if (options.view == WalkView::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, person));
     }
   }
   outcome.ticks = simulation.ticks();
@@ -238,11 +239,12 @@ void print_said(const std::vector<std::string>& said, const WalkOptions& options
   fmt::print("anatomy: {} more such lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
 }
 
-Result<void> write_results(const Walked& walked, const Simulation& simulation, const Human& human, const Figure& figure,
-                           const WalkOptions& options, SteadyClock::time_point start, OutputFolder& results) {
+Result<void> write_results(const Walked& walked, const Simulation& simulation, const Person& person,
+                           const Figure& figure, const WalkOptions& options, SteadyClock::time_point start,
+                           OutputFolder& results) {
   const auto& folder = results.inside();
   if (options.frames || options.video) {  // first, as they may lack a driver or a program
-    const WalkDrawing drawing{&walked.recording,  &human.body,      &figure,
+    const WalkDrawing drawing{&walked.recording,  &person.body,     &figure,
                               walked.action_line, walked.mesh_edge, walked.fat};
     const std::size_t frames = walked.recording.frames.size();
     auto done = write_pictures(drawing, options, folder, [&](std::size_t i) { show_progress("pictures", i, frames); });
@@ -264,11 +266,11 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   }
   WalkOutcome outcome = walked.outcome;
   outcome.wall_s = seconds_since(start);
-  const auto summary = summary_json(options, simulation, human, outcome, exported->muscles);
+  const auto summary = summary_json(options, simulation, person, outcome, exported->muscles);
   if (auto done = write_file(folder / "summary.json", summary); !done) return done;
   if (auto done = results.put("frame_"); !done) return done;
 
-  for (const std::string& note : body_notes(human.body)) fmt::print("note: {}\n", note);
+  for (const std::string& note : body_notes(person.body)) fmt::print("note: {}\n", note);
   print_said(outcome.anatomy_said, options);
   fmt::print("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", outcome.simulated_s,
              outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
@@ -288,7 +290,7 @@ Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
   if (!entity) return tl::unexpected(entity.error());
   std::vector<ScriptedChange> changes;
   if (options.script) {
-    auto planned = plan_changes(*options.script, simulation.human(*entity)->body, options.gait);
+    auto planned = plan_changes(*options.script, simulation.person(*entity)->body, options.gait);
     if (!planned) return fail(fmt::format("--script {}", planned.error().message));
     changes = std::move(*planned);
   }
@@ -296,10 +298,10 @@ Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
   if (options.fat) simulation.enable({&*entity, 1}, Feature::fat);
   auto added = simulation.set_muscles(*entity, options.muscles);
   if (!added) return added;
-  const Human human = *simulation.human(*entity);
-  set_edges(options.ground, human.body.request.height_m, human.gait.step_length_m);
+  const Person person = *simulation.person(*entity);
+  set_edges(options.ground, person.body.request.height_m, person.gait.step_length_m);
   const auto figure =
-      options.anatomy ? read_figure(human, *options.anatomy, options.contact) : make_figure(human, options.contact);
+      options.anatomy ? read_figure(person, *options.anatomy, options.contact) : make_figure(person, options.contact);
   if (!figure) return tl::unexpected(figure.error());
   auto results = OutputFolder::make(options.out);
   if (!results) return tl::unexpected(results.error());
@@ -309,11 +311,11 @@ Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
       for (std::size_t i = 0; i < at.size(); ++i) out[i] = options.ground.at(at[i].x_m, at[i].z_m);
     };
     simulation.terrain().set_heights(heights);
-    simulation.terrain().set_options({.slows_down = options.slow_down});
+    simulation.terrain().set_options({.slows_down = options.scale_speed});
     if (auto done = simulation.terrain().manage({&*entity, 1}); !done) return done;
   }
-  const auto walked = walk(simulation, human, *figure, options, changes);
-  auto done = walked ? write_results(*walked, simulation, human, *figure, options, start, *results)
+  const auto walked = walk(simulation, person, *figure, options, changes);
+  auto done = walked ? write_results(*walked, simulation, person, *figure, options, start, *results)
                      : Result<void>(tl::unexpected(walked.error()));
   if (!done) show("");
   if (done && changes.size() > walked->outcome.changes) {
@@ -332,7 +334,7 @@ Subcommand walk_command(FigureReader read_figure) {
                    "\n\n" + walk_exports_help +
                    "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
                    "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10\n"
-                   "          mobil walk --method caa --inertia --view wireframe --video\n"
+                   "          mobil walk --method newmark --inertia --view wireframe --video\n"
                    "          mobil walk --speed 5km/h --export walk.bvh --export walk.usda --export walk.mot --export "
                    "walk.sto\n"
                    "          mobil walk --ground stairs:16cm/30cm --view skin --video";

@@ -9,7 +9,7 @@
 namespace mobil {
 
 /// Makes a figure of the real meshes in a folder (demo/anatomy/real_figure.h).
-using FigureReader = Result<Figure> (*)(const Human& human, const std::filesystem::path& folder, bool contact);
+using FigureReader = Result<Figure> (*)(const Person& person, const std::filesystem::path& folder, bool contact);
 
 /// Without a reader, `--anatomy` must not get this far: mobil runs mobil-crowd for it.
 Subcommand walk_command(FigureReader read_figure);

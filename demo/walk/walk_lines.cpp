@@ -5,7 +5,7 @@
 
 #include <mobil/engine/geometry.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/body_surfaces.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 
@@ -36,8 +36,8 @@ std::vector<std::array<std::uint32_t, 2>> boundary_edges(const Cells& cells) {
 
 /// Calls f(plan, entity, side, line) for every muscle that is there.
 template <class F>
-void for_each_muscle(const Simulation& simulation, const Human& human, F&& f) {
-  for (const HumanMuscle& own : human.muscles) {
+void for_each_muscle(const Simulation& simulation, const Person& person, F&& f) {
+  for (const PersonMuscle& own : person.muscles) {
     for (const Side side : {Side::right, Side::left}) {
       const auto line = simulation.get<LineOfAction>(own.entity[side]);
       if (line) f(own.plan, own.entity[side], side, *line);
@@ -47,9 +47,9 @@ void for_each_muscle(const Simulation& simulation, const Human& human, F&& f) {
 
 }  // namespace
 
-std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Human& human) {
+std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Person& person) {
   std::vector<Vec3<float>> ends;
-  for_each_muscle(simulation, human,
+  for_each_muscle(simulation, person,
                   [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
                     const float rest = static_cast<float>(plan.belly_length_m);
                     ends.push_back(to_world(line, side, {0, 0, 0}));
@@ -60,22 +60,22 @@ std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Human&
   return ends;
 }
 
-std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Human& human) {
+std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Person& person) {
   std::vector<Vec3<float>> ends;
-  for_each_muscle(simulation, human,
+  for_each_muscle(simulation, person,
                   [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
                     const NodalView moved = nodal_displacement(simulation.world(), muscle);
                     if (moved.first == nullptr) return;  // a line alone
-                    const auto mesh = rest_mesh(human.body, plan.muscle, human.leg_muscles.cells);
+                    const auto mesh = rest_mesh(person.body, plan.muscle, person.leg_muscles.cells);
                     if (!mesh) return;
                     const auto node = [&](std::uint32_t n) {
-                      const auto& rest = mesh->cage.node[n];
+                      const auto& rest = mesh->lattice.node[n];
                       const float* u = moved.first + std::size_t{3} * n * lane_count;
                       return to_world(line, side,
                                       {static_cast<float>(rest.x) + u[0], static_cast<float>(rest.y) + u[lane_count],
                                        static_cast<float>(rest.z) + u[2 * lane_count]});
                     };
-                    for (const auto& [from, to] : boundary_edges(mesh->cage.cells)) {
+                    for (const auto& [from, to] : boundary_edges(mesh->lattice.cells)) {
                       ends.push_back(node(from));
                       ends.push_back(node(to));
                     }

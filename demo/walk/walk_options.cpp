@@ -30,20 +30,20 @@ constexpr std::string_view walk_activations[] = {"none", "phase", "moments"};
 constexpr ExcitationSource walk_sources[] = {ExcitationSource::none, ExcitationSource::phase,
                                              ExcitationSource::moments};
 
-/// "groups", "members" and names of the table, separated by commas.
+/// "groups", "single" and names of the table, separated by commas.
 Result<MuscleSet> read_muscles(const std::string& text) {
   MuscleSet set;
   for (const std::string& name : split(text, ',')) {
     if (name == "groups") {
       set |= muscle_groups();
-    } else if (name == "members") {
+    } else if (name == "single" || name == "members") {
       set |= muscle_members();
     } else if (const auto muscle = find_muscle(name)) {
       set.set(static_cast<std::size_t>(*muscle));
     } else {
       std::string known;
       for (const MuscleRow& row : muscles()) known += fmt::format(", {}", row.name);
-      return fail(fmt::format("--muscles '{}': '{}' is none of groups, members{}", text, name, known));
+      return fail(fmt::format("--muscles '{}': '{}' is none of groups, single{}", text, name, known));
     }
   }
   return set;
@@ -115,9 +115,10 @@ Result<void> write_export(const WalkExport& wanted, const WalkRecording& picture
 const char* const walk_muscles_help =
     "Muscles: a belly is a block of elements in the frame of its line of action.\n"
     "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles that act alike,\n"
-    "    and cheap; members are the thirteen muscles on their own, for close views; others are not simulated.\n"
-    "  --method ecd: explicit, in steps short enough for each belly; icd: the same with the consistent mass;\n"
-    "    caa: implicit, one step a tick; static: no vibration at all; reduced: a few vectors of a finer mesh, the\n"
+    "    and cheap; single are the thirteen muscles on their own, for close views; others are not simulated.\n"
+    "  --method explicit-central: explicit, in steps short enough for each belly; implicit-central: the same with the "
+    "consistent mass;\n"
+    "    newmark: implicit, one step a tick; static: no vibration at all; modal: a few modes of a finer mesh, the\n"
     "    cheapest that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the\n"
     "    steps taken.\n"
     "    finite: for close-ups; tissue that keeps its volume, whose fibres pull (--activation phase), on 425 nodes.\n"
@@ -125,7 +126,7 @@ const char* const walk_muscles_help =
     "    line share each one's length, and the belly gets what the tendon leaves; muscles.csv has them. moments:\n"
     "    excited so that they make the walk's own moments at hip, knee and ankle as costs least; motion.csv has the "
     "rest.\n"
-    "  --tuned: of --method reduced; how hard a muscle pulls stiffens and damps what shakes it, as in people.\n"
+    "  --tuned: of --method modal; how hard a muscle pulls stiffens and damps what shakes it, as in people.\n"
     "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7\n"
     "    Hz); without it they move by the line's pull alone.\n";
 
@@ -143,24 +144,25 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--seconds", &text.seconds, "How long to walk, 0.1s to 60s", gait},
       {"--ground", &text.ground, "level, slope:10%, cross:10%, hills:20cm, kerb:15cm or stairs:16cm/30cm, see below",
        gait},
-      {"--slow-down", &text.slow_down, "On slopes and stairs, as people do, and go on as asked where it is level",
+      {"--slow-down", &text.scale_speed, "On slopes and stairs, as people do, and go on as asked where it is level",
        gait},
       {"--no-forces", &text.no_forces, "Leave ground reactions and joint moments out: empty cells in motion.csv", gait},
       {"--muscles", &text.muscles,
-       "groups, members, or names like hamstrings,soleus: which muscles of both legs are simulated", muscles},
-      {"--members", &text.members, "The single muscles too, beside those of --muscles", muscles},
+       "groups, single, or names like hamstrings,soleus: which muscles of both legs are simulated", muscles},
+      {"--single-muscles", &text.single_muscles, "The single muscles too, beside those of --muscles", muscles},
       {"--drive", &text.drive,
        "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it", muscles,
        words_of(drives)},
-      {"--method", &text.method, "How muscles move: ecd, icd, caa, static, reduced, finite or none, see below", muscles,
-       words_of(method_name)},
+      {"--method", &text.method,
+       "How muscles move: explicit-central, implicit-central, newmark, static, modal, finite or none, see below",
+       muscles, words_of(method_name)},
       {"--element", &text.element,
        "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness", muscles,
        words_of(element_name)},
       {"--activation", &text.activation,
        "phase: muscles pull as people's do at that part of the gait cycle, and tendons stretch; moments; none", muscles,
        words_of(walk_activations)},
-      {"--tuned", &text.tuned, "Tension stiffens and damps vibration; with --activation phase, --method reduced",
+      {"--tuned", &text.tuned, "Tension stiffens and damps vibration; with --activation phase, --method modal",
        muscles},
       {"--inertia", &text.inertia, "Muscles feel gravity and the leg's acceleration, see below", muscles},
       {"--anatomy", &text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv", pictures},
@@ -213,7 +215,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.gait.step_length_m = optional("--step-length", text.step_length, Quantity::length, 3);
   options.gait.step_frequency_hz = optional("--step-frequency", text.step_frequency, Quantity::frequency, 10);
   options.ground = read(read_walk_ground(text.ground));
-  options.slow_down = text.slow_down;
+  options.scale_speed = text.scale_speed;
   if (options.ground.kind == GroundKind::stairs && !options.gait.step_length_m) {
     options.gait.step_length_m = options.ground.tread_m;
     constexpr float usual_hz = 1.8F;  // of people on stairs
@@ -232,7 +234,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
 
   options.muscles.muscles = read(read_muscles(text.muscles));
   options.muscles.line_motion = true;
-  if (text.members) options.muscles.muscles |= muscle_members();
+  if (text.single_muscles) options.muscles.muscles |= muscle_members();
   options.muscles.drive = read(choose<Drive>("--drive", text.drive, drives));
   options.muscles.method = read(choose<Method>("--method", text.method, method_name));
   if (options.muscles.method == Method::finite) options.muscles.cells = close_up_cells;
@@ -243,9 +245,9 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
     read.refuse("--activation draws the belly's end to a place; leave --drive force out, or --activation");
   if (options.muscles.activation == ExcitationSource::moments && !options.forces)
     read.refuse("--activation moments follows the moments at the joints; leave --no-forces out, or choose phase");
-  options.muscles.reduced.tuned = text.tuned;
-  if (text.tuned && (!has_activation(options.muscles) || options.muscles.method != Method::reduced))
-    read.refuse("--tuned is of reduced muscles that pull: add --activation phase --method reduced, or leave it out");
+  options.muscles.modal.tuned = text.tuned;
+  if (text.tuned && (!has_activation(options.muscles) || options.muscles.method != Method::modal))
+    read.refuse("--tuned is of modal muscles that pull: add --activation phase --method modal, or leave it out");
   options.muscles.inertia = text.inertia;
   options.view = read(choose<WalkView>("--view", text.view, views));
   const bool shows_skin = options.view == WalkView::skin || options.view == WalkView::glass;

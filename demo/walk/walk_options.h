@@ -40,7 +40,7 @@ struct WalkOptions {
   std::optional<WalkScript> script;
   double seconds = 5;
   WalkGround ground;
-  bool slow_down = false;
+  bool scale_speed = false;
   LegMuscles muscles;
   bool forces = true;  // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
@@ -55,12 +55,13 @@ struct WalkOptions {
 struct WalkText {
   BodyText body;
   std::string speed, step_length, step_frequency, seconds = "5";
-  std::string muscles = "groups", drive = "displacement", method = "ecd", element = "full", activation = "none",
-              anatomy, view = "surface", out = "out";
+  std::string muscles = "groups", drive = "displacement", method = "explicit-central", element = "full",
+              activation = "none", anatomy, view = "surface", out = "out";
   std::string eye_distance = "63mm";
   std::vector<std::string> set, exports;
   std::string script, ground = "level";
-  bool list_parameters = false, slow_down = false, no_forces = false, members = false, tuned = false, inertia = false;
+  bool list_parameters = false, scale_speed = false, no_forces = false, single_muscles = false, tuned = false,
+       inertia = false;
   bool skin = false, fat = false, contact = false, frames = false, video = false, stereo = false;
 };
 

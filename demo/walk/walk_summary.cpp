@@ -6,8 +6,8 @@
 #include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/muscles/human.h>
 #include <mobil/systems/muscles/muscle_step.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "demo/program/json.h"
 
@@ -19,17 +19,17 @@ double decimal(float value) {
   return std::stod(fmt::format("{}", value));
 }
 
-Json muscles_json(const Simulation& simulation, const Human& human) {
+Json muscles_json(const Simulation& simulation, const Person& person) {
   Json muscles = Json::array();
-  for (const HumanMuscle& own : human.muscles) {
+  for (const PersonMuscle& own : person.muscles) {
     for (const Side side : {Side::right, Side::left}) {
       const Entity entity = own.entity[side];
       const auto line = simulation.get<LineOfAction>(entity);
       if (!line) continue;
       const Method method = own.method.method;
-      const bool stepped =
-          method == Method::ecd || method == Method::icd || method == Method::caa || method == Method::finite;
-      const bool limited = stepped && method != Method::caa;
+      const bool stepped = method == Method::explicit_central || method == Method::implicit_central ||
+                           method == Method::newmark || method == Method::finite;
+      const bool limited = stepped && method != Method::newmark;
       const World& world = simulation.world();
       const std::uint64_t steps = world.get<Substeps>(entity).value_or(
           world.get<SolvedSteps>(entity).value_or(world.get<FiniteSteps>(entity).value_or(1)));
@@ -39,7 +39,7 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
                          {"side", side == Side::right ? "right" : "left"},
                          {"method", method_name[static_cast<std::size_t>(method)]},
                          {"nodes", nodal_displacement(simulation.world(), entity).nodes},
-                         {"vectors", method == Method::reduced ? Json(own.method.reduced.vectors) : Json()},
+                         {"modes", method == Method::modal ? Json(own.method.modal.modes) : Json()},
                          {"rest_length_m", line->rest_length_m},
                          {"belly_length_m", plan.belly_length_m},
                          {"section_m2", plan.section_m2},
@@ -54,16 +54,16 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
 
 }  // namespace
 
-std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Human& human,
+std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Person& person,
                          const WalkOutcome& outcome, const std::vector<MuscleFidelity>& exported) {
-  const BodyRequest& body = human.body.request;
+  const BodyRequest& body = person.body.request;
   Json summary;
   summary["body"] = {{"height_m", decimal(body.height_m)},
                      {"mass_kg", decimal(body.mass_kg)},
                      {"biotype", {decimal(body.biotype.endo), decimal(body.biotype.meso), decimal(body.biotype.ecto)}},
                      {"constitution", constitution_name[static_cast<std::size_t>(body.constitution)]},
-                     {"hip_height_m", decimal(human.body.hip_height_m)},
-                     {"notes", body_notes(human.body)}};
+                     {"hip_height_m", decimal(person.body.hip_height_m)},
+                     {"notes", body_notes(person.body)}};
   Json parameters = Json::object();
   for (const GaitParameter& p : gait_parameters) parameters[std::string(p.name)] = decimal(outcome.gait.style.*p.value);
   Json changes = Json::array();
@@ -120,7 +120,7 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
                      {"command_wall_s", outcome.wall_s},
                      {"stages", stages}};
   summary["systems"] = cost;
-  summary["muscles"] = muscles_json(simulation, human);
+  summary["muscles"] = muscles_json(simulation, person);
   Json glb = Json::array();
   for (const auto& muscle : exported) {
     glb.push_back({{"name", muscle.name},

@@ -4,22 +4,22 @@
 #include <mobil/gltf_writer.h>
 #include <mobil/schedule.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/limits/limit_watch.h>
+#include <mobil/systems/limits/limit_monitor.h>
 #include <mobil/systems/limits/style_limits.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "demo/walk/walk_options.h"
 
 namespace mobil {
 
 /// A limit of joints, ground or pelvis that the walk went beyond as it changed: furthest, and when.
 struct LimitPassed {
-  BrokenLimit furthest;
+  LimitViolation furthest;
   double first_s, last_s;
   std::uint32_t ticks;
 };
 
 struct WalkOutcome {
-  decltype(Human::gait) gait{};            // at the start
+  decltype(Person::gait) gait{};           // at the start
   std::size_t changes = 0;                 // of the script that fell within the walk
   std::uint32_t clamped_steps = 0;         // that no forces within bounds make as asked
   std::vector<StyleChange> style_changes;  // what of the styles asked for, the script's too, was moved
@@ -33,7 +33,7 @@ struct WalkOutcome {
 };
 
 /// The whole file as text.
-std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Human& human,
+std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Person& person,
                          const WalkOutcome& outcome, const std::vector<MuscleFidelity>& exported);
 
 }  // namespace mobil

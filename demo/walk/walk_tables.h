@@ -37,7 +37,8 @@ struct MotionTable {
   std::string text;
 };
 
-/// The method column: ecd, icd, caa, static, reduced or none; where the end is pulled ecd_force and so on.
+/// The method column: explicit-central, implicit-central, newmark, static, modal or none; where the end is pulled
+/// explicit-central_force and so on.
 std::string method_label(const LegMuscles& muscles);
 
 /// What a row of muscles.csv tells of one muscle.

@@ -7,5 +7,5 @@ const [, , folder, out] = process.argv;
 const { METHODS, load } = await import(path.resolve(folder, 'mobil.js'));
 const mobil = await load(new Uint8Array(readFileSync(path.join(folder, 'mobil.wasm'))), true);
 const world = mobil.world();
-world.prepare({ method: METHODS.reduced, vectors: 12, control_points: 1, reported: 1 });
+world.prepare({ method: METHODS.modal, modes: 12, control_points: 1, reported: 1 });
 writeFileSync(out, world.bake());

@@ -27,9 +27,9 @@ function bench(name, count, muscles) {
   if (!muscles) time(`matrices of ${count}`, () => world.matrices(people));
   world.destroy();
 }
-const reduced = { method: METHODS.reduced, vectors: 12 };
-bench('one person, eight muscles, explicit', 1, { method: METHODS.ecd });
-bench('one person, reduced, control points', 1, { ...reduced, control_points: 1 });
+const modal = { method: METHODS.modal, modes: 12 };
+bench('one person, eight muscles, explicit', 1, { method: METHODS.explicit_central });
+bench('one person, modal, control points', 1, { ...modal, control_points: 1 });
 bench('1000 people, bones', 1000, null);
-bench('1000 people, reduced, unseen', 1000, { ...reduced, control_points: 0 });
-bench('1000 people, reduced, control points', 1000, { ...reduced, control_points: 1 });
+bench('1000 people, modal, unseen', 1000, { ...modal, control_points: 0 });
+bench('1000 people, modal, control points', 1000, { ...modal, control_points: 1 });

@@ -32,12 +32,12 @@ def bench(name, count, muscles):
     timed(name, world.tick)
 
 
-def reduced(points):
-    return mobil.muscles(method="reduced", vectors=12, control_points=points)
+def modal(points):
+    return mobil.muscles(method="modal", modes=12, control_points=points)
 
 
-bench("one person, eight muscles, explicit", 1, mobil.muscles(method="ecd"))
-bench("one person, reduced, control points", 1, reduced(1))
+bench("one person, eight muscles, explicit", 1, mobil.muscles(method="explicit_central"))
+bench("one person, modal, control points", 1, modal(1))
 bench("1000 people, bones", 1000, None)
-bench("1000 people, reduced, unseen", 1000, reduced(0))
-bench("1000 people, reduced, control points", 1000, reduced(1))
+bench("1000 people, modal, unseen", 1000, modal(0))
+bench("1000 people, modal, control points", 1000, modal(1))

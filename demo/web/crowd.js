@@ -68,7 +68,7 @@ export class Crowd {
     this.people = world.spawn(this.asked.map((r) => (clear ? { ...r, speed_m_s: 0 } : r)));
     if (clear) {
       world.avoidance.manage(this.people);
-      world.avoidance.want(this.people, this.asked.map((r) => [r.speed_m_s, r.heading_rad]));
+      world.avoidance.setDesiredVelocity(this.people, this.asked.map((r) => [r.speed_m_s, r.heading_rad]));
     }
     const { geometry, looks } = this.#geometry(figure, height_m);
     this.looks = looks;
@@ -150,7 +150,7 @@ export class Crowd {
     const asked = this.asked[i];
     if (asked.heading_rad === heading_rad) return;
     asked.heading_rad = heading_rad;
-    this.world.avoidance.want(this.people.slice(i), [[asked.speed_m_s, heading_rad]]);
+    this.world.avoidance.setDesiredVelocity(this.people.slice(i), [[asked.speed_m_s, heading_rad]]);
   }
   pose(x, z) {
     const matrices = this.texture.image.data;

@@ -42,9 +42,9 @@ class Page {
 
   // ---- One person
   #muscles() {
-    const { scene } = this, reduced = scene.methods.includes('reduced');
+    const { scene } = this, modal = scene.methods.includes('modal');
     return {
-      method: METHODS[scene.methods[0]], vectors: reduced ? scene.vectors : undefined, control_points: 1, reported: 1,
+      method: METHODS[scene.methods[0]], modes: modal ? scene.modes : undefined, control_points: 1, reported: 1,
       activation: [c.MOBIL_NO_ACTIVATION, c.MOBIL_BY_PHASE, c.MOBIL_BY_MOMENTS][scene.pull], inertia: scene.inertia,
     };
   }
@@ -55,7 +55,7 @@ class Page {
   }
   setMethod(i, person = this.person) {
     const method = METHODS[this.scene.methods[i]];
-    this.world.setMethod(person, i, { method, vectors: this.scene.vectors, control_points: 1, reported: 1 });
+    this.world.setMethod(person, i, { method, modes: this.scene.modes, control_points: 1, reported: 1 });
   }
   /** A new body; all or nothing. */
   respawn() {
@@ -108,7 +108,7 @@ class Page {
   #chosenWays() {
     return groups.map((_, i) => {
       const has = this.world.method(this.person, i);
-      return this.ways[i].find((way) => way.method === has.method && (has.method !== METHODS.reduced || (way.vectors === has.vectors && !!way.moving === !!has.moving)))?.name ?? '';
+      return this.ways[i].find((way) => way.method === has.method && (has.method !== METHODS.modal || (way.modes === has.modes && !!way.moving === !!has.moving)))?.name ?? '';
     });
   }
 
@@ -128,7 +128,7 @@ class Page {
   }
   #keepClear() {
     this.world.avoidance.manage(this.person);
-    this.world.avoidance.want(this.person, [[this.scene.speed / 3.6, 0]]);
+    this.world.avoidance.setDesiredVelocity(this.person, [[this.scene.speed / 3.6, 0]]);
   }
   grounded() {
     const { world, scene } = this, everybody = [this.person, this.crowd?.people].filter(Boolean);
@@ -252,7 +252,7 @@ class Page {
     choice('walk', { id: 'ground', name: 'ground', title: 'what everybody walks on', holder: scene, key: 'ground', options: groundNames, numbers: true, act: () => this.grounded() });
     toggle('walk', { id: 'slow', name: 'slow down', title: 'on slopes and stairs', holder: scene, key: 'slow', act: () => this.world.terrain.setSlowing(!!scene.slow) });
     groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'how it is simulated', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
-    slider('muscles', { id: 'vectors', name: 'vectors', title: 'of reduced muscles', holder: scene, key: 'vectors', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'reduced' && this.setMethod(i)); } });
+    slider('muscles', { id: 'modes', name: 'modes', title: 'of modal muscles', holder: scene, key: 'modes', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'modal' && this.setMethod(i)); } });
     choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: anew });
     toggle('muscles', { id: 'inertia', name: 'inertia', title: 'muscles feel gravity and how their bones move', holder: scene, key: 'inertia', act: anew });
     toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.enable(this.person, FEATURES.forces, !!scene.forces || scene.pull === 2) });

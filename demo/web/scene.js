@@ -1,12 +1,12 @@
 // What the page shows, as plain values, and as the address that holds them. What is usual is not written.
 export const usual = {
   height: 1.8, mass: 80, build: 2, speed: 5, step: 0, style: {},
-  methods: ['reduced', 'reduced', 'reduced', 'reduced'], vectors: 12, pull: 0, inertia: 0, forces: 1,
+  methods: ['modal', 'modal', 'modal', 'modal'], modes: 12, pull: 0, inertia: 0, forces: 1,
   ground: 0, slow: 1, crowd: 60, clear: 0, choose: 0, tolerance: 1, budget: 0, heat: 0,
 };
-export const methodNames = ['ecd', 'icd', 'caa', 'static', 'reduced', 'finite', 'none'];
+export const methodNames = ['explicit_central', 'implicit_central', 'newmark', 'static', 'modal', 'finite', 'none'];
 
-/** From `?height=1.7&methods=ecd,ecd,caa,none&style.arm_swing=1.2`; what is not a number, or unknown, stays as usual. */
+/** From `?height=1.7&methods=explicit_central,explicit_central,newmark,none&style.arm_swing=1.2`; what is not a number, or unknown, stays as usual. */
 export function fromAddress(query) {
   const scene = structuredClone(usual);
   for (const [name, text] of new URLSearchParams(query)) {

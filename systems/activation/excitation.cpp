@@ -13,8 +13,8 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 void excite_all(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes<float>* member) {
   const Wide asked = load(clock.speed), zero = wide(0.0F);
   const Wide moving = select(asked > zero, asked, zero);  // not where it is NaN
-  const Wide speed = clamp(moving, least_excitation_speed, most_excitation_speed);
-  const Wide walks = min(moving * (1 / least_excitation_speed), 1.0F);
+  const Wide speed = clamp(moving, min_excitation_speed, max_excitation_speed);
+  const Wide walks = min(moving * (1 / min_excitation_speed), 1.0F);
   Wide wave[excitation_terms];
   wave[0] = wide(1.0F);
   sin_cos(load(clock.cycle) * 6.28318531F, wave[2], wave[1]);
@@ -32,8 +32,8 @@ void excite_all(const RowExcitation& row, const LegClock<Lanes<float>>& clock, L
     }
     const Wide standing = wide(row.member[m].standing);
     const Wide level = fma(walks, excitation_scale * sum - standing, standing);
-    const Wide least = wide(least_activation);
-    store(select(level > least, min(level, most_activation), least), member[m]);
+    const Wide least = wide(min_activation);
+    store(select(level > least, min(level, max_activation), least), member[m]);
   }
 }
 
@@ -67,7 +67,7 @@ void excite(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes
 }
 
 void set_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                const GaitState<Lanes<float>>& state, LegPost* posts) {
+                const GaitState<Lanes<float>>& state, PublishedLeg* posts) {
   LegClock<Lanes<float>> stance;
   HWY_DYNAMIC_DISPATCH(find_clocks)(size, plan, state, stance);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {

@@ -16,7 +16,7 @@ namespace mobil::inline v0_3 {
 
 /// How the members of a row are excited, in its order.
 struct RowExcitation {
-  std::array<MemberExcitation, most_row_members> member;
+  std::array<MemberExcitation, max_row_members> member;
   std::size_t members;
 };
 RowExcitation row_excitation(Muscle muscle);
@@ -27,6 +27,6 @@ void excite(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes
 
 /// Both legs' clocks of sixteen walkers.
 void set_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                const GaitState<Lanes<float>>& state, LegPost* posts);
+                const GaitState<Lanes<float>>& state, PublishedLeg* posts);
 
 }  // namespace mobil::inline v0_3

@@ -51,7 +51,7 @@ struct Pull {
 };
 
 HWY_INLINE Wide in_range(const Wide& x) {
-  return min(max(x, wide(least_activation)), wide(most_activation));
+  return min(max(x, wide(min_activation)), wide(max_activation));
 }
 
 /// The step, as far as it changes no activation by more than `most`.
@@ -80,7 +80,7 @@ HWY_INLINE Dual dual_at(const Three& y, const Three& moments, const Pull* pull, 
     const Wide force = a * pull[i].active;
     at.value = fma(force, fnma(wide(0.5F), a / pull[i].per_y, along), at.value);
     at.left = fma_three(-force, arm[i], at.left);
-    const WideMask free = (wanted > wide(least_activation)) & (wanted < wide(most_activation));
+    const WideMask free = (wanted > wide(min_activation)) & (wanted < wide(max_activation));
     const Wide k = select(free, pull[i].per_y * pull[i].active, zero);
     const Three scaled = {k * arm[i].x, k * arm[i].y, k * arm[i].z};
     at.slope.xx = fma(scaled.x, arm[i].x, at.slope.xx);
@@ -149,7 +149,7 @@ void share_all(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m
       const Wide wanted = pull[i].per_y * dot(arm[i], y);
       asked[i] = fma(in_range(wanted), pull[i].active, passive[i]) / load(design.member[i].force_n);
       force[i] = 0.5F * (force[i] + asked[i]);  // the longer a tendon, the less a fibre can: else rounds go to and fro
-      full = full + select(wanted >= wide(most_activation), one, zero);
+      full = full + select(wanted >= wide(max_activation), one, zero);
     }
   }
   Three left = loaded(moments_nm);

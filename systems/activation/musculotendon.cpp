@@ -81,7 +81,7 @@ HWY_INLINE Wide risen(const Wide& activation, const Wide& excitation, float tick
 
 /// NaN becomes the least: so a lane recovers.
 HWY_INLINE Wide within_range(const Wide& x) {
-  return select(x > wide(least_activation), min(x, most_activation), wide(least_activation));
+  return select(x > wide(min_activation), min(x, max_activation), wide(min_activation));
 }
 
 struct Sums {
@@ -105,7 +105,7 @@ HWY_INLINE void add(const MemberDesign<Lanes<float>>& design, const Fibre& fibre
 
 HWY_INLINE Fibre fibre_of(const MemberDesign<Lanes<float>>& design, const Wide& path) {
   const Wide optimal = load(design.fibre_m), slack = load(design.tendon_m), over = wide(1.0F) / optimal;
-  return {over * load(design.height_m), over * slack, over * path, optimal / slack, wide(least_activation)};
+  return {over * load(design.height_m), over * slack, over * path, optimal / slack, wide(min_activation)};
 }
 
 /// `tick_s` 0: at rest.

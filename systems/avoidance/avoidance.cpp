@@ -14,30 +14,30 @@
 #include <mobil/engine/access.h>
 #include <mobil/engine/table_list.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "assets/gait/slope_pace.h"
 #include "engine/row_hash.h"
 #include "systems/avoidance/choice.h"
 #include "systems/avoidance/narrow.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
-#include "systems/people/by_table.h"
+#include "systems/people/group_by_table.h"
 #include "systems/states/person_states.h"
 
 namespace mobil::inline v0_3 {
 
 /// What the host gave, and what choosing works in, which lies in the simulation's workspace.
 struct AvoidanceWork {
-  explicit AvoidanceWork(std::pmr::memory_resource* memory) : tables({type_id<Course<float>>()}, memory) {}
+  explicit AvoidanceWork(std::pmr::memory_resource* memory) : tables({type_id<AvoidanceState<float>>()}, memory) {}
 
   TableList tables;
   AvoidanceOptions options;
   std::vector<BoxedWall> walls;
   std::vector<Disc> discs;
   AvoidanceReport report;
-  ClaimBook book;
+  ReservationBook book;
   std::vector<Chosen> chosen;             // by striker
-  std::vector<std::uint32_t> striker_of;  // by claim, of who goes off it
+  std::vector<std::uint32_t> striker_of;  // by reservation, of who goes off it
   std::vector<char> gives_way;            // by striker
 
   static constexpr std::uint32_t nobody = 0xFFFFFFFFU;
@@ -67,15 +67,15 @@ const AvoidanceReport& Avoidance::report() const {
 
 /// What somebody begins with: they go on as they were asked to, on level ground; who is managed already as they wish,
 /// their shoulders as they are.
-static Course<float> first_course(const World& world, const AvoidanceOptions& options, Entity human) {
-  const float height = world.get<BodySize>(human)->height_m;
-  const auto before = world.get<Course>(human);
-  Course<float> course = before.value_or(Course<float>{});
+static AvoidanceState<float> first_course(const World& world, const AvoidanceOptions& options, Entity person) {
+  const float height = world.get<BodySize>(person)->height_m;
+  const auto before = world.get<AvoidanceState>(person);
+  AvoidanceState<float> course = before.value_or(AvoidanceState<float>{});
   course.radius_m = options.radius_h * height;
   course.shoulders_m = options.shoulders_h * height;
   if (before) return course;
-  const Gait<float> gait = *world.get<Gait>(human);
-  const LevelWalk asked = level_walk(gait, world.get<Footing>(human).value_or(Footing<float>{}));
+  const Gait<float> gait = *world.get<Gait>(person);
+  const LevelWalk asked = level_walk(gait, world.get<Footing>(person).value_or(Footing<float>{}));
   course.speed_m_s = asked.speed_m_s;
   course.heading_rad = gait.heading_rad;
   course.usual = 1;
@@ -86,42 +86,43 @@ static Course<float> first_course(const World& world, const AvoidanceOptions& op
   return course;
 }
 
-Result<void> Avoidance::manage(Entity human) {
-  return manage(std::span(&human, 1));
+Result<void> Avoidance::manage(Entity person) {
+  return manage(std::span(&person, 1));
 }
 
 Result<void> Avoidance::manage(std::span<const Entity> people) {
   World& world = frame_.world;
   const Jobs& jobs = frame_.jobs;
-  if (!world.alive_once(people) || !std::ranges::all_of(people, [&](Entity human) { return is_person(world, human); }))
+  if (!world.alive_once(people) ||
+      !std::ranges::all_of(people, [&](Entity person) { return is_person(world, person); }))
     return fail("Avoidance: that person is not there (a stale handle), or is named twice", Status::stale_entity);
   std::vector<Entity> asleep;
-  for (const Entity human : people) {
-    if (is_posed(world, human))
+  for (const Entity person : people) {
+    if (is_posed(world, person))
       return fail("Avoidance: this person's host animates the skeleton; hand them over as discs", Status::missing);
-    if (is_asleep(world, human)) asleep.push_back(human);
+    if (is_asleep(world, person)) asleep.push_back(person);
   }
   const AvoidanceOptions& options = work().options;
-  World::Attempt attempt(world, jobs);
+  World::Transaction transaction(world, jobs);
   if (!asleep.empty()) {
     if (auto done = wake(frame_, asleep); !done) return done;
   }
   std::vector<Entity> begin, again;
-  for (const Entity human : people) (world.has<Course>(human) ? again : begin).push_back(human);
-  std::vector<Course<Lanes<float>>> course;
-  by_table(world, begin, [&](std::span<const Entity> together) {
+  for (const Entity person : people) (world.has<AvoidanceState>(person) ? again : begin).push_back(person);
+  std::vector<AvoidanceState<Lanes<float>>> course;
+  group_by_table(world, begin, [&](std::span<const Entity> together) {
     course.resize((together.size() + lane_count - 1) / lane_count);
     for (std::size_t i = 0; i < together.size(); ++i)
       put_row(first_course(world, options, together[i]), course[i / lane_count], i % lane_count);
-    world.remake_many(together, std::array{PartValue{component_part<Course>(), course.data()}}, {}, jobs);
+    world.change_archetype(together, std::array{PartValue{component_id<AvoidanceState>(), course.data()}}, {}, jobs);
   });
-  for (const Entity human : again) world.set(human, first_course(world, options, human));
-  attempt.keep();
+  for (const Entity person : again) world.set(person, first_course(world, options, person));
+  transaction.commit();
   return {};
 }
 
 /// How somebody wishes to walk where it is level; zeros: not at all.
-static LevelWalk level_wish(const Course<float>& course, float height_m) {
+static LevelWalk level_wish(const AvoidanceState<float>& course, float height_m) {
   const auto usual = resolve_gait(height_m, {.speed_m_s = course.speed_m_s});
   if (!(course.speed_m_s > 0) || !usual) return {};
   return {course.speed_m_s, course.usual * usual->step_length_m};
@@ -129,7 +130,7 @@ static LevelWalk level_wish(const Course<float>& course, float height_m) {
 
 /// Whether a slope alone has them walk slower than they wish is kept with their gait: then they go on from it as they
 /// wish, however that comes to an end (is_slowed).
-static void keep_level_wish(const Course<float>& course, const Gait<float>& asked, float height_m,
+static void keep_level_wish(const AvoidanceState<float>& course, const Gait<float>& asked, float height_m,
                             Footing<Lanes<float>>& footing, std::size_t lane) {
   constexpr float hindered = 0.99F;
   const float slowed_m_s = slope_speed(course.speed_m_s, footing.slows_for[lane]);
@@ -142,18 +143,18 @@ static void keep_level_wish(const Course<float>& course, const Gait<float>& aske
 
 /// The ground of who is slowed and avoids others no more, with what they wish now; nothing of who is not. Who wishes to
 /// stand goes on as they walk.
-static std::optional<Footing<float>> released_footing(const World& world, Entity human) {
-  auto footing = world.get<Footing>(human);
-  const auto asked = asked_body(world, human);
+static std::optional<Footing<float>> released_footing(const World& world, Entity person) {
+  auto footing = world.get<Footing>(person);
+  const auto asked = asked_body(world, person);
   if (!footing || !asked || !is_slowed(asked->gait, *footing)) return {};
-  const LevelWalk level = level_wish(*world.get<Course>(human), asked->size.height_m);
+  const LevelWalk level = level_wish(*world.get<AvoidanceState>(person), asked->size.height_m);
   footing->level_speed_m_s = level.speed_m_s;
   footing->level_length_m = level.step_length_m;
   return *footing;
 }
 
-Result<void> Avoidance::release(Entity human) {
-  return release(std::span(&human, 1));
+Result<void> Avoidance::release(Entity person) {
+  return release(std::span(&person, 1));
 }
 
 Result<void> Avoidance::release(std::span<const Entity> people) {
@@ -161,36 +162,37 @@ Result<void> Avoidance::release(std::span<const Entity> people) {
   const Jobs& jobs = frame_.jobs;
   if (!world.alive_once(people))
     return fail("Avoidance: a person is not there (a stale handle), or is named twice", Status::stale_entity);
-  for (const Entity human : people)
-    if (!world.has<Course>(human)) return fail("Avoidance: a person is not managed", Status::missing);
-  constexpr std::array part = {type_id<Course<float>>()};
+  for (const Entity person : people)
+    if (!world.has<AvoidanceState>(person)) return fail("Avoidance: a person is not managed", Status::missing);
+  constexpr std::array part = {type_id<AvoidanceState<float>>()};
   std::vector<std::optional<Footing<float>>> footing;
-  for (const Entity human : people) footing.push_back(released_footing(world, human));
-  World::Attempt attempt(world, jobs);
-  by_table(world, people, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
-  attempt.keep();
+  for (const Entity person : people) footing.push_back(released_footing(world, person));
+  World::Transaction transaction(world, jobs);
+  group_by_table(world, people,
+                 [&](std::span<const Entity> together) { world.change_archetype(together, {}, part, jobs); });
+  transaction.commit();
   for (std::size_t i = 0; i < people.size(); ++i)
     if (footing[i]) world.set(people[i], *footing[i]);
   return {};
 }
 
-Result<void> Avoidance::want(std::span<const WalkWish> wishes) {
+Result<void> Avoidance::set_desired_velocity(std::span<const DesiredVelocity> wishes) {
   World& world = frame_.world;
-  for (const auto& [human, speed, heading] : wishes) {
-    if (!world.alive(human)) return fail("Avoidance: a person is not there (a stale handle)", Status::stale_entity);
-    if (!world.has<Course>(human))
+  for (const auto& [person, speed, heading] : wishes) {
+    if (!world.alive(person)) return fail("Avoidance: a person is not there (a stale handle)", Status::stale_entity);
+    if (!world.has<AvoidanceState>(person))
       return fail("Avoidance: a person is not managed; call manage first", Status::missing);
     if (!(std::fabs(heading) < 1e4F))
       return fail(fmt::format("Avoidance: a heading of {} rad is not within ±10000; give an angle about +Y", heading));
     if (speed == 0) continue;
-    if (auto gait = resolve_gait(body_request(world, human).height_m, {.speed_m_s = speed}); !gait)
+    if (auto gait = resolve_gait(body_request(world, person).height_m, {.speed_m_s = speed}); !gait)
       return tl::unexpected(gait.error());
   }
-  for (const auto& [human, speed, heading] : wishes) {
-    Course<float> course = *world.get<Course>(human);
+  for (const auto& [person, speed, heading] : wishes) {
+    AvoidanceState<float> course = *world.get<AvoidanceState>(person);
     course.speed_m_s = speed;
     course.heading_rad = heading;
-    world.set(human, course);
+    world.set(person, course);
   }
   return {};
 }
@@ -225,33 +227,35 @@ static float length_m(const GroundBox& way) {
 }
 
 /// Of two who strike in one tick and whose new ways meet, the one with the lower draw goes; the other keeps to the
-/// claim, which the first has kept clear of.
+/// reservation, which the first has kept clear of.
 void AvoidanceWork::give_way(const Jobs& jobs, std::uint32_t tick) {
   const std::vector<Striker>& strikers = book.strikers();
-  striker_of.assign(book.claims(), nobody);
+  striker_of.assign(book.reservations(), nobody);
   for (std::size_t i = 0; i < strikers.size(); ++i)
-    if (chosen[i].trial != claimed) striker_of[strikers[i].claim] = static_cast<std::uint32_t>(i);
+    if (chosen[i].trial != reserved) striker_of[strikers[i].reservation] = static_cast<std::uint32_t>(i);
   gives_way.assign(strikers.size(), 0);
   const auto goes_first = [&](std::uint32_t a, std::uint32_t b) {
-    const auto draw = [&](std::uint32_t claim) { return mix64(mix64(book.claim(claim).who.index) ^ tick); };
+    const auto draw = [&](std::uint32_t reservation) {
+      return mix64(mix64(book.reservation(reservation).who.index) ^ tick);
+    };
     return draw(a) < draw(b);
   };
-  // Claims are listed by where they begin, and new ways go on from there.
+  // Reservations are listed by where they begin, and new ways go on from there.
   float longest_m = 0;
   for (std::size_t i = 0; i < strikers.size(); ++i)
-    if (chosen[i].trial != claimed) longest_m = std::max(longest_m, length_m(chosen[i].box));
+    if (chosen[i].trial != reserved) longest_m = std::max(longest_m, length_m(chosen[i].box));
   in_parallel(jobs, strikers.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t claim = strikers[i].claim;
-      if (striker_of[claim] == nobody) continue;
+      const std::uint32_t reservation = strikers[i].reservation;
+      if (striker_of[reservation] == nobody) continue;
       const GroundBox& way = chosen[i].box;
-      const Claim& mine = book.claim(claim);
+      const Reservation& mine = book.reservation(reservation);
       const float reach_m = 0.5F * length_m(way) + longest_m + mine.radius_m + book.broadest_m();
       const GroundPoint middle = {0.5F * (way.low_x_m + way.high_x_m), 0.5F * (way.low_z_m + way.high_z_m)};
       book.near(middle.x_m, middle.z_m, mine, reach_m, [&](const Nearby& near) {
-        const std::uint32_t other = near.claim, rival = striker_of[other];
-        if (rival == nobody || other == claim || !goes_first(other, claim)) return;
-        const Claim& theirs = book.claim(other);
+        const std::uint32_t other = near.reservation, rival = striker_of[other];
+        if (rival == nobody || other == reservation || !goes_first(other, reservation)) return;
+        const Reservation& theirs = book.reservation(other);
         const float apart = mine.radius_m + theirs.radius_m - options.overlap_m;
         if (meet(chosen[i], chosen[rival], apart)) gives_way[i] = 1;
       });
@@ -276,13 +280,13 @@ void AvoidanceWork::choose(const Frame& frame) {
   for (std::size_t i = 0; i < strikers.size(); ++i) {
     const Chosen& own = chosen[i];
     if (own.under_way) continue;
-    auto& [table, block, lane, claim] = strikers[i];
+    auto& [table, block, lane, reservation] = strikers[i];
     Gait<Lanes<float>>& gaits = TableColumn<Gait>(*table).at(*table, block);
-    Course<Lanes<float>>& courses = TableColumn<Course>(*table).at(*table, block);
+    AvoidanceState<Lanes<float>>& courses = TableColumn<AvoidanceState>(*table).at(*table, block);
     const bool yields = gives_way[i] != 0, aside = !yields && own.kind == TrialKind::aside;
     const bool wants = courses.speed_m_s[lane] > 0;
     const Gait<float> before = row_of(gaits, lane);
-    Gait<float> asked = yields ? own.as_claimed : own.gait;
+    Gait<float> asked = yields ? own.as_reserved : own.gait;
     const bool other = asked.speed_m_s != before.speed_m_s || asked.step_length_m != before.step_length_m || aside;
     asked.displacement = (before.displacement + (aside ? 1U : 0U)) & 0xFFFFU;
     asked.revision = (before.revision + (other ? 1U : 0U)) & 0xFFFFU;
@@ -295,8 +299,8 @@ void AvoidanceWork::choose(const Frame& frame) {
     const bool waits = wants && stands && asked.speed_m_s <= 0;
     courses.waits_s[lane] = waits ? courses.waits_s[lane] + own.duration_s : 0;
     ++report.chose;
-    report.gave_way += yields;
-    report.kept_claim += wants && own.trial == claimed;
+    report.yielded += yields;
+    report.kept_reservation += wants && own.trial == reserved;
     report.waiting += waits;
   }
 }

@@ -16,15 +16,16 @@ bool within(float value, float low, float high) {
   return value >= low && value <= high;  // false where it is not a number
 }
 
-void ease_walkers(const GaitState<Lanes<float>>&, Course<Lanes<float>>& course, float tick_s) {
+void ease_walkers(const GaitState<Lanes<float>>&, AvoidanceState<Lanes<float>>& course, float tick_s) {
   ease_shoulders(course, tick_s);
 }
 
-void turn_walkers(const GaitState<Lanes<float>>&, const Course<Lanes<float>>& course, Pose<Lanes<float>>& pose) {
+void turn_walkers(const GaitState<Lanes<float>>&, const AvoidanceState<Lanes<float>>& course,
+                  Pose<Lanes<float>>& pose) {
   turn_shoulders(course.turn_rad, pose);
 }
 
-bool is_sound_course(const Course<float>& course) {
+bool is_sound_course(const AvoidanceState<float>& course) {
   constexpr float fastest_m_s = 10, furthest_rad = 1e4F, longest = 10, broadest_m = 10, for_ever_s = 1e9F;
   constexpr float round_rad = 1;
   return within(course.speed_m_s, 0, fastest_m_s) && within(course.heading_rad, -furthest_rad, furthest_rad) &&
@@ -36,7 +37,7 @@ bool is_sound_course(const Course<float>& course) {
 }
 
 Result<void> check_course(const SavedWorld& saved, std::uint32_t table) {
-  if (!every_row<Course>(saved, table, is_sound_course)) return damaged("where somebody wants to go");
+  if (!every_row<AvoidanceState>(saved, table, is_sound_course)) return damaged("where somebody wants to go");
   return {};
 }
 
@@ -45,7 +46,7 @@ Result<void> check_course(const SavedWorld& saved, std::uint32_t table) {
 Module avoidance_module() {
   return {.name = "avoidance",
           .version = 2,
-          .parts = {component_part<Course>()},
+          .parts = {component_id<AvoidanceState>()},
           .systems =
               [](ScheduleBuilder& systems) {
                 systems.add("shoulders", &ease_walkers).add("turned shoulders", &turn_walkers).after("kinematics");

@@ -19,7 +19,7 @@ namespace {
 
 /// How many people are foreseen, the nearest ones, and within what distance; where they are looked for at first, as
 /// where many are it is enough.
-constexpr std::size_t most_passers = 12;
+constexpr std::size_t max_passers = 12;
 constexpr float sees_m = 6, sees_first_m = 2.5F;
 /// How much narrower gaps may be that somebody who stands starts into, m.
 constexpr float squeezes_m = 0.06F;
@@ -40,7 +40,7 @@ float square(float x) {
 }
 struct Near {
   float distance2;
-  std::uint32_t index, claim;
+  std::uint32_t index, reservation;
   bool operator<(const Near& other) const {
     return distance2 != other.distance2 ? distance2 < other.distance2 : index < other.index;
   }
@@ -49,11 +49,11 @@ struct Near {
 /// One choice: what the walker may do, and what each costs.
 class WayChoice {
  public:
-  WayChoice(const Surroundings& around, const Striker& striker, const StrikePlace<float>& from,
-            const Course<float>& course)
+  WayChoice(const Surroundings& around, const Striker& striker, const HeelStrikePlace<float>& from,
+            const AvoidanceState<float>& course)
       : around_(around),
-        mine_(around.book.claim(striker.claim)),
-        me_(striker.claim),
+        mine_(around.book.reservation(striker.reservation)),
+        me_(striker.reservation),
         from_(from),
         course_(course),
         wish_(direction(course.heading_rad)),
@@ -62,8 +62,8 @@ class WayChoice {
     tried_ways(broadcast(from), trials_.trial, around.book.instants(), ways_, end_);
     const std::size_t now = mine_.at(around.book.instant());
     for (std::size_t s = 0; s < way_samples; ++s) {  // to the bit what others keep clear of
-      ways_.x_m[s][claimed] = mine_.x_m[now + s];
-      ways_.z_m[s][claimed] = mine_.z_m[now + s];
+      ways_.x_m[s][reserved] = mine_.x_m[now + s];
+      ways_.z_m[s][reserved] = mine_.z_m[now + s];
     }
     at_ = {mine_.x_m[now], mine_.z_m[now]};
     for (float& open : open_.lane) open = 1;
@@ -74,7 +74,7 @@ class WayChoice {
     look_at_walls();
     look_at_discs();
     from_.speed_m_s > 0 ? prefer_walking() : prefer_standing();
-    std::size_t best = claimed;
+    std::size_t best = reserved;
     for (std::size_t l = 1; l < lane_count; ++l)
       if (open_[l] > 0 && cost_[l] < cost_[best]) best = l;
     return best;
@@ -107,10 +107,10 @@ class WayChoice {
   }
 
  private:
-  /// Trials may come as near to somebody as `apart_m`; or, where the claim comes nearer, as near as that.
-  void keep_clear(const Lanes<float>& least_m2, float apart_m) {
-    const float least = square(std::min(apart_m, std::max(std::sqrt(least_m2[claimed]) - rounding_m, 0.0F)));
-    for (std::size_t l = 1; l < lane_count; ++l) open_[l] = least_m2[l] >= least ? open_[l] : 0;
+  /// Trials may come as near to somebody as `apart_m`; or, where the reservation comes nearer, as near as that.
+  void keep_clear(const Lanes<float>& min_m2, float apart_m) {
+    const float least = square(std::min(apart_m, std::max(std::sqrt(min_m2[reserved]) - rounding_m, 0.0F)));
+    for (std::size_t l = 1; l < lane_count; ++l) open_[l] = min_m2[l] >= least ? open_[l] : 0;
   }
 
   GroundBox reached() const {
@@ -123,15 +123,15 @@ class WayChoice {
   }
 
   /// Who avoids nobody turns no shoulders, and I do not for them.
-  float apart_from(const Claim& claim) const {
-    return (claim.yields ? mine_.radius_m : mine_.shoulders_m) + claim.radius_m;
+  float apart_from(const Reservation& reservation) const {
+    return (reservation.yields ? mine_.radius_m : mine_.shoulders_m) + reservation.radius_m;
   }
-  void keep_clear_of(const Claim& claim, std::uint32_t instant) {
-    const float apart = apart_from(claim) - overlap_m_;
-    if (!claim.box.meets(box_, apart)) return;
-    const std::size_t now = claim.at(instant);
-    nearest_approach(ways_, &claim.x_m[now], &claim.z_m[now], least_m2_);
-    keep_clear(least_m2_, apart);
+  void keep_clear_of(const Reservation& reservation, std::uint32_t instant) {
+    const float apart = apart_from(reservation) - overlap_m_;
+    if (!reservation.box.meets(box_, apart)) return;
+    const std::size_t now = reservation.at(instant);
+    nearest_approach(ways_, &reservation.x_m[now], &reservation.z_m[now], min_m2_);
+    keep_clear(min_m2_, apart);
   }
 
   /// Trials stay clear of those who are within reach, and the nearest are remembered.
@@ -140,11 +140,11 @@ class WayChoice {
     const float reach =
         std::max({at_.x_m - box_.low_x_m, box_.high_x_m - at_.x_m, at_.z_m - box_.low_z_m, box_.high_z_m - at_.z_m});
     const std::uint32_t instant = around_.book.instant();
-    std::array<Near, most_passers> near;
+    std::array<Near, max_passers> near;
     const auto remember = [&](const Nearby& other) {
-      const Near one = {square(other.x_m - at_.x_m) + square(other.z_m - at_.z_m), other.who, other.claim};
-      if (one.distance2 > square(sees_m) || (passing_ == most_passers && !(one < near[passing_ - 1]))) return;
-      if (passing_ < most_passers) ++passing_;
+      const Near one = {square(other.x_m - at_.x_m) + square(other.z_m - at_.z_m), other.who, other.reservation};
+      if (one.distance2 > square(sees_m) || (passing_ == max_passers && !(one < near[passing_ - 1]))) return;
+      if (passing_ < max_passers) ++passing_;
       std::size_t i = passing_ - 1;
       for (; i > 0 && one < near[i - 1]; --i) near[i] = near[i - 1];
       near[i] = one;
@@ -152,30 +152,31 @@ class WayChoice {
     const float apart_at_most = mine_.shoulders_m + around_.book.broadest_m();
     const float at_first_m = std::max(reach + apart_at_most, sees_first_m);
     around_.book.near(at_.x_m, at_.z_m, mine_, at_first_m, [&](const Nearby& other) {
-      if (other.claim == me_) return;
-      if (other.box.meets(box_, apart_at_most)) keep_clear_of(around_.book.claim(other.claim), instant);
+      if (other.reservation == me_) return;
+      if (other.box.meets(box_, apart_at_most)) keep_clear_of(around_.book.reservation(other.reservation), instant);
       remember(other);
     });
-    if (at_first_m < sees_m && (passing_ < most_passers || near.back().distance2 > square(at_first_m))) {
+    if (at_first_m < sees_m && (passing_ < max_passers || near.back().distance2 > square(at_first_m))) {
       passing_ = 0;
       around_.book.near(at_.x_m, at_.z_m, mine_, sees_m, [&](const Nearby& other) {
-        if (other.claim != me_) remember(other);
+        if (other.reservation != me_) remember(other);
       });
     }
     for (std::size_t i = 0; i < passing_; ++i) {
-      const Claim& claim = around_.book.claim(near[i].claim);
-      const std::size_t now = claim.at(instant);
+      const Reservation& reservation = around_.book.reservation(near[i].reservation);
+      const std::size_t now = reservation.at(instant);
       const bool stands = now >= way_samples;
-      passer_[i] = {claim.x_m[now], claim.z_m[now], stands ? 0 : claim.x_m_s, stands ? 0 : claim.z_m_s,
-                    apart_from(claim) + (claim.yields ? 0 : all_of_the_way_m)};
+      passer_[i] = {reservation.x_m[now], reservation.z_m[now], stands ? 0 : reservation.x_m_s,
+                    stands ? 0 : reservation.z_m_s,
+                    apart_from(reservation) + (reservation.yields ? 0 : all_of_the_way_m)};
     }
   }
 
   void look_at_walls() {
     for (const auto& [wall, box] : around_.walls) {
       if (!box.meets(box_, mine_.shoulders_m)) continue;
-      nearest_to_wall(ways_, wall.from.x_m, wall.from.z_m, wall.to.x_m, wall.to.z_m, least_m2_);
-      keep_clear(least_m2_, mine_.shoulders_m - brushes_m);
+      nearest_to_wall(ways_, wall.from.x_m, wall.from.z_m, wall.to.x_m, wall.to.z_m, min_m2_);
+      keep_clear(min_m2_, mine_.shoulders_m - brushes_m);
     }
   }
 
@@ -190,8 +191,8 @@ class WayChoice {
       }
       const float apart = disc.radius_m + mine_.shoulders_m;
       if (box_of({x.front(), z.front()}, {x.back(), z.back()}, 0).meets(box_, apart)) {
-        nearest_approach(ways_, x.data(), z.data(), least_m2_);
-        keep_clear(least_m2_, apart);
+        nearest_approach(ways_, x.data(), z.data(), min_m2_);
+        keep_clear(min_m2_, apart);
       }
     }
   }
@@ -253,8 +254,8 @@ class WayChoice {
     cost_of_ways(ways, course_.speed_m_s, wish_, cost_);
     foresee(ways, squeezes_m, true, cost_);
     const bool meets = meets_anybody();
-    constexpr float most_patience = 2, impatience = 0.5F;  // who has waited would rather go anywhere
-    float least = square(course_.speed_m_s) + std::min(most_patience, impatience * course_.waits_s);
+    constexpr float max_patience = 2, impatience = 0.5F;  // who has waited would rather go anywhere
+    float least = square(course_.speed_m_s) + std::min(max_patience, impatience * course_.waits_s);
     std::size_t best = lane_count;
     for (std::size_t l = 0; l < lane_count; ++l) {
       const float cost = cost_[l] - (meets && l > lane_count / 2 ? keeps_right : 0);
@@ -278,9 +279,9 @@ class WayChoice {
     constexpr float of_turning_there = 0.05F, of_turning_little = 0.15F, of_turning_away = 0.2F;
     constexpr float of_turning_on_spot = 0.1F, of_slower = 0.3F;
     constexpr float of_sidling = 0.3F;                    // where the way is open: to turn and walk is faster
-    constexpr float turns_from = 0.5F, least_off = 0.1F;  // rad; between them: if no step is open that leads there
-    constexpr float of_waiting_per_s = 0.3F, most_of_waiting = 1;
-    const float of_staying = std::clamp(of_waiting_per_s * (course_.waits_s - patience_s), 0.0F, most_of_waiting);
+    constexpr float turns_from = 0.5F, min_off = 0.1F;    // rad; between them: if no step is open that leads there
+    constexpr float of_waiting_per_s = 0.3F, max_of_waiting = 1;
+    const float of_staying = std::clamp(of_waiting_per_s * (course_.waits_s - patience_s), 0.0F, max_of_waiting);
     Lanes<float> speed, heading = end_.heading_rad, more{};
     for (std::size_t l = 0; l < lane_count; ++l) {
       const TrialKind kind = trials_.kind[l];
@@ -292,7 +293,7 @@ class WayChoice {
       if (kind == TrialKind::stay) more[l] = of_staying;
       if (kind == TrialKind::go) more[l] = of_slower * square(trial.speed_m_s[l] - pace);
       if (kind != TrialKind::turn) continue;
-      const bool there = std::fabs(off) > least_off && off * trial.turn_rad[l] > 0;  // to walk there from then on
+      const bool there = std::fabs(off) > min_off && off * trial.turn_rad[l] > 0;  // to walk there from then on
       if (there) heading[l] = from_.heading_rad + off;
       if (there && !goes) {
         constexpr float of_facing_it = -0.01F;
@@ -310,10 +311,10 @@ class WayChoice {
   }
 
   const Surroundings& around_;
-  const Claim& mine_;
+  const Reservation& mine_;
   std::uint32_t me_;
-  const StrikePlace<float>& from_;
-  const Course<float>& course_;
+  const HeelStrikePlace<float>& from_;
+  const AvoidanceState<float>& course_;
   GroundPoint wish_;  // where the walker wants to go, of length 1
   Trials trials_;
   WaySamples<Lanes<float>> ways_;
@@ -321,8 +322,8 @@ class WayChoice {
   float overlap_m_;
   GroundPoint at_;  // at the book's next instant
   GroundBox box_;
-  Lanes<float> open_, cost_, least_m2_;  // open: 1 where a trial may be taken
-  std::array<Passer, most_passers> passer_;
+  Lanes<float> open_, cost_, min_m2_;  // open: 1 where a trial may be taken
+  std::array<Passer, max_passers> passer_;
   std::size_t passing_ = 0;
 };
 
@@ -340,17 +341,17 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
   const auto block_of = [&](const auto& column) -> const auto& {
     return column.at(table, striker.block);
   };
-  StrikePlace<Lanes<float>> footing;
+  HeelStrikePlace<Lanes<float>> footing;
   next_footing(block_of(TableColumn<BodySize>(table)), block_of(TableColumn<StepPlan>(table)),
                block_of(TableColumn<GaitState>(table)), footing);
-  Course<float> course = row_of(block_of(TableColumn<Course>(table)), striker.lane);
+  AvoidanceState<float> course = row_of(block_of(TableColumn<AvoidanceState>(table)), striker.lane);
   if (const TableColumn<Footing> ground(table); ground)
     course.speed_m_s = slope_speed(course.speed_m_s, ground.at(table, striker.block).slows_for[striker.lane]);
   const Gait<float> before = row_of(block_of(TableColumn<Gait>(table)), striker.lane);
-  StrikePlace<float> from = row_of(footing, striker.lane);
+  HeelStrikePlace<float> from = row_of(footing, striker.lane);
   from.usual = course.usual;
   out = {};
-  out.gait = out.as_claimed = before;
+  out.gait = out.as_reserved = before;
   out.under_way = from.speed_m_s <= 0 && from.length_before_m > 0;
   if (out.under_way) return;
   if (from.speed_m_s <= 0 && course.speed_m_s <= 0) {  // stays, and turns
@@ -358,12 +359,12 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
     out.gait.heading_rad = course.heading_rad;
     return;
   }
-  course.heading_rad = lane_heading(around.book, around.walls, striker.claim, course);
+  course.heading_rad = lane_heading(around.book, around.walls, striker.reservation, course);
   WayChoice choice(around, striker, from, course);
   const std::size_t best = choice.best();
   choice.tell(best, out);
   out.gait = choice.gait(best, before.style);
-  out.as_claimed = choice.gait(claimed, before.style);
+  out.as_reserved = choice.gait(reserved, before.style);
 }
 
 }  // namespace mobil::inline v0_3

@@ -49,9 +49,9 @@ GroundPoint nearest_of(const Wall& wall, GroundPoint to) {
   return {wall.from.x_m + part * x, wall.from.z_m + part * z};
 }
 
-float lane_heading(const ClaimBook& book, std::span<const BoxedWall> walls, std::uint32_t me,
-                   const Course<float>& course) {
-  const Claim& mine = book.claim(me);
+float lane_heading(const ReservationBook& book, std::span<const BoxedWall> walls, std::uint32_t me,
+                   const AvoidanceState<float>& course) {
+  const Reservation& mine = book.reservation(me);
   const std::size_t now_at = mine.at(book.instant());
   const GroundPoint at = {mine.x_m[now_at], mine.z_m[now_at]};
   const GroundPoint toward = direction(course.heading_rad);
@@ -61,9 +61,9 @@ float lane_heading(const ClaimBook& book, std::span<const BoxedWall> walls, std:
   int oncoming = 0;
   constexpr float half = 0.5F * lanes_ahead_m;
   book.near(at.x_m + half * ahead_x, at.z_m + half * ahead_z, mine, half, [&](const Nearby& other) {
-    constexpr float least_against = 0.3F;  // a cosine: people who cross do not count
-    const float against = -(other.faces_x * ahead_x + other.faces_z * ahead_z) - least_against;
-    if (other.claim == me || !(against > 0 && against < 1)) return;  // so that the sum stays small
+    constexpr float min_against = 0.3F;  // a cosine: people who cross do not count
+    const float against = -(other.faces_x * ahead_x + other.faces_z * ahead_z) - min_against;
+    if (other.reservation == me || !(against > 0 && against < 1)) return;  // so that the sum stays small
     const float x = other.x_m - at.x_m, z = other.z_m - at.z_m;
     const float ahead = x * ahead_x + z * ahead_z, left = x * left_x + z * left_z;
     if (!(ahead >= 0 && ahead <= lanes_ahead_m)) return;

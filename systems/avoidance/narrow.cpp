@@ -31,7 +31,7 @@ const std::array<Turn, 9>& turns() {
   static const auto all = [] {
     std::array<Turn, 9> made{};
     for (std::size_t i = 0; i < made.size(); ++i) {
-      const float size = most_shoulder_turn * static_cast<float>((i + 1) / 2) / static_cast<float>(made.size() / 2);
+      const float size = max_shoulder_turn * static_cast<float>((i + 1) / 2) / static_cast<float>(made.size() / 2);
       const float turn = i % 2 == 1 ? size : 0 - size;
       made[i] = {turn, static_cast<float>(exact::sin(double{turn})), static_cast<float>(exact::cos(double{turn}))};
     }
@@ -56,14 +56,14 @@ float reach_of(float shoulders_m, float faces_x, float faces_z, const Neighbour&
   return shoulders_m * std::sqrt(aside * aside + depth_part * depth_part * ahead * ahead);
 }
 /// Who may come nearer than the shoulders are broad, and turns them then.
-bool narrows(const Claim& claim) {
-  return claim.shoulders_m > claim.radius_m;
+bool narrows(const Reservation& reservation) {
+  return reservation.shoulders_m > reservation.radius_m;
 }
 
 class Narrowing {
  public:
-  Narrowing(const ClaimBook& book, std::uint32_t me, float turned_rad)
-      : mine_(book.claim(me)), turned_rad_(turned_rad) {
+  Narrowing(const ReservationBook& book, std::uint32_t me, float turned_rad)
+      : mine_(book.reservation(me)), turned_rad_(turned_rad) {
     const std::uint32_t instant = book.instant();
     const std::size_t now = mine_.at(instant), then = now + looked_at.back();
     const GroundBox box = box_of({mine_.x_m[now], mine_.z_m[now]}, {mine_.x_m[then], mine_.z_m[then]}, 0);
@@ -71,8 +71,8 @@ class Narrowing {
     const float long_m = std::max(box.high_x_m - box.low_x_m, box.high_z_m - box.low_z_m);
     book.near(0.5F * (box.low_x_m + box.high_x_m), 0.5F * (box.low_z_m + box.high_z_m), mine_,
               both_at_most + 0.5F * long_m, [&](const Nearby& other) {
-                if (other.claim != me && other.box.meets(box, both_at_most))
-                  look_at(book.claim(other.claim), now, instant);
+                if (other.reservation != me && other.box.meets(box, both_at_most))
+                  look_at(book.reservation(other.reservation), now, instant);
               });
   }
 
@@ -90,13 +90,13 @@ class Narrowing {
   }
 
  private:
-  void look_at(const Claim& claim, std::size_t now, std::uint32_t instant) {
-    const std::size_t then = claim.at(instant);
-    const float both = mine_.shoulders_m + claim.shoulders_m;
+  void look_at(const Reservation& reservation, std::size_t now, std::uint32_t instant) {
+    const std::size_t then = reservation.at(instant);
+    const float both = mine_.shoulders_m + reservation.shoulders_m;
     float nearest2 = both * both, x = 0, z = 0;
     for (const std::size_t ahead : looked_at) {
-      const float dx = claim.x_m[then + ahead] - mine_.x_m[now + ahead];
-      const float dz = claim.z_m[then + ahead] - mine_.z_m[now + ahead], squared = dx * dx + dz * dz;
+      const float dx = reservation.x_m[then + ahead] - mine_.x_m[now + ahead];
+      const float dz = reservation.z_m[then + ahead] - mine_.z_m[now + ahead], squared = dx * dx + dz * dz;
       if (!(squared < nearest2)) continue;
       nearest2 = squared;
       x = dx;
@@ -105,8 +105,8 @@ class Narrowing {
     const float nearest = std::sqrt(nearest2);
     if (nearest >= both || nearest <= 0) return;
     // Both turn, each for their part of the gap; or the one who does.
-    const float room = narrows(claim) ? nearest * mine_.shoulders_m / both : nearest - claim.shoulders_m;
-    const Neighbour one = {x / nearest, z / nearest, room, claim.who.index};
+    const float room = narrows(reservation) ? nearest * mine_.shoulders_m / both : nearest - reservation.shoulders_m;
+    const Neighbour one = {x / nearest, z / nearest, room, reservation.who.index};
     if (count_ < near_.size()) {
       near_[count_++] = one;
       return;
@@ -127,7 +127,7 @@ class Narrowing {
     return of_lacking_per_m * lacking + of_turning_per_rad * std::fabs(turn.rad) + (other_way ? of_the_other_way : 0);
   }
 
-  const Claim& mine_;
+  const Reservation& mine_;
   float turned_rad_;
   std::array<Neighbour, 8> near_;
   std::size_t count_ = 0;
@@ -135,19 +135,19 @@ class Narrowing {
 
 }  // namespace
 
-void narrow_shoulders(const ClaimBook& book, const Jobs& jobs, std::uint32_t tick) {
-  const std::span<const BlockOfClaims> blocks = book.blocks();
+void narrow_shoulders(const ReservationBook& book, const Jobs& jobs, std::uint32_t tick) {
+  const std::span<const BlockOfReservations> blocks = book.blocks();
   in_parallel(jobs, blocks.size(), [&](std::size_t begin, std::size_t end) {
     const FlushDenormals flush;  // as in a tick
-    for (const BlockOfClaims& at : blocks.subspan(begin, end - begin)) {
-      const TableColumn<Course> courses(*at.table);
+    for (const BlockOfReservations& at : blocks.subspan(begin, end - begin)) {
+      const TableColumn<AvoidanceState> courses(*at.table);
       if (!courses) continue;
       auto& course = courses.at(*at.table, at.block);
       const Entity* const entities = at.table->entities(at.block);
       for (std::size_t l = 0; l < at.table->live(at.block); ++l) {
         if ((entities[l].index + tick) % every_ticks != 0) continue;
-        const std::uint32_t me = book.claim_in(at, l);
-        course.turn_to_rad[l] = narrows(book.claim(me)) ? Narrowing(book, me, course.turn_rad[l]).best() : 0;
+        const std::uint32_t me = book.reservation_in(at, l);
+        course.turn_to_rad[l] = narrows(book.reservation(me)) ? Narrowing(book, me, course.turn_rad[l]).best() : 0;
       }
     }
   });

@@ -21,7 +21,7 @@ constexpr float slowest = 0.3F;
 /// How long steps are, of the walker's own, where there is no room for those.
 constexpr float short_step = 0.5F;
 /// Nobody turns on the spot for less, rad.
-constexpr float least_turn = 0.1F;
+constexpr float min_turn = 0.1F;
 
 void put(Trials& trials, std::size_t lane, TrialKind kind, const Trial<float>& trial) {
   trials.kind[lane] = kind;
@@ -38,18 +38,18 @@ float wrapped(float angle_rad) {
   return angle_rad - 2 * pi * std::floor(angle_rad / (2 * pi) + 0.5F);
 }
 
-Trials make_trials(const StrikePlace<float>& at, const Course<float>& course) {
+Trials make_trials(const HeelStrikePlace<float>& at, const AvoidanceState<float>& course) {
   Trials trials;
   const float leg = static_cast<float>(fraction::thigh + fraction::shank) * at.height_m;
   const float scale = std::sqrt(leg / leg_m), least = slowest * scale, now = at.speed_m_s;
   const float wish = trials.wish_rad = wrapped(course.heading_rad - at.heading_rad);
-  const float toward = std::clamp(wish, -most_turn, most_turn);
+  const float toward = std::clamp(wish, -max_turn, max_turn);
   if (now > 0) {
-    const float slower = std::max(now - most_slower * scale, least);
-    const float last = now > last_speed * scale ? std::max(now - most_slower * scale, last_speed * scale) : 0;
-    const float wanted = std::max(std::min(course.speed_m_s, now + most_faster * scale), slower);
+    const float slower = std::max(now - max_slower * scale, least);
+    const float last = now > last_speed * scale ? std::max(now - max_slower * scale, last_speed * scale) : 0;
+    const float wanted = std::max(std::min(course.speed_m_s, now + max_faster * scale), slower);
     const float straight_on = 0.70F * at.advance_m * at.bend_per_m;  // as systems/gait/next_foot-inl.h has it
-    put(trials, claimed, last > 0 ? TrialKind::go : TrialKind::stay, {last, straight_on, 1, 0, 0});
+    put(trials, reserved, last > 0 ? TrialKind::go : TrialKind::stay, {last, straight_on, 1, 0, 0});
     std::size_t lane = 1;
     for (const float speed : {wanted, 0.5F * (wanted + slower), slower}) {
       const float length_part = speed < wanted ? short_step : 1;
@@ -57,15 +57,15 @@ Trials make_trials(const StrikePlace<float>& at, const Course<float>& course) {
     }
     return trials;
   }
-  put(trials, claimed, TrialKind::stay, {});
+  put(trials, reserved, TrialKind::stay, {});
   std::size_t lane = 1;
   const float wanted = std::clamp(course.speed_m_s, least, first_speed * scale);
   for (const float turn : {beside[0], beside[1], beside[2]})
     put(trials, lane++, TrialKind::go, {wanted, toward + turn, short_step, 0, 0});
   for (const float turn : {beside[0], beside[3], beside[4]})
     put(trials, lane++, TrialKind::go, {least, toward + turn, short_step, 0, 0});
-  put(trials, lane++, TrialKind::turn, {0, wish > least_turn ? std::min(wish, most_turn) : most_turn, 1, 0, 0});
-  put(trials, lane++, TrialKind::turn, {0, wish < -least_turn ? std::max(wish, -most_turn) : -most_turn, 1, 0, 0});
+  put(trials, lane++, TrialKind::turn, {0, wish > min_turn ? std::min(wish, max_turn) : max_turn, 1, 0, 0});
+  put(trials, lane++, TrialKind::turn, {0, wish < -min_turn ? std::max(wish, -max_turn) : -max_turn, 1, 0, 0});
   const float longer = leg / aside_leg_m;
   for (const auto& [slant, far] : {std::pair{0.5F, aside_m},
                                    {-0.5F, aside_m},

@@ -42,8 +42,8 @@ HWY_INLINE Wide when(const WideMask& mask, const Wide& value) {
   return select(mask, value, wide(0.0F));
 }
 
-/// Instants since a heel strike, in whole units of a clock: those of claims are then the same whenever they are asked
-/// for.
+/// Instants since a heel strike, in whole units of a clock: those of reservations are then the same whenever they are
+/// asked for.
 struct Instants {
   Wide first;
   float every, unit_s;
@@ -76,9 +76,10 @@ struct StrikeAhead {
 
 /// A shortened step keeps at least a quarter of the leg, the shortest that a gait allows, with a margin for rounding.
 /// It also keeps the rate below two steps a second; people in a dense file make 0.8 to 1.6 (Jelić et al. 2012).
-constexpr float shortest_h = 0.2505F * static_cast<float>(fraction::thigh + fraction::shank), most_steps_hz = 2;
+constexpr float shortest_h = 0.2505F * static_cast<float>(fraction::thigh + fraction::shank), max_steps_hz = 2;
 
-HWY_NOINLINE StrikeAhead strike_at(const StrikePlace<Lanes<float>>& at, const Wide& speed, const Wide& length_part) {
+HWY_NOINLINE StrikeAhead strike_at(const HeelStrikePlace<Lanes<float>>& at, const Wide& speed,
+                                   const Wide& length_part) {
   const Wide leg = static_cast<float>(fraction::hip_height) * load(at.height_m), to_unit = 1.0F / sqrt(gravity * leg);
   const Wide before = load(at.speed_m_s), advance = load(at.advance_m);
   const WideMask walks = speed > 0.0F, walked = (before > 0.0F) & (advance > 0.0F);
@@ -91,13 +92,13 @@ HWY_NOINLINE StrikeAhead strike_at(const StrikePlace<Lanes<float>>& at, const Wi
     hips[l] = goes ? usual_hips(to[l]) - (from[l] > 0 ? usual_hips(from[l]) : 0) : 0;
   }
   const Wide own_length = load(usual) * leg * load(at.usual);
-  const Wide least = max(speed * (1 / most_steps_hz), shortest_h * load(at.height_m));
+  const Wide least = max(speed * (1 / max_steps_hz), shortest_h * load(at.height_m));
   const Wide length = max(own_length * length_part, min(own_length, least));
   const Wide own = load(hips) + when(walked, load(at.hips_m) / max(advance, 0.01F));
   return {speed, when(walks, speed / max(length, 0.01F)), length, own * length, length};
 }
 
-HWY_INLINE Line line_from(const StrikePlace<Lanes<float>>& at, const Wide& length, const NextFoot& next,
+HWY_INLINE Line line_from(const HeelStrikePlace<Lanes<float>>& at, const Wide& length, const NextFoot& next,
                           const Wide& slant) {
   const Wide before = load(at.bend_before_per_m), now = load(at.bend_per_m), zero = wide(0.0F);
   const Wide length_before = load(at.length_before_m);
@@ -117,7 +118,8 @@ HWY_INLINE Line line_from(const StrikePlace<Lanes<float>>& at, const Wide& lengt
 }
 
 /// A step to that strike, and where it leads.
-HWY_NOINLINE Way take_step(StrikePlace<Lanes<float>>& at, const StrikeAhead& to, const Wide& turn, const Wide& slant) {
+HWY_NOINLINE Way take_step(HeelStrikePlace<Lanes<float>>& at, const StrikeAhead& to, const Wide& turn,
+                           const Wide& slant) {
   const Wide zero = wide(0.0F);
   const Wide speed = load(at.speed_m_s), pace = load(at.pace_hz), length_before = load(at.length_before_m);
   const WideMask from_stands = speed <= 0.0F, to_stands = to.speed <= 0.0F;
@@ -167,7 +169,7 @@ HWY_NOINLINE Way take_step(StrikePlace<Lanes<float>>& at, const StrikeAhead& to,
 }
 
 /// From there on, the quickest stop.
-HWY_NOINLINE void stop(StrikePlace<Lanes<float>>& at, const Instants& instants, Wide start,
+HWY_NOINLINE void stop(HeelStrikePlace<Lanes<float>>& at, const Instants& instants, Wide start,
                        WaySamples<Lanes<float>>& out) {
   const Wide zero = wide(0.0F);
   store(wide(1.0F), at.usual);
@@ -177,7 +179,7 @@ HWY_NOINLINE void stop(StrikePlace<Lanes<float>>& at, const Instants& instants, 
     const Wide speed = load(at.speed_m_s);
     const WideMask goes = (speed > 0.0F) | (load(at.length_before_m) > 0.0F);
     if (!any(goes)) return;
-    const Wide slower = when(speed > last, max(speed - step_limits::most_slower * scale, last));
+    const Wide slower = when(speed > last, max(speed - step_limits::max_slower * scale, last));
     const StrikeAhead to =
         any(slower > 0.0F) ? strike_at(at, slower, wide(1.0F)) : StrikeAhead{zero, zero, zero, zero, zero};
     const Wide straight_on = (1.0F - slope_at_end) * to.length * load(at.bend_per_m);
@@ -187,9 +189,9 @@ HWY_NOINLINE void stop(StrikePlace<Lanes<float>>& at, const Instants& instants, 
   }
 }
 
-void claim_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                 const GaitState<Lanes<float>>& state, const Lanes<float>& first, float every, float unit_s,
-                 WaySamples<Lanes<float>>& out) {
+void reservation_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                       const GaitState<Lanes<float>>& state, const Lanes<float>& first, float every, float unit_s,
+                       WaySamples<Lanes<float>>& out) {
   const Instants instants = {load(first), every, unit_s};
   Way way;
   way.line = line_of(plan, state);
@@ -206,15 +208,15 @@ void claim_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>
   const Wide start = wide(0.0F);
   out = {};
   sample(way, instants, start, start <= 0.0F, out);
-  StrikePlace<Lanes<float>> next;
+  HeelStrikePlace<Lanes<float>> next;
   next_footing(size, plan, state, next);
   stop(next, instants, way.duration, out);
 }
 
-void tried_block(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& ahead,
+void tried_block(const HeelStrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& ahead,
                  WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end) {
   const Instants instants = {wide(ahead.first_s), ahead.every_s, 1};
-  StrikePlace<Lanes<float>> at = from;
+  HeelStrikePlace<Lanes<float>> at = from;
   const Wide zero = wide(0.0F), aside = load(tried.aside_m);
   StrikeAhead to = strike_at(at, load(tried.speed_m_s), load(tried.length_part));
   const WideMask slants = aside > 0.0F;
@@ -245,17 +247,17 @@ void directions_block(const Lanes<float>& heading, Lanes<float>& x, Lanes<float>
   store(c, z);
 }
 
-void approach_block(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m, Lanes<float>& least_m2) {
+void approach_block(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m, Lanes<float>& min_m2) {
   Wide least = wide(1e9F);
   for (std::size_t s = 0; s < way_samples; ++s) {
     const Wide dx = load(ways.x_m[s]) - x_m[s], dz = load(ways.z_m[s]) - z_m[s];
     least = min(least, fma(dx, dx, dz * dz));
   }
-  store(least, least_m2);
+  store(least, min_m2);
 }
 
 void wall_block(const WaySamples<Lanes<float>>& ways, float a_x, float a_z, float b_x, float b_z,
-                Lanes<float>& least_m2) {
+                Lanes<float>& min_m2) {
   const float along_x = b_x - a_x, along_z = b_z - a_z, squared = along_x * along_x + along_z * along_z;
   const float per = squared > 0 ? 1 / squared : 0;
   Wide least = wide(1e9F);
@@ -265,7 +267,7 @@ void wall_block(const WaySamples<Lanes<float>>& ways, float a_x, float a_z, floa
     const Wide dx = x - part * along_x, dz = z - part * along_z;
     least = min(least, fma(dx, dx, dz * dz));
   }
-  store(least, least_m2);
+  store(least, min_m2);
 }
 
 }  // namespace mobil::inline v0_3::HWY_NAMESPACE
@@ -293,14 +295,14 @@ float usual_hips(float speed) {
   return table[k] + part * (table[k + 1] - table[k]);
 }
 
-HWY_EXPORT(claim_block);
+HWY_EXPORT(reservation_block);
 HWY_EXPORT(tried_block);
 HWY_EXPORT(directions_block);
 HWY_EXPORT(approach_block);
 HWY_EXPORT(wall_block);
 
 void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                  const GaitState<Lanes<float>>& state, StrikePlace<Lanes<float>>& next) {
+                  const GaitState<Lanes<float>>& state, HeelStrikePlace<Lanes<float>>& next) {
   GaitState<Lanes<float>> then = state;
   then.time_s = plan.duration_s;
   advance_gait(plan, then, 0);  // a tick of no length: to the strike
@@ -325,19 +327,19 @@ void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float
   }
 }
 
-void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                const GaitState<Lanes<float>>& state, std::uint32_t first_tick, std::uint32_t every_ticks, float tick_s,
-                WaySamples<Lanes<float>>& out) {
+void reservation_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                      const GaitState<Lanes<float>>& state, std::uint32_t first_tick, std::uint32_t every_ticks,
+                      float tick_s, WaySamples<Lanes<float>>& out) {
   const ClockUnits units = clock_units(tick_s);
   const auto per_tick = static_cast<float>(units.per_tick);
   Lanes<float> first;
   for (std::size_t l = 0; l < lane_count; ++l)
     first[l] = static_cast<float>(units.of(state.time_s[l])) + static_cast<float>(first_tick) * per_tick;
-  HWY_DYNAMIC_DISPATCH(claim_block)
+  HWY_DYNAMIC_DISPATCH(reservation_block)
   (size, plan, state, first, static_cast<float>(every_ticks) * per_tick, units.unit_s, out);
 }
 
-void tried_ways(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
+void tried_ways(const HeelStrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
                 WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end) {
   HWY_DYNAMIC_DISPATCH(tried_block)(from, tried, at, out, end);
 }
@@ -353,14 +355,13 @@ GroundPoint direction(float heading_rad) {
   return {x[0], z[0]};
 }
 
-void nearest_approach(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m,
-                      Lanes<float>& least_m2) {
-  HWY_DYNAMIC_DISPATCH(approach_block)(ways, x_m, z_m, least_m2);
+void nearest_approach(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m, Lanes<float>& min_m2) {
+  HWY_DYNAMIC_DISPATCH(approach_block)(ways, x_m, z_m, min_m2);
 }
 
 void nearest_to_wall(const WaySamples<Lanes<float>>& ways, float a_x_m, float a_z_m, float b_x_m, float b_z_m,
-                     Lanes<float>& least_m2) {
-  HWY_DYNAMIC_DISPATCH(wall_block)(ways, a_x_m, a_z_m, b_x_m, b_z_m, least_m2);
+                     Lanes<float>& min_m2) {
+  HWY_DYNAMIC_DISPATCH(wall_block)(ways, a_x_m, a_z_m, b_x_m, b_z_m, min_m2);
 }
 
 }  // namespace mobil::inline v0_3

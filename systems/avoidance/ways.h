@@ -1,7 +1,7 @@
 #pragma once
 // Ways over the ground that a walker may take, sixteen side by side: the step under way and the quickest stop after it
-// (a claim), or a step that might be next and the quickest stop after that. Places are of the middle of the hips along
-// the walking line, without their sway (25 mm at most). m, s, rad; headings about +Y, 0 toward +Z.
+// (a reservation), or a step that might be next and the quickest stop after that. Places are of the middle of the hips
+// along the walking line, without their sway (25 mm at most). m, s, rad; headings about +Y, 0 toward +Z.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +28,7 @@ struct WaySamples {
 /// stance foothold the hips are. The point of the line beside that foothold, and its heading there. `lands_left` is 1
 /// where the left foot is the one to come down next, else −1. `usual`: how long this walker's steps are, of usual ones.
 template <class F>
-struct StrikePlace {
+struct HeelStrikePlace {
   F height_m, usual;
   F speed_m_s, pace_hz, advance_m, hips_m;
   F length_before_m, half_width_m;
@@ -59,17 +59,17 @@ float usual_hips(float speed);
 
 /// At the heel strike to come, if nothing else is asked. `hips_m` of who stands is as in a usual walk.
 void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                  const GaitState<Lanes<float>>& state, StrikePlace<Lanes<float>>& next);
+                  const GaitState<Lanes<float>>& state, HeelStrikePlace<Lanes<float>>& next);
 
 /// The rest of the step and the quickest stop after it: in so many ticks for the first time, and every so many ticks.
 /// The place at an instant is the same to the bit whenever within the step it is asked for.
-void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                const GaitState<Lanes<float>>& state, std::uint32_t first_tick, std::uint32_t every_ticks, float tick_s,
-                WaySamples<Lanes<float>>& out);
+void reservation_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                      const GaitState<Lanes<float>>& state, std::uint32_t first_tick, std::uint32_t every_ticks,
+                      float tick_s, WaySamples<Lanes<float>>& out);
 
 /// A step from a footing to a speed that one step reaches, then the quickest stop, from the strike on; and how that
 /// step ends.
-void tried_ways(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
+void tried_ways(const HeelStrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
                 WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end);
 
 /// Unit vectors of headings within ±10⁵ rad, of others that of 0: sines are the x, cosines the z. Much faster than
@@ -78,9 +78,9 @@ void directions(const Lanes<float>& heading_rad, Lanes<float>& x, Lanes<float>& 
 GroundPoint direction(float heading_rad);
 
 /// The least squared distance of each lane's way from one of somebody else, m²: `x_m` and `z_m` have way_samples.
-void nearest_approach(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m, Lanes<float>& least_m2);
+void nearest_approach(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m, Lanes<float>& min_m2);
 /// And from a wall from `a` to `b`.
 void nearest_to_wall(const WaySamples<Lanes<float>>& ways, float a_x_m, float a_z_m, float b_x_m, float b_z_m,
-                     Lanes<float>& least_m2);
+                     Lanes<float>& min_m2);
 
 }  // namespace mobil::inline v0_3

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "assets/reduction/reduced_rows.h"
-#include "assets/surfaces/muscle_cage.h"
+#include "assets/reduction/modal_rows.h"
+#include "assets/surfaces/muscle_lattice.h"
 #include "systems/deformation/deformation.h"
 #include "systems/lines/line_of_action.h"
 
@@ -21,7 +21,7 @@ constexpr double thigh_hz = 7, shank_hz = 12;
 
 /// Of the critical step: the consistent mass is lighter where it matters.
 Mass stepped_mass(const LegMuscles& choice) {
-  return choice.method == Method::icd ? Mass::consistent : Mass::lumped;
+  return choice.method == Method::implicit_central ? Mass::consistent : Mass::lumped;
 }
 
 Strain strain_of(const LegMuscles& choice) {
@@ -42,23 +42,23 @@ bool same_template(const LegMuscles& a, const LegMuscles& b, Muscle muscle) {
 Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choice, const BellyScale<float>& scale,
                             double tick_s) {
   if (choice.method == Method::statics) return 1U;
-  if (choice.method == Method::caa) return choice.dt_s ? steps_of(tick_s, *choice.dt_s) : 1U;
+  if (choice.method == Method::newmark) return choice.dt_s ? steps_of(tick_s, *choice.dt_s) : 1U;
   const auto critical =
       critical_step(shape.critical_steps, static_cast<double>(scale.across), static_cast<double>(scale.along));
   if (!critical) return tl::unexpected(critical.error());
   if (!choice.dt_s) {
-    if (tick_s > most_steps * *critical) {
+    if (tick_s > max_steps * *critical) {
       return fail(fmt::format(
           "this belly's critical step is {:.3g} s, and a tick takes at most {} steps; choose softer tissue, a coarser"
-          " mesh, or caa",
-          *critical, most_steps));
+          " mesh, or newmark",
+          *critical, max_steps));
     }
     return substeps_within(*critical, tick_s);
   }
   if (*choice.dt_s > *critical) {
     return fail(
         fmt::format("a step of {:.6g} s is above this belly's critical step of {:.6g} s; give a shorter one,"
-                    " leave it out, or take caa",
+                    " leave it out, or take newmark",
                     *choice.dt_s, *critical));
   }
   return steps_of(tick_s, *choice.dt_s);
@@ -95,7 +95,9 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   if (has_finite_shape(choice) && choice.drive == Drive::force)
     return fail("finite shapes are those of a belly whose end is held; take Drive::displacement, or no finite_shape");
   if (choice.method == Method::finite && choice.stiffness_damping_s > 0)
-    return fail("Method::finite is damped by damping_per_s alone; leave stiffness_damping_s at 0, or take ecd or caa");
+    return fail(
+        "Method::finite is damped by damping_per_s alone; leave stiffness_damping_s at 0, or take explicit-central or "
+        "newmark");
   if (is_tuned(choice) && !has_activation(choice)) {
     return fail(
         "tuned bellies are as stiff as their muscle pulls: choose LegMuscles::activation too, or leave tuned out");
@@ -111,7 +113,7 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   const auto first = static_cast<Muscle>(std::countr_zero(choice.muscles.to_ulong()));
   if (auto ok = check_muscle_options(options_of(choice, first)); !ok) return ok;
   if (!choice.dt_s) return {};
-  const double least = tick_s / static_cast<double>(most_steps);
+  const double least = tick_s / static_cast<double>(max_steps);
   if (!(*choice.dt_s >= least && std::isfinite(*choice.dt_s))) {
     return fail(fmt::format("a step of {} s must be finite and at least {:.3g} s; give another or leave it out",
                             *choice.dt_s, least));
@@ -153,7 +155,7 @@ std::pair<const BellyTemplate*, const BellyTemplate*> BellyLibrary::find_shape(M
 Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, const LegMuscles& choice,
                                                                 const BellyTemplate* alike,
                                                                 std::optional<ShapeTables> known) {
-  auto mesh = bend_block(choice.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
+  auto mesh = bend_block(choice.cells, muscle_lattice(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
   const MuscleOptions options = options_of(choice, muscle);
   std::optional<CriticalSteps> steps;
@@ -187,7 +189,7 @@ std::shared_ptr<const LegMuscles> BellyLibrary::choice(const LegMuscles& choice)
   LegMuscles kept = choice;
   kept.muscles = LegMuscles{}.muscles;
   kept.method = LegMuscles{}.method;
-  kept.reduced = {};
+  kept.modal = {};
   return whole_choice(kept);
 }
 
@@ -223,10 +225,11 @@ BellyLibrary::SolverKey BellyLibrary::solver_key(const BellyTemplate& shape, Met
                                                  const BellyScale<float>& scale) {
   // The operator over S depends on S / l and, where there is mass in it, on S·l; ICD's is the mass alone.
   const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
-  const bool massive = method == Method::caa || shape.shape->options.foundation_hz > 0;
-  const double ratio =
-      method == Method::icd ? 1 : std::clamp(middle_of_range(across / along, 1.06), lowest_ratio, highest_ratio);
-  const double product = method == Method::icd || !massive ? 1 : middle_of_range(across * along, 1.12);
+  const bool massive = method == Method::newmark || shape.shape->options.foundation_hz > 0;
+  const double ratio = method == Method::implicit_central
+                           ? 1
+                           : std::clamp(middle_of_range(across / along, 1.06), lowest_ratio, highest_ratio);
+  const double product = method == Method::implicit_central || !massive ? 1 : middle_of_range(across * along, 1.12);
   return {&shape, method, mass, dt_s, std::sqrt(product * ratio), std::sqrt(product / ratio)};
 }
 
@@ -234,7 +237,7 @@ std::shared_ptr<const BellySolver> BellyLibrary::find_solver(const SolverKey& ke
   const double step_s = key.method == Method::statics ? 0 : key.dt_s;
   for (const Solver& made : solvers_) {
     const BellySolver& s = *made.solver;
-    const bool same_mass = key.method != Method::caa || s.mass == key.mass;
+    const bool same_mass = key.method != Method::newmark || s.mass == key.mass;
     if (made.shape == key.shape && s.method == key.method && same_mass && s.dt_s == step_s && s.across == key.across &&
         s.along == key.along) {
       return made.solver;
@@ -262,7 +265,7 @@ Result<SharedBelly> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice
   if (choice.method == Method::none) return belly;
   if (has_finite_shape(choice) || (choice.method == Method::finite && has_activation(choice)))
     belly.finite = finite_shape(**made);
-  if (choice.method == Method::reduced) {
+  if (choice.method == Method::modal) {
     auto along = basis(muscle, choice, scale);
     if (!along) return tl::unexpected(along.error());
     belly.basis = std::move(*along);
@@ -277,7 +280,7 @@ Result<SharedBelly> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice
     to = std::move(*found);
     return {};
   };
-  if (choice.method != Method::ecd && choice.method != Method::finite) {
+  if (choice.method != Method::explicit_central && choice.method != Method::finite) {
     if (auto ok = solve_with(choice.method, belly.solver); !ok) return tl::unexpected(ok.error());
   }
   if (choice.inertia) {
@@ -291,26 +294,26 @@ Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choi
   auto common = shared(plan.muscle, choice, plan.scale, tick_s);
   if (!common) return tl::unexpected(common.error());
   Belly belly{std::move(*common), plan, {}, {}, {}};
-  if (choice.method != Method::reduced) return belly;
-  const ReducedBasis& basis = *belly.basis;
-  ReducedBellies one;
+  if (choice.method != Method::modal) return belly;
+  const ModalBasis& basis = *belly.basis;
+  ModalBellies one;
   one.tuned = is_tuned(choice);
   if (auto solved = solve_bellies(basis, {&plan.scale, 1}, one); !solved) return tl::unexpected(solved.error());
   const double damping = basis.options.damping_per_s;
   std::vector<Lanes<float>> words(
-      std::max(reduced_motion_width(one.vectors, one.inputs), reduced_shape_width(one.vectors, one.inputs)));
+      std::max(modal_motion_width(one.modes, one.inputs), modal_shape_width(one.modes, one.inputs)));
   const auto first_lanes = [&](std::size_t width) {
     std::vector<float> row(width);
     for (std::size_t w = 0; w < width; ++w) row[w] = words[w][0];
     return row;
   };
   write_motions(one, damping, static_cast<double>(static_cast<float>(tick_s)), words[0].lane);
-  belly.motion = first_lanes(reduced_motion_width(one.vectors, one.inputs));
-  if (choice.reduced.control_points) {
+  belly.motion = first_lanes(modal_motion_width(one.modes, one.inputs));
+  if (choice.modal.control_points) {
     write_shapes(one, damping, words[0].lane);
-    belly.rest_shape = first_lanes(reduced_shape_width(one.vectors, one.inputs));
+    belly.rest_shape = first_lanes(modal_shape_width(one.modes, one.inputs));
   }
-  belly.motions = std::make_shared<const ReducedBelly>(belly_of(one, 0));
+  belly.motions = std::make_shared<const ModalBelly>(belly_of(one, 0));
   return belly;
 }
 

@@ -15,13 +15,13 @@
 #include <mobil/engine/jobs.h>
 #include <mobil/muscle_table.h>
 #include "assets/fem/belly_solver.h"
-#include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/modal_basis.h"
 #include "systems/deformation/belly.h"
 
 namespace mobil::inline v0_3 {
 
 /// Steps of a method that a tick may take.
-inline constexpr std::uint32_t most_steps = 1'000'000;
+inline constexpr std::uint32_t max_steps = 1'000'000;
 
 /// Templates, solvers and bases, made when they are first asked for and kept. Solvers and bases are those of bodies in
 /// the middle of a range of sizes: what one gets depends on one's own size alone.
@@ -54,7 +54,7 @@ class BellyLibrary {
     const BellyTemplate* shape;
     std::shared_ptr<const BellySolver> solver;
   };
-  /// Made with most_vectors; the others are the first ones of those.
+  /// Made with max_modes; the others are the first ones of those.
   struct BasisKey {
     double ratio, product;  // the centre of the range of bodies that it serves
     bool operator==(const BasisKey&) const = default;
@@ -63,8 +63,8 @@ class BellyLibrary {
     Muscle muscle;
     LegMuscles choice;
     double middle_ratio, middle_product;
-    std::shared_ptr<const ReducedBasis> whole;
-    std::vector<std::shared_ptr<const ReducedBasis>> cut;
+    std::shared_ptr<const ModalBasis> whole;
+    std::vector<std::shared_ptr<const ModalBasis>> cut;
     bool given = false;  // by `prepare` or `load`
   };
 
@@ -100,14 +100,14 @@ class BellyLibrary {
   std::shared_ptr<const BellySolver> find_solver(const SolverKey& key) const;
   Result<std::shared_ptr<const BellySolver>> solver(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
                                                     const BellyScale<float>& scale);
-  Result<std::shared_ptr<const ReducedBasis>> basis(Muscle muscle, const LegMuscles& choice,
-                                                    const BellyScale<float>& scale);
+  Result<std::shared_ptr<const ModalBasis>> basis(Muscle muscle, const LegMuscles& choice,
+                                                  const BellyScale<float>& scale);
   static BasisKey basis_key(const LegMuscles& choice, Muscle muscle, double ratio, double product);
   static std::vector<BasisKey> usual_bases(const LegMuscles& choice, Muscle muscle);
   Basis* find_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
-  static ReducedOptions basis_options(const LegMuscles& choice, Muscle muscle, const BasisKey& key);
+  static ModalBasisOptions basis_options(const LegMuscles& choice, Muscle muscle, const BasisKey& key);
   static Result<Basis> make_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
-  static std::shared_ptr<const ReducedBasis> cut(Basis& made, std::uint32_t vectors);
+  static std::shared_ptr<const ModalBasis> cut(Basis& made, std::uint32_t modes);
   void prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s);
   static std::uint64_t maker();
   static std::uint64_t find_maker();
@@ -120,20 +120,20 @@ class BellyLibrary {
 };
 
 /// Of bellies against their templates, what people of usual build have: across over along, and across times along. One
-/// person in a thousand is beyond; with vectors of the usual mesh those are prepared for too.
+/// person in a thousand is beyond; with modes of the usual mesh those are prepared for too.
 namespace usual_sizes {
-inline constexpr double least_ratio = 0.80, most_ratio = 1.26, least_product = 0.6, most_product = 1.3;
+inline constexpr double min_ratio = 0.80, max_ratio = 1.26, min_product = 0.6, max_product = 1.3;
 inline constexpr double rare_ratio = 1.05;  // times more or less
 }  // namespace usual_sizes
 /// The fewest equal steps of a tick that are no longer than dt_s, up to rounding.
 std::uint32_t steps_of(double tick_s, double dt_s);
 /// Whether a choice is in range, as far as that does not take a body to say.
 Result<void> check_choice(const LegMuscles& choice, double tick_s);
-/// What a reduced belly's basis depends on of a choice, but for how many vectors it has; all else is as in a
+/// What a modal belly's basis depends on of a choice, but for how many modes it has; all else is as in a
 /// LegMuscles{}.
 LegMuscles basis_choice(const LegMuscles& choice, Muscle muscle);
-/// Of one that is, whether reduced bellies can be so.
-Result<void> check_reduced(const LegMuscles& choice);
+/// Of one that is, whether modal bellies can be so.
+Result<void> check_modal(const LegMuscles& choice);
 /// Of a choice in range: one muscle's sideways foundation, Hz.
 double foundation_of(const LegMuscles& choice, Muscle muscle);
 bool same_tissue(const LegMuscles& a, const LegMuscles& b);

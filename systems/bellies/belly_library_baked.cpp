@@ -6,11 +6,11 @@
 
 #include "assets/fem/solver_arrays.h"
 #include "assets/reduction/basis_arrays.h"
-#include "assets/surfaces/muscle_cage.h"
+#include "assets/surfaces/muscle_lattice.h"
 #include "engine/row_hash.h"
 #include "systems/bellies/baked_bytes.h"
 #include "systems/bellies/belly_library.h"
-#include "systems/bellies/choice_words.h"
+#include "systems/bellies/leg_muscles_io.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -21,7 +21,7 @@ constexpr double any_tick_s = 1;  // a choice without a step of its own is in ra
 
 void write(BakeWriter& out, Muscle muscle, const LegMuscles& choice) {
   out.put(static_cast<std::uint32_t>(muscle));
-  for (const std::uint64_t word : choice_words(choice)) out.put(word);
+  for (const std::uint64_t word : leg_muscles_words(choice)) out.put(word);
 }
 
 /// Which muscle, and what is chosen of it.
@@ -33,14 +33,14 @@ struct Chosen {
 Chosen read_chosen(BakeReader& in) {
   const auto last = static_cast<std::uint32_t>(muscles().size() - 1);
   const auto muscle = static_cast<Muscle>(in.take_up_to(last));
-  ChoiceWords words{};
+  LegMusclesWords words{};
   for (std::uint64_t& word : words) word = in.take<std::uint64_t>();
   const auto named = choice_of(words);
   if (!named) in.refuse();
   LegMuscles choice = named.value_or(LegMuscles{});
   choice.dt_s.reset();
   if (!check_choice(choice, any_tick_s)) in.refuse();
-  for (const Cells& cells : {choice.cells, choice.reduced.cells}) {
+  for (const Cells& cells : {choice.cells, choice.modal.cells}) {
     std::uint64_t nodes = 1;
     for (const std::uint32_t count : cells) nodes *= std::uint64_t{std::min(count, largest_mesh_nodes)} + 1;
     if (nodes > largest_mesh_nodes || nodes <= 1) in.refuse();
@@ -98,13 +98,13 @@ void write(BakeWriter& out, const BellySolver& solver, const Cells& cells) {
 }
 
 BellySolver read_solver(BakeReader& in, const Cells& cells) {
-  constexpr std::uint32_t most_sweeps = 64;
+  constexpr std::uint32_t max_sweeps = 64;
   BellySolver solver;
   BandFactor& factor = solver.factor;
   solver.method = static_cast<Method>(in.take_up_to(static_cast<std::uint32_t>(Method::none)));
   solver.mass = static_cast<Mass>(in.take_up_to(static_cast<std::uint32_t>(Mass::consistent)));
-  solver.sweeps = in.take_up_to(most_sweeps);
-  solver.refinements = in.take_up_to(most_sweeps);
+  solver.sweeps = in.take_up_to(max_sweeps);
+  solver.refinements = in.take_up_to(max_sweeps);
   factor.components = in.take_up_to(3);
   factor.first_node = in.take<std::uint32_t>();
   factor.nodes = in.take_up_to(node_count(cells));
@@ -112,7 +112,8 @@ BellySolver read_solver(BakeReader& in, const Cells& cells) {
   solver.correction = static_cast<float>(in.take<double>());
   const std::uint32_t first = plane_nodes(cells), all = node_count(cells) - first;
   const bool whole = factor.nodes == all || factor.nodes == all - first;
-  if (!whole || factor.first_node != first || factor.components != (solver.method == Method::icd ? 1U : 3U))
+  if (!whole || factor.first_node != first ||
+      factor.components != (solver.method == Method::implicit_central ? 1U : 3U))
     in.refuse();
   each_array(solver, cells, [&](auto& array, std::size_t length) {
     if (in.sound()) in(array, length);
@@ -124,16 +125,16 @@ BellySolver read_solver(BakeReader& in, const Cells& cells) {
   return solver;
 }
 
-void write(BakeWriter& out, const ReducedBasis& basis) {
+void write(BakeWriter& out, const ModalBasis& basis) {
   const bool turned = !basis.turned.vector.empty();
-  out.put(basis.vectors);
+  out.put(basis.modes);
   out.put(std::uint32_t{turned});
   each_number(basis, [&](double number) { out.put(number); });
   each_array(basis, turned, out);
 }
 
-ReducedBasis read_basis(BakeReader& in, const Cells& cells, ReducedOptions options) {
-  options.vectors = in.take_up_to(most_vectors);
+ModalBasis read_basis(BakeReader& in, const Cells& cells, ModalBasisOptions options) {
+  options.modes = in.take_up_to(max_modes);
   const bool turned = in.take_up_to(1) != 0;
   auto basis = basis_outline(cells, options);
   if (!basis) {
@@ -167,7 +168,7 @@ std::uint64_t BellyLibrary::find_maker() {
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     const auto muscle = static_cast<Muscle>(m);
     out.put(reference_belly_m(muscle));
-    for (const CageStation& s : muscle_cage(muscle)) {
+    for (const LatticeStation& s : muscle_lattice(muscle)) {
       for (const float number : {s.t, s.offset_x_m, s.offset_y_m, s.semi_x_m, s.semi_y_m, s.shear_x_m, s.shear_y_m}) {
         out.put(number);
       }
@@ -187,12 +188,12 @@ std::uint64_t BellyLibrary::find_maker() {
     if (const auto solver = make_belly_solver(*made.shape, Method::statics, Mass::lumped, 1))
       write(out, *solver, small.cells);
   }
-  ReducedOptions few;
-  few.vectors = 2;
+  ModalBasisOptions few;
+  few.modes = 2;
   few.ratio_width = 1;
   few.control_cells = small.cells;
-  const auto mesh = bend_block({2, 2, 4}, muscle_cage(Muscle{}), reference_belly_m(Muscle{}), belly_grading);
-  if (const auto basis = make_reduced_basis(*mesh, small.material, small.element, few)) write(out, *basis);
+  const auto mesh = bend_block({2, 2, 4}, muscle_lattice(Muscle{}), reference_belly_m(Muscle{}), belly_grading);
+  if (const auto basis = make_modal_basis(*mesh, small.material, small.element, few)) write(out, *basis);
   return hash_bytes(out.bytes.data(), out.bytes.size());
 }
 
@@ -263,11 +264,11 @@ Result<BellyLibrary::Loaded> BellyLibrary::read(std::span<const std::byte> baked
     key.product = in.take<double>();
     if (!in.sound()) break;
     const auto one = [&] {
-      return std::make_shared<const ReducedBasis>(
-          read_basis(in, choice.reduced.cells, basis_options(choice, chosen.muscle, key)));
+      return std::make_shared<const ModalBasis>(
+          read_basis(in, choice.modal.cells, basis_options(choice, chosen.muscle, key)));
     };
     Basis basis{chosen.muscle, choice, key.ratio, key.product, one(), {}, true};
-    const std::uint32_t cuts = in.take_up_to(most_vectors);
+    const std::uint32_t cuts = in.take_up_to(max_modes);
     for (std::uint32_t cut = 0; cut < cuts && in.sound(); ++cut) basis.cut.push_back(one());
     loaded.bases.push_back(std::move(basis));
   }
@@ -298,7 +299,7 @@ Result<void> BellyLibrary::load(std::span<const std::byte> baked) {
   }
   for (Basis& basis : loaded->bases) {
     LegMuscles choice = basis.choice;
-    choice.reduced.vectors = basis.whole->vectors;
+    choice.modal.modes = basis.whole->modes;
     Basis* const known = find_basis(basis.muscle, choice, {basis.middle_ratio, basis.middle_product});
     if (known == nullptr) {
       bases_.push_back(std::move(basis));
@@ -307,7 +308,7 @@ Result<void> BellyLibrary::load(std::span<const std::byte> baked) {
     known->given = true;
     for (auto& cut : basis.cut) {
       const bool there = std::any_of(known->cut.begin(), known->cut.end(),
-                                     [&](const auto& made) { return made->vectors == cut->vectors; });
+                                     [&](const auto& made) { return made->modes == cut->modes; });
       if (!there) known->cut.push_back(std::move(cut));
     }
   }

@@ -1,17 +1,17 @@
-// Bases of reduced bellies.
+// Bases of modal bellies.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "assets/surfaces/muscle_cage.h"
+#include "assets/surfaces/muscle_lattice.h"
 #include "systems/bellies/belly_library.h"
 
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr double ratio_step = 1.1;    // between the middles of ranges of slenderness: twelve vectors serve such a range
+constexpr double ratio_step = 1.1;    // between the middles of ranges of slenderness: twelve modes serve such a range
 constexpr double product_step = 1.5;  // between those of size, which the foundation alone goes by
 
 }  // namespace
@@ -19,8 +19,8 @@ constexpr double product_step = 1.5;  // between those of size, which the founda
 LegMuscles basis_choice(const LegMuscles& choice, Muscle muscle) {
   LegMuscles alike;
   alike.drive = choice.drive;
-  alike.reduced.corrected = choice.reduced.corrected;
-  alike.reduced.cells = choice.reduced.cells;
+  alike.modal.corrected = choice.modal.corrected;
+  alike.modal.cells = choice.modal.cells;
   alike.material = choice.material;
   alike.element = choice.element;
   alike.damping_per_s = choice.damping_per_s;
@@ -30,14 +30,14 @@ LegMuscles basis_choice(const LegMuscles& choice, Muscle muscle) {
   return alike;
 }
 
-Result<void> check_reduced(const LegMuscles& choice) {
-  const std::uint32_t vectors = choice.reduced.vectors;
-  if (vectors < 1 || vectors > most_vectors) {
-    return fail(fmt::format("{} vectors of a reduced belly are out of range; choose 1 to {}", vectors, most_vectors));
+Result<void> check_modal(const LegMuscles& choice) {
+  const std::uint32_t modes = choice.modal.modes;
+  if (modes < 1 || modes > max_modes) {
+    return fail(fmt::format("{} modes of a modal belly are out of range; choose 1 to {}", modes, max_modes));
   }
   if (choice.stiffness_damping_s != 0) {
     return fail(
-        fmt::format("a reduced belly has no stiffness damping, and {} s was asked; leave it at 0 or take another"
+        fmt::format("a modal belly has no stiffness damping, and {} s was asked; leave it at 0 or take another"
                     " method",
                     choice.stiffness_damping_s));
   }
@@ -51,12 +51,12 @@ BellyLibrary::BasisKey BellyLibrary::basis_key(const LegMuscles& choice, Muscle 
 
 std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& choice, Muscle muscle) {
   std::vector<BasisKey> keys;
-  const bool fine = choice.reduced.cells[2] > ReducedChoice{}.cells[2];  // a basis takes half a second and more
-  const double beyond = fine ? 1 : usual_sizes::rare_ratio, most_ratio = usual_sizes::most_ratio * beyond;
-  for (double ratio = usual_sizes::least_ratio / beyond;; ratio *= ratio_step) {
-    const double at_ratio = std::min(ratio, most_ratio);
-    for (double product = usual_sizes::least_product;; product *= product_step) {
-      const double at_product = std::min(product, usual_sizes::most_product);
+  const bool fine = choice.modal.cells[2] > ModalOptions{}.cells[2];  // a basis takes half a second and more
+  const double beyond = fine ? 1 : usual_sizes::rare_ratio, max_ratio = usual_sizes::max_ratio * beyond;
+  for (double ratio = usual_sizes::min_ratio / beyond;; ratio *= ratio_step) {
+    const double at_ratio = std::min(ratio, max_ratio);
+    for (double product = usual_sizes::min_product;; product *= product_step) {
+      const double at_product = std::min(product, usual_sizes::max_product);
       const BasisKey key = basis_key(choice, muscle, at_ratio, at_product);
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
       if (at_product < product) break;
@@ -69,17 +69,16 @@ std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& 
 BellyLibrary::Basis* BellyLibrary::find_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key) {
   const auto at = std::find_if(bases_.begin(), bases_.end(), [&](const Basis& made) {
     return made.muscle == muscle && key == BasisKey{made.middle_ratio, made.middle_product} &&
-           made.whole->vectors >= choice.reduced.vectors &&
-           basis_choice(made.choice, muscle) == basis_choice(choice, muscle);
+           made.whole->modes >= choice.modal.modes && basis_choice(made.choice, muscle) == basis_choice(choice, muscle);
   });
   return at == bases_.end() ? nullptr : &*at;
 }
 
-ReducedOptions BellyLibrary::basis_options(const LegMuscles& choice, Muscle muscle, const BasisKey& key) {
-  ReducedOptions options;
+ModalBasisOptions BellyLibrary::basis_options(const LegMuscles& choice, Muscle muscle, const BasisKey& key) {
+  ModalBasisOptions options;
   options.far_end = far_end_of(choice);
   options.frame_loads = choice.inertia;
-  options.corrected = choice.reduced.corrected;
+  options.corrected = choice.modal.corrected;
   options.foundation_hz = foundation_of(choice, muscle);
   options.damping_per_s = choice.damping_per_s;
   options.middle_ratio = key.ratio;
@@ -90,41 +89,41 @@ ReducedOptions BellyLibrary::basis_options(const LegMuscles& choice, Muscle musc
 }
 
 Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key) {
-  if (auto ok = check_reduced(choice); !ok) return tl::unexpected(ok.error());
-  const auto mesh = bend_block(choice.reduced.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
+  if (auto ok = check_modal(choice); !ok) return tl::unexpected(ok.error());
+  const auto mesh = bend_block(choice.modal.cells, muscle_lattice(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
-  ReducedOptions options = basis_options(choice, muscle, key);
+  ModalBasisOptions options = basis_options(choice, muscle, key);
   const auto make = [&](std::uint32_t count) {
-    options.vectors = count;
-    return make_reduced_basis(*mesh, choice.material, choice.element, options);
+    options.modes = count;
+    return make_modal_basis(*mesh, choice.material, choice.element, options);
   };
-  auto whole = make(most_vectors);
-  if (!whole) whole = make(choice.reduced.vectors);  // a small mesh may not have so many
+  auto whole = make(max_modes);
+  if (!whole) whole = make(choice.modal.modes);  // a small mesh may not have so many
   if (!whole) return tl::unexpected(whole.error());
-  Basis made{muscle, choice, key.ratio, key.product, std::make_shared<const ReducedBasis>(std::move(*whole)), {}};
-  cut(made, choice.reduced.vectors);
+  Basis made{muscle, choice, key.ratio, key.product, std::make_shared<const ModalBasis>(std::move(*whole)), {}};
+  cut(made, choice.modal.modes);
   return made;
 }
 
-std::shared_ptr<const ReducedBasis> BellyLibrary::cut(Basis& made, std::uint32_t vectors) {
-  if (vectors == made.whole->vectors) return made.whole;
+std::shared_ptr<const ModalBasis> BellyLibrary::cut(Basis& made, std::uint32_t modes) {
+  if (modes == made.whole->modes) return made.whole;
   for (const auto& cut : made.cut) {
-    if (cut->vectors == vectors) return cut;
+    if (cut->modes == modes) return cut;
   }
-  made.cut.push_back(std::make_shared<const ReducedBasis>(truncated(*made.whole, vectors)));
+  made.cut.push_back(std::make_shared<const ModalBasis>(truncated(*made.whole, modes)));
   return made.cut.back();
 }
 
-Result<std::shared_ptr<const ReducedBasis>> BellyLibrary::basis(Muscle muscle, const LegMuscles& choice,
-                                                                const BellyScale<float>& scale) {
-  if (auto ok = check_reduced(choice); !ok) return tl::unexpected(ok.error());
+Result<std::shared_ptr<const ModalBasis>> BellyLibrary::basis(Muscle muscle, const LegMuscles& choice,
+                                                              const BellyScale<float>& scale) {
+  if (auto ok = check_modal(choice); !ok) return tl::unexpected(ok.error());
   const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
   const BasisKey key = basis_key(choice, muscle, across / along, across * along);
-  if (Basis* const found = find_basis(muscle, choice, key)) return cut(*found, choice.reduced.vectors);
+  if (Basis* const found = find_basis(muscle, choice, key)) return cut(*found, choice.modal.modes);
   auto made = make_basis(muscle, choice, key);
   if (!made) return tl::unexpected(made.error());
   bases_.push_back(std::move(*made));
-  return cut(bases_.back(), choice.reduced.vectors);
+  return cut(bases_.back(), choice.modal.modes);
 }
 
 }  // namespace mobil::inline v0_3

@@ -48,10 +48,10 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
     if (!choice.muscles[m]) continue;
     const auto muscle = static_cast<Muscle>(m);
     if (find_shape(muscle, choice).first == nullptr) shapes.push_back({.muscle = muscle});
-    if (choice.method != Method::reduced) continue;
+    if (choice.method != Method::modal) continue;
     for (const BasisKey& key : usual_bases(choice, muscle)) {
       if (Basis* const found = find_basis(muscle, choice, key)) {
-        cut(*found, choice.reduced.vectors);
+        cut(*found, choice.modal.modes);
         found->given = true;
         continue;
       }
@@ -85,14 +85,16 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
 
 /// A body that a fixed step is too long for has its own refusal.
 void BellyLibrary::prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s) {
-  const bool solves = choice.method == Method::statics || choice.method == Method::icd || choice.method == Method::caa;
-  const bool rests = choice.inertia && (solves || choice.method == Method::ecd || choice.method == Method::finite);
+  const bool solves =
+      choice.method == Method::statics || choice.method == Method::implicit_central || choice.method == Method::newmark;
+  const bool rests =
+      choice.inertia && (solves || choice.method == Method::explicit_central || choice.method == Method::finite);
   if (!solves && !rests) return;
   constexpr double step = 1.05;  // no range of sizes is narrower
   MusclePlan plan;
   plan.muscle = muscle;
-  for (double ratio = usual_sizes::least_ratio; ratio < usual_sizes::most_ratio * step; ratio *= step) {
-    for (double product = usual_sizes::least_product; product < usual_sizes::most_product * step; product *= step) {
+  for (double ratio = usual_sizes::min_ratio; ratio < usual_sizes::max_ratio * step; ratio *= step) {
+    for (double product = usual_sizes::min_product; product < usual_sizes::max_product * step; product *= step) {
       plan.scale = {static_cast<float>(std::sqrt(product * ratio)), static_cast<float>(std::sqrt(product / ratio))};
       (void)belly(plan, choice, tick_s);
     }

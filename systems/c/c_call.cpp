@@ -164,10 +164,10 @@ mobil_walk usual() {
 template <>
 mobil_method usual() {
   const MuscleMethod as;
-  const ReducedChoice& r = as.reduced;
+  const ModalOptions& r = as.modal;
   return {sizeof(mobil_method),
           static_cast<int>(as.method),
-          static_cast<int>(r.vectors),
+          static_cast<int>(r.modes),
           r.moving,
           r.corrected,
           r.control_points,
@@ -185,7 +185,7 @@ mobil_muscles usual() {
   to.size = sizeof to;
   to.muscles = static_cast<unsigned int>(as.muscles.to_ulong());
   to.method = method.method;
-  to.vectors = method.vectors;
+  to.modes = method.modes;
   to.moving = method.moving;
   to.corrected = method.corrected;
   to.control_points = method.control_points;
@@ -200,7 +200,7 @@ mobil_muscles usual() {
   to.line_motion = as.line_motion;
   to.finite_shape = -1;
   for (std::size_t i = 0; i < 3; ++i) {
-    to.reduced_cells[i] = method.reduced_cells[i];
+    to.modal_cells[i] = method.modal_cells[i];
     to.cells[i] = as.cells[i];
   }
   to.density_kg_m3 = as.material.density_kg_m3;
@@ -222,7 +222,7 @@ mobil_pose_layout usual() {
 
 template <>
 mobil_scene usual() {
-  const SceneNeeds as;
+  const LodScene as;
   const Viewpoint camera;
   mobil_scene scene{};
   scene.size = sizeof scene;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/rest_surfaces.h>
 #include "systems/c/c_surfaces.h"
 
@@ -60,9 +60,9 @@ int mobil_find_contacts(mobil_sim* sim, mobil_id like, const mobil_surfaces* sur
     if (out == nullptr) return s.line.refuse_null("out");
     *out = nullptr;
     if (surfaces == nullptr) return s.line.refuse_null("surfaces");
-    const auto human = s.world().human(entity_of(like));
-    if (!human) return s.line.refuse(Error{{}, Status::stale_entity});
-    auto found = find_contacts(surfaces->bound, human->body, surfaces->choice());
+    const auto person = s.world().person(entity_of(like));
+    if (!person) return s.line.refuse(Error{{}, Status::stale_entity});
+    auto found = find_contacts(surfaces->bound, person->body, surfaces->choice());
     if (!found) return s.line.refuse(found.error());
     *out = new mobil_contacts{std::move(*found), surfaces->bound.vertices};
     return int{MOBIL_OK};

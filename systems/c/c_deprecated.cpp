@@ -54,7 +54,7 @@ int mobil_watch(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
   return mobil_enable(sim, ids, count, MOBIL_STEP_EVENTS, on);
 }
 
-int mobil_start_choosing(mobil_sim* sim, const mobil_choosing* options, const mobil_muscles* muscles) {
+int mobil_start_choosing(mobil_sim* sim, const mobil_lod_options* options, const mobil_muscles* muscles) {
   return mobil_lod_set_options(sim, options, muscles);
 }
 int mobil_set_scene(mobil_sim* sim, const mobil_scene* scene) {
@@ -72,14 +72,14 @@ int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count) {
 int mobil_why(mobil_sim* sim, mobil_id id, int muscle, char* line, size_t room, float* error_m, double* cost_us) {
   return mobil_lod_why(sim, id, muscle, line, room, error_m, cost_us);
 }
-int mobil_way(int way, int muscle, float speed_m_s, float height_m, int inertia, int pulling, mobil_way_figures* out) {
+int mobil_way(int way, int muscle, float speed_m_s, float height_m, int inertia, int pulling, mobil_level* out) {
   return mobil_lod_level(way, muscle, speed_m_s, height_m, inertia, pulling, out);
 }
-int mobil_choose(mobil_sim* sim, mobil_chosen* out) {
+int mobil_choose(mobil_sim* sim, mobil_lod_counts* out) {
   return out == nullptr ? int{MOBIL_OK} : mobil_lod_report(sim, out);
 }
 
-int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options) {
+int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance_options* options) {
   if (const int code = mobil_avoidance_set_options(sim, options)) return code;
   if (const int code = mobil_avoidance_set_walls(sim, nullptr, 0, 0)) return code;
   return mobil_avoidance_set_discs(sim, nullptr, 0, 0);
@@ -88,7 +88,7 @@ int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
   return mobil_avoidance_manage(sim, ids, count, on);
 }
 int mobil_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes, size_t stride) {
-  return mobil_avoidance_want(sim, ids, count, wishes, stride);
+  return mobil_avoidance_set_desired_velocity(sim, ids, count, wishes, stride);
 }
 int mobil_set_walls(mobil_sim* sim, const float* walls, size_t stride, size_t count) {
   return mobil_avoidance_set_walls(sim, walls, stride, count);
@@ -96,7 +96,7 @@ int mobil_set_walls(mobil_sim* sim, const float* walls, size_t stride, size_t co
 int mobil_set_discs(mobil_sim* sim, const float* discs, size_t stride, size_t count) {
   return mobil_avoidance_set_discs(sim, discs, stride, count);
 }
-int mobil_steer(mobil_sim* sim, mobil_steered* out) {
+int mobil_steer(mobil_sim* sim, mobil_avoidance_counts* out) {
   return out == nullptr ? int{MOBIL_OK} : mobil_avoidance_report(sim, out);
 }
 
@@ -104,11 +104,18 @@ int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids, size_t count, int o
   return mobil_terrain_manage(sim, ids, count, on);
 }
 int mobil_set_slowing(mobil_sim* sim, int on) {
-  return mobil_terrain_set_slowing(sim, on);
+  return mobil_terrain_set_speed_scaling(sim, on);
 }
 int mobil_ask_ground(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count) {
-  return mobil_terrain_ask(sim, places, stride, who, room, count);
+  return mobil_terrain_query(sim, places, stride, who, room, count);
 }
 int mobil_answer_ground(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable) {
-  return mobil_terrain_answer(sim, ground, stride, count, unusable);
+  return mobil_terrain_resolve(sim, ground, stride, count, unusable);
+}
+
+int mobil_broken_limits(mobil_sim* sim, mobil_id id, char* text, size_t room, size_t* length) {
+  return mobil_limit_violations(sim, id, text, room, length);
+}
+int mobil_beyond_limits(mobil_sim* sim, size_t* people, size_t* all) {
+  return mobil_limit_violation_counts(sim, people, all);
 }

@@ -1,6 +1,6 @@
 // Level of detail.
 
-#include <mobil/systems/accuracy/ladder.h>
+#include <mobil/systems/accuracy/lod_table.h>
 #include "systems/c/c_call.h"
 
 namespace {
@@ -12,7 +12,7 @@ std::optional<float> above_0(float number) {
   return number > 0 ? std::optional(number) : std::nullopt;
 }
 
-int needs_of(mobil_sim& sim, const mobil_scene* given, SceneNeeds& to) {
+int needs_of(mobil_sim& sim, const mobil_scene* given, LodScene& to) {
   mobil_scene scene;
   if (const int code = read_struct(sim.line, given, "scene", scene)) return code;
   if (const int code = muscle_set(sim.line, scene.muscles, to.muscles)) return code;
@@ -56,7 +56,7 @@ int mobil_lod_set_options(mobil_sim* sim, const mobil_lod_options* options, cons
 
 int mobil_lod_set_scene(mobil_sim* sim, const mobil_scene* scene) {
   return call(sim, "mobil_lod_set_scene", [&](mobil_sim& s) {
-    SceneNeeds needs;
+    LodScene needs;
     if (const int code = needs_of(s, scene, needs)) return code;
     return code_of(s.line, s.world().lod().set_scene(needs));
   });
@@ -69,7 +69,7 @@ int mobil_lod_prepare(mobil_sim* sim) {
 int mobil_lod_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_needs* needs) {
   return call(sim, "mobil_lod_manage", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
-    PersonNeeds own;
+    LodOverrides own;
     if (needs != nullptr) {
       mobil_needs known;
       if (const int code = read_struct(s.line, needs, "needs", known)) return code;
@@ -124,16 +124,16 @@ int mobil_lod_why(mobil_sim* sim, mobil_id id, int muscle, char* line, size_t ro
 
 int mobil_lod_level(int level, int muscle, float speed_m_s, float height_m, int inertia, int pulling,
                     mobil_level* out) {
-  static const RungLadder ladder(accuracy_table());
+  static const LodTable lod_table(accuracy_table());
   if (out == nullptr) return MOBIL_REFUSED;
-  if (muscle < 0 || static_cast<std::size_t>(muscle) >= most_muscles) return MOBIL_REFUSED;
+  if (muscle < 0 || static_cast<std::size_t>(muscle) >= max_muscles) return MOBIL_REFUSED;
   if (!(speed_m_s >= 0) || !(height_m > 0)) return MOBIL_REFUSED;
-  if (level < 0 || static_cast<std::size_t>(level) >= rung_count) return MOBIL_MISSING;
-  const RungCase of{static_cast<std::uint32_t>(muscle), RungLadder::speed_step(speed_m_s, height_m), inertia != 0, true,
-                    pulling != 0};
-  const auto rung = static_cast<std::uint32_t>(level);
-  const Rung& is = rungs_of(of.living)[rung];
-  *out = {is.name.data(),    static_cast<int>(is.method),        static_cast<int>(is.vectors),
-          is.moving ? 1 : 0, ladder.error_m(of, rung, height_m), ladder.cost_us(of, rung)};
+  if (level < 0 || static_cast<std::size_t>(level) >= level_count) return MOBIL_MISSING;
+  const LevelCase of{static_cast<std::uint32_t>(muscle), LodTable::speed_step(speed_m_s, height_m), inertia != 0, true,
+                     pulling != 0};
+  const auto at = static_cast<std::uint32_t>(level);
+  const LodLevel& is = levels_of(of.active)[at];
+  *out = {is.name.data(),    static_cast<int>(is.method),         static_cast<int>(is.modes),
+          is.moving ? 1 : 0, lod_table.error_m(of, at, height_m), lod_table.cost_us(of, at)};
   return MOBIL_OK;
 }

@@ -11,15 +11,15 @@ namespace {
 template <class S>
 int method_of(Line& line, const S& given, MuscleMethod& to) {
   if (const int code = one_of(line, given.method, last_method, "method", to.method)) return code;
-  if (given.vectors < 0) return line.refuse(MOBIL_REFUSED, fmt::format("{} vectors; choose 1 to 32", given.vectors));
-  to.reduced = {static_cast<std::uint32_t>(given.vectors),
-                given.moving != 0,
-                given.corrected != 0,
-                {given.reduced_cells[0], given.reduced_cells[1], given.reduced_cells[2]},
-                given.control_points != 0,
-                given.reported != 0,
-                given.tuned != 0,
-                given.linear_shape != 0};
+  if (given.modes < 0) return line.refuse(MOBIL_REFUSED, fmt::format("{} modes; choose 1 to 32", given.modes));
+  to.modal = {static_cast<std::uint32_t>(given.modes),
+              given.moving != 0,
+              given.corrected != 0,
+              {given.modal_cells[0], given.modal_cells[1], given.modal_cells[2]},
+              given.control_points != 0,
+              given.reported != 0,
+              given.tuned != 0,
+              given.linear_shape != 0};
   return MOBIL_OK;
 }
 
@@ -35,7 +35,7 @@ int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& to) {
   MuscleMethod method;
   if (const int code = method_of(line, given, method)) return code;
   to.method = method.method;
-  to.reduced = method.reduced;
+  to.modal = method.modal;
   if (const int code = muscle_set(line, given.muscles, to.muscles)) return code;
   if (const int code = one_of(line, given.element, Element::one_point, "element", to.element)) return code;
   if (const int code = one_of(line, given.mass, Mass::consistent, "mass", to.mass)) return code;
@@ -137,14 +137,14 @@ int mobil_get_method(mobil_sim* sim, mobil_id id, int muscle, mobil_method* out)
     const MuscleMethod now = s.world().method(entity_of(id), of);
     auto to = usual<mobil_method>();
     to.method = static_cast<int>(now.method);
-    to.vectors = static_cast<int>(now.reduced.vectors);
-    to.moving = now.reduced.moving;
-    to.corrected = now.reduced.corrected;
-    to.control_points = now.reduced.control_points;
-    to.reported = now.reduced.reported;
-    to.tuned = now.reduced.tuned;
-    to.linear_shape = now.reduced.linear_shape;
-    for (std::size_t i = 0; i < 3; ++i) to.reduced_cells[i] = now.reduced.cells[i];
+    to.modes = static_cast<int>(now.modal.modes);
+    to.moving = now.modal.moving;
+    to.corrected = now.modal.corrected;
+    to.control_points = now.modal.control_points;
+    to.reported = now.modal.reported;
+    to.tuned = now.modal.tuned;
+    to.linear_shape = now.modal.linear_shape;
+    for (std::size_t i = 0; i < 3; ++i) to.modal_cells[i] = now.modal.cells[i];
     return write_struct(s.line, to, out, "out");
   });
 }

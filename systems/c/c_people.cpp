@@ -10,8 +10,8 @@
 #include <mobil/components/lod.h>
 #include <mobil/components/sleep.h>
 #include <mobil/forces.h>
-#include <mobil/systems/people/person.h>
-#include <mobil/systems/people/step_watch.h>
+#include <mobil/systems/people/person_requests.h>
+#include <mobil/systems/people/step_log.h>
 #include "systems/c/c_call.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
@@ -115,7 +115,7 @@ int change_all(mobil_sim& sim, std::span<const WalkChange> changes) {
   Simulation& world = sim.world();
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const WalkChange& change = changes[i];
-    const auto possible = changed_gait(world.world(), change.human, change.gait.value_or(GaitChange{}));
+    const auto possible = changed_gait(world.world(), change.person, change.gait.value_or(GaitChange{}));
     if (!possible) return sim.line.refuse(possible.error(), person_number(i));
   }
   const auto done = world.change_gait(changes);
@@ -255,7 +255,8 @@ int mobil_has(mobil_sim* sim, mobil_id id, int* bits) {
     if (!s.world().is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
     *bits = (has_any_muscles(world, person) ? MOBIL_HAS_MUSCLES : 0) |
             (has_forces(world, person) ? MOBIL_HAS_FORCES : 0) | (is_managed(world, person) ? MOBIL_MANAGED : 0) |
-            (is_watched(world, person) ? MOBIL_WATCHED : 0) | (world.has<Course>(person) ? MOBIL_AVOIDS : 0) |
+            (has_step_events(world, person) ? MOBIL_WATCHED : 0) |
+            (world.has<AvoidanceState>(person) ? MOBIL_AVOIDS : 0) |
             (world.has<Footing>(person) ? MOBIL_ON_GROUND : 0) | (has_fat(world, person) ? MOBIL_HAS_FAT : 0);
     return int{MOBIL_OK};
   });
@@ -305,7 +306,7 @@ int mobil_change_walks(mobil_sim* sim, const mobil_id* ids, size_t count, const 
     for (std::size_t i = 0; i < count; ++i) {
       mobil_walk walk;
       if (const int code = read_struct(s.line, row_at(walks, i, stride, 0), "walks", walk)) return code;
-      changes[i].human = s.people[i];
+      changes[i].person = s.people[i];
       if (const int code = change_of(s.line, walk, i, changes[i])) return code;
     }
     return change_all(s, changes);
@@ -320,7 +321,7 @@ int mobil_change_walk(mobil_sim* sim, const mobil_id* ids, size_t count, const m
     WalkChange one;
     if (const int code = change_of(s.line, known, 0, one)) return code;
     std::vector<WalkChange> changes(count, one);
-    for (std::size_t i = 0; i < count; ++i) changes[i].human = s.people[i];
+    for (std::size_t i = 0; i < count; ++i) changes[i].person = s.people[i];
     return change_all(s, changes);
   });
 }

@@ -4,8 +4,8 @@
 #include <string>
 
 #include <mobil/step_report.h>
-#include <mobil/systems/limits/limit_watch.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/limits/limit_monitor.h>
+#include <mobil/systems/people/person_requests.h>
 #include "systems/c/c_call.h"
 
 namespace {
@@ -116,12 +116,12 @@ int mobil_events(mobil_sim* sim, mobil_event* out, size_t room, size_t* count) {
   });
 }
 
-int mobil_broken_limits(mobil_sim* sim, mobil_id id, char* text, size_t room, size_t* length) {
-  return call(sim, "mobil_broken_limits", [&](mobil_sim& s) {
+int mobil_limit_violations(mobil_sim* sim, mobil_id id, char* text, size_t room, size_t* length) {
+  return call(sim, "mobil_limit_violations", [&](mobil_sim& s) {
     const Entity person = entity_of(id);
     if (!s.world().is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
     std::string lines;
-    for (const BrokenLimit& broken : broken_limits(s.world().world(), person)) lines += described(broken) + '\n';
+    for (const LimitViolation& broken : limit_violations(s.world().world(), person)) lines += described(broken) + '\n';
     if (length != nullptr) *length = lines.size();
     if (text == nullptr && length != nullptr) return int{MOBIL_OK};
     if (text == nullptr) return s.line.refuse_null("text");
@@ -133,10 +133,10 @@ int mobil_broken_limits(mobil_sim* sim, mobil_id id, char* text, size_t room, si
   });
 }
 
-int mobil_beyond_limits(mobil_sim* sim, size_t* people, size_t* all) {
-  return call(sim, "mobil_beyond_limits", [&](mobil_sim& s) {
-    if (people != nullptr) *people = static_cast<std::size_t>(s.world().report().beyond_limits);
-    if (all != nullptr) *all = static_cast<std::size_t>(s.world().report().total_beyond_limits);
+int mobil_limit_violation_counts(mobil_sim* sim, size_t* people, size_t* all) {
+  return call(sim, "mobil_limit_violation_counts", [&](mobil_sim& s) {
+    if (people != nullptr) *people = static_cast<std::size_t>(s.world().report().limit_violations);
+    if (all != nullptr) *all = static_cast<std::size_t>(s.world().report().total_limit_violations);
     return int{MOBIL_OK};
   });
 }

@@ -7,7 +7,7 @@
 #include <new>
 #include <vector>
 
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "systems/c/c_skin.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // Bones and muscles as triangles in the host's buffers.
 
 #include "systems/c/c_surfaces.h"
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 
 namespace {
 
@@ -19,10 +19,10 @@ int request_of(mobil_sim& s, Target& target, SurfaceRequest& to) {
   if (as.surfaces == nullptr) return s.line.refuse_null("surfaces");
   if (as.positions == nullptr) return s.line.refuse_null("positions");
   const Entity person = entity_of(as.id);
-  const auto human = s.world().human(person);
-  if (!human) return s.line.refuse(Error{{}, Status::stale_entity});
-  for (const HumanMuscle& own : human->muscles) target.muscles.push_back({own.plan.muscle, own.entity});
-  target.fit = fit_surfaces(as.surfaces->bound, human->body);
+  const auto subject = s.world().person(person);
+  if (!subject) return s.line.refuse(Error{{}, Status::stale_entity});
+  for (const PersonMuscle& own : subject->muscles) target.muscles.push_back({own.plan.muscle, own.entity});
+  target.fit = fit_surfaces(as.surfaces->bound, subject->body);
   to.person = person;
   to.muscles = target.muscles;
   to.surfaces = &as.surfaces->bound;
@@ -67,9 +67,9 @@ int mobil_bind_surfaces(mobil_sim* sim, mobil_id like, const mobil_surface_choic
     as.cells = {known.cells[0], known.cells[1], known.cells[2]};
     as.detail = known.detail;
     as.textured = known.textured != 0;
-    const auto human = s.world().human(entity_of(like));
-    if (!human) return s.line.refuse(Error{{}, Status::stale_entity});
-    auto bound = bind_surfaces(human->body, as);
+    const auto subject = s.world().person(entity_of(like));
+    if (!subject) return s.line.refuse(Error{{}, Status::stale_entity});
+    auto bound = bind_surfaces(subject->body, as);
     if (!bound) return s.line.refuse(bound.error());
     *out = new mobil_surfaces{std::move(*bound), as.simulated, as.cells, s.axes.mirrored()};
     return int{MOBIL_OK};

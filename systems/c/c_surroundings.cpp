@@ -7,9 +7,9 @@
 
 #include <mobil/components/avoidance.h>
 #include <mobil/components/footing.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "systems/c/c_call.h"
-#include "systems/people/by_table.h"
+#include "systems/people/group_by_table.h"
 
 namespace {
 
@@ -24,7 +24,7 @@ int check_avoiders(mobil_sim& sim, bool on) {
     if (on && is_posed(sim.world().world(), person))
       return sim.line.refuse(
           MOBIL_MISSING, fmt::format("person {} is posed by the host; hand them over by mobil_avoidance_set_discs", i));
-    if (!on && !sim.world().world().has<Course>(person))
+    if (!on && !sim.world().world().has<AvoidanceState>(person))
       return sim.line.refuse(MOBIL_MISSING,
                              fmt::format("person {} avoids nobody; mobil_avoidance_manage begins that", i));
   }
@@ -35,7 +35,7 @@ int check_avoiders(mobil_sim& sim, bool on) {
 int set_avoiding(mobil_sim& sim, bool on) {
   std::vector<Entity> changes;
   for (const Entity person : sim.people)
-    if (sim.world().world().has<Course>(person) != on) changes.push_back(person);
+    if (sim.world().world().has<AvoidanceState>(person) != on) changes.push_back(person);
   drop_repeated(changes);
   const auto done = on ? sim.world().avoidance().manage(changes) : sim.world().avoidance().release(changes);
   return done ? int{MOBIL_OK} : sim.line.refuse(done.error());
@@ -65,7 +65,7 @@ void ask_host(mobil_sim& sim, std::span<const TerrainQuery> at, std::span<Terrai
   who.resize(at.size());
   for (std::size_t i = 0; i < at.size(); ++i) {
     sim.axes.place_to({at[i].x_m, 0, at[i].z_m}, &places[3 * i]);
-    who[i] = id_of(at[i].human);
+    who[i] = id_of(at[i].person);
   }
   if (const int code = sim.ground(sim.ground_user, places.data(), who.data(), at.size(), ground.data()); code != 0)
     throw Stopped(fmt::format("the function of mobil_terrain_set_heights returned {}", code));
@@ -96,16 +96,17 @@ int mobil_avoidance_manage(mobil_sim* sim, const mobil_id* ids, size_t count, in
   });
 }
 
-int mobil_avoidance_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes, size_t stride) {
-  return call(sim, "mobil_avoidance_want", [&](mobil_sim& s) {
+int mobil_avoidance_set_desired_velocity(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes,
+                                         size_t stride) {
+  return call(sim, "mobil_avoidance_set_desired_velocity", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
     if (const int code = row_stride(s.line, wishes, count, 2, "wishes", stride)) return code;
-    std::vector<WalkWish> to(count);
+    std::vector<DesiredVelocity> to(count);
     for (std::size_t i = 0; i < count; ++i) {
       const float* const row = row_at(wishes, i, stride, 0);
       to[i] = {s.people[i], row[0], row[1]};
     }
-    return code_of(s.line, s.world().avoidance().want(to));
+    return code_of(s.line, s.world().avoidance().set_desired_velocity(to));
   });
 }
 
@@ -137,7 +138,8 @@ int mobil_avoidance_set_discs(mobil_sim* sim, const float* discs, size_t stride,
 int mobil_avoidance_report(mobil_sim* sim, mobil_avoidance_counts* out) {
   return call(sim, "mobil_avoidance_report", [&](mobil_sim& s) {
     const AvoidanceReport& did = s.world().avoidance().report();
-    const mobil_avoidance_counts to = {sizeof to, did.people, did.chose, did.kept_claim, did.gave_way, did.waiting};
+    const mobil_avoidance_counts to = {sizeof to,   did.people, did.chose, did.kept_reservation,
+                                       did.yielded, did.waiting};
     return write_struct(s.line, to, out, "out");
   });
 }
@@ -161,16 +163,16 @@ int mobil_terrain_manage(mobil_sim* sim, const mobil_id* ids, size_t count, int 
   });
 }
 
-int mobil_terrain_set_slowing(mobil_sim* sim, int on) {
-  return call(sim, "mobil_terrain_set_slowing", [&](mobil_sim& s) {
+int mobil_terrain_set_speed_scaling(mobil_sim* sim, int on) {
+  return call(sim, "mobil_terrain_set_speed_scaling", [&](mobil_sim& s) {
     s.world().terrain().set_options({.slows_down = on != 0});
     return int{MOBIL_OK};
   });
 }
 
-int mobil_terrain_ask(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count) {
-  return call(sim, "mobil_terrain_ask", [&](mobil_sim& s) {
-    const std::span<const TerrainQuery> asked = s.world().terrain().ask();
+int mobil_terrain_query(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count) {
+  return call(sim, "mobil_terrain_query", [&](mobil_sim& s) {
+    const std::span<const TerrainQuery> asked = s.world().terrain().query();
     if (count != nullptr) *count = asked.size();
     if (places == nullptr && count != nullptr) return int{MOBIL_OK};
     if (const int code = row_stride(s.line, places, asked.size(), 3, "places", stride)) return code;
@@ -179,19 +181,19 @@ int mobil_terrain_ask(mobil_sim* sim, float* places, size_t stride, mobil_id* wh
                            fmt::format("{} places are asked for, and there is room for {}", asked.size(), room));
     for (std::size_t i = 0; i < asked.size(); ++i) {
       s.axes.place_to({asked[i].x_m, 0, asked[i].z_m}, row_at(places, i, stride, 0));
-      if (who != nullptr) who[i] = id_of(asked[i].human);
+      if (who != nullptr) who[i] = id_of(asked[i].person);
     }
     return int{MOBIL_OK};
   });
 }
 
-int mobil_terrain_answer(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable) {
-  return call(sim, "mobil_terrain_answer", [&](mobil_sim& s) {
+int mobil_terrain_resolve(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable) {
+  return call(sim, "mobil_terrain_resolve", [&](mobil_sim& s) {
     if (const int code = row_stride(s.line, ground, count, 4, "ground", stride)) return code;
     std::vector<TerrainHeight>& heights = s.heights;
     heights.resize(count);
     for (std::size_t i = 0; i < count; ++i) heights[i] = height_from(s.axes, row_at(ground, i, stride, 0));
-    const auto done = s.world().terrain().answer(heights);
+    const auto done = s.world().terrain().resolve(heights);
     if (!done) return s.line.refuse(done.error());
     if (unusable != nullptr) *unusable = *done;
     return int{MOBIL_OK};

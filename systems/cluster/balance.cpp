@@ -6,7 +6,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr std::size_t most_moves = 4;
+constexpr std::size_t max_moves = 4;
 constexpr std::uint64_t worth = 20;  // parts of the mean
 
 }  // namespace
@@ -27,7 +27,7 @@ std::vector<ShardMove> plan_moves(std::span<const int> owner, std::span<const st
   }
   const std::uint64_t gain = all / static_cast<std::uint64_t>(ranks) / worth;
   std::vector<ShardMove> moves;
-  while (moves.size() < most_moves) {
+  while (moves.size() < max_moves) {
     const auto heavy = std::ranges::max_element(load), light = std::ranges::min_element(load);
     const int from = static_cast<int>(heavy - load.begin()), to = static_cast<int>(light - load.begin());
     std::size_t best = now.size();

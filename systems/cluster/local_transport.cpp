@@ -33,8 +33,8 @@ class LocalRanks::End : public Transport {
   void send(int to, Channel channel, std::span<const std::byte> bytes) override {
     const std::lock_guard lock(post_.mutex);
     check();
-    constexpr std::uint64_t most_looks = 50;
-    const std::uint64_t looks = post_.seed == 0 ? 0 : mix64(post_.seed ^ mix64(++post_.sent)) % most_looks;
+    constexpr std::uint64_t max_looks = 50;
+    const std::uint64_t looks = post_.seed == 0 ? 0 : mix64(post_.seed ^ mix64(++post_.sent)) % max_looks;
     post_.box[{rank_, to, channel}].push_back({{bytes.begin(), bytes.end()}, looks});
   }
 

@@ -134,7 +134,7 @@ bool PeopleShard::obey_come(const PersonCommand& command) {
 bool PeopleShard::obey_look(const PersonCommand& command) {
   if (!options_.muscles) return false;
   const auto& value = command.value;
-  SceneNeeds needs = options_.scene;
+  LodScene needs = options_.scene;
   needs.camera = Viewpoint{.position_m = {value[0], value[1], value[2]},
                            .forward = {value[3], value[4], value[5]},
                            .half_angle_rad = value[6],

@@ -11,8 +11,8 @@
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/finite/finite_shape.h"
-#include "assets/reduction/reduced_basis.h"
-#include "assets/reduction/reduced_belly.h"
+#include "assets/reduction/modal_basis.h"
+#include "assets/reduction/modal_belly.h"
 
 namespace mobil::inline v0_3 {
 
@@ -35,7 +35,7 @@ struct SharedBelly {
   std::uint32_t steps = 1;                     // a tick
   std::shared_ptr<const BellySolver> solver;   // of ICD, CAA and static
   std::shared_ptr<const BellySolver> resting;  // of the shape that a belly with inertia begins with; else null
-  std::shared_ptr<const ReducedBasis> basis;   // of reduced
+  std::shared_ptr<const ModalBasis> basis;     // of modal
   std::shared_ptr<const FiniteShape> finite;   // of who shows finite strain, or steps it and pulls
 
   friend bool operator==(const SharedBelly&, const SharedBelly&) = default;
@@ -44,8 +44,8 @@ struct SharedBelly {
 /// One muscle of one person.
 struct Belly : SharedBelly {
   MusclePlan plan;
-  std::shared_ptr<const ReducedBelly> motions;  // of reduced: this body's own
-  std::vector<float> motion, rest_shape;        // and its rows, ReducedMotion and ReducedShape
+  std::shared_ptr<const ModalBelly> motions;  // of modal: this body's own
+  std::vector<float> motion, rest_shape;      // and its rows, ModalMotion and ModalShape
 };
 
 }  // namespace mobil::inline v0_3

@@ -123,7 +123,7 @@ void add_fade(const World& world, Entity muscle, float tick_s, BellyMotion& moti
 }
 
 std::vector<float> fade_between(const BellyMotion& before, const BellyMotion& after) {
-  constexpr float least_m = 1e-5F;
+  constexpr float min_m = 1e-5F;
   constexpr float top = 4.0F / 27;  // of x(1 − x)²
   const std::size_t width = before.displacement.size();
   std::vector<float> fade(2 * width);
@@ -132,7 +132,7 @@ std::vector<float> fade_between(const BellyMotion& before, const BellyMotion& af
     fade[i] = before.displacement[i] - after.displacement[i];
     fade[width + i] = before.velocity[i] - after.velocity[i];
     finite = finite && std::isfinite(fade[i]) && std::isfinite(fade[width + i]);
-    seen = seen || std::abs(fade[i]) > least_m || top * fade_s * std::abs(fade[width + i]) > least_m;
+    seen = seen || std::abs(fade[i]) > min_m || top * fade_s * std::abs(fade[width + i]) > min_m;
   }
   if (!seen || !finite) fade.clear();
   return fade;

@@ -9,8 +9,8 @@
 
 #include <mobil/components/muscle.h>
 #include <mobil/engine/world.h>
-#include "assets/reduction/reduced_basis.h"
-#include "assets/reduction/reduced_belly.h"
+#include "assets/reduction/modal_basis.h"
+#include "assets/reduction/modal_belly.h"
 #include "systems/deformation/belly.h"
 
 namespace mobil::inline v0_3 {
@@ -33,9 +33,9 @@ BellyLoad load_of(const World& world, Entity muscle, float tick_s);
 
 /// The motions of the belly asked for last, as both legs have the same one.
 struct LastReducedBelly {
-  const ReducedBasis* basis = nullptr;
+  const ModalBasis* basis = nullptr;
   BellyScale<float> scale{};
-  ReducedBelly belly{};
+  ModalBelly belly{};
 };
 
 /// All of an entity's floats of a field; empty where it has none.

@@ -12,7 +12,7 @@
 #include "engine/wide-inl.h"
 #include "systems/deformation/finite_element-inl.h"
 #include "systems/deformation/finite_layer-inl.h"
-#include "systems/deformation/reduced.h"
+#include "systems/deformation/modal.h"
 #include "systems/deformation/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -66,7 +66,7 @@ FiniteLaw law_of(const MuscleTemplate& muscle, const Factors& size) {
   const auto number = [](double x) { return static_cast<float>(x); };
   constexpr double steepness = 4, strain = 0.6;  // fibre_tension
   constexpr double most = 53.598150033144236;    // e⁴ − 1
-  constexpr double z = most_passive_exponent;
+  constexpr double z = max_passive_exponent;
   FiniteLaw law;
   law.size = size;
   const V one = hn::Set(d, 1.0F);
@@ -81,7 +81,7 @@ FiniteLaw law_of(const MuscleTemplate& muscle, const Factors& size) {
   law.bulk_pa = number(tissue.shear_pa * tissue.bulk_over_shear);
   law.passive_pa = number(tissue.passive_pa / most);
   law.slope = number(tissue.force_slope);
-  law.least_share = number(tissue.least_share);
+  law.min_share = number(tissue.min_share);
   law.passive_slope = number(steepness / strain * tissue.rest_over_optimal);
   law.passive_start = number(-steepness / strain);
   law.linear_slope = number(1 + z * (1 + z * (0.5 + z / 6)));

@@ -24,10 +24,10 @@ struct FiniteLaw {
   V shear_across, shear_along;  // shear modulus times l and S²/l
   V active_pa;                  // times the activation that pulls
   V share_at_none;              // active share = max(least, slope·λ + this)
-  float shear_pa, bulk_pa, passive_pa, slope, least_share, passive_slope, passive_start, linear_slope;
+  float shear_pa, bulk_pa, passive_pa, slope, min_share, passive_slope, passive_start, linear_slope;
 };
 
-inline constexpr float least_stretch2 = 0.01F;  // λ² of fibres, which divides
+inline constexpr float min_stretch2 = 0.01F;  // λ² of fibres, which divides
 
 /// Fibres' nominal stress at the stretch λ: active and passive, Pa.
 struct FibreStress {
@@ -39,12 +39,12 @@ struct FibreStress {
 template <std::size_t n>
 HWY_INLINE void find_fibre_stress(const FiniteLaw& law, const V (&stretch)[n], FibreStress (&of)[n]) {
   for (std::size_t i = 0; i < n; ++i)
-    of[i].share = hn::Max(mul_add(hn::Set(d, law.slope), stretch[i], law.share_at_none), hn::Set(d, law.least_share));
+    of[i].share = hn::Max(mul_add(hn::Set(d, law.slope), stretch[i], law.share_at_none), hn::Set(d, law.min_share));
   for (std::size_t i = 0; i < n; ++i)
     of[i].exponent =
         hn::Max(mul_add(hn::Set(d, law.passive_slope), stretch[i], hn::Set(d, law.passive_start)), hn::Zero(d));
   for (std::size_t i = 0; i < n; ++i)
-    of[i].curved = hn::Min(of[i].exponent, hn::Set(d, static_cast<float>(most_passive_exponent)));
+    of[i].curved = hn::Min(of[i].exponent, hn::Set(d, static_cast<float>(max_passive_exponent)));
   V sum[n];
   for (std::size_t i = 0; i < n; ++i) sum[i] = mul_add(of[i].curved, hn::Set(d, 1.0F / 24), hn::Set(d, 1.0F / 6));
   for (std::size_t i = 0; i < n; ++i) sum[i] = mul_add(of[i].curved, sum[i], hn::Set(d, 0.5F));
@@ -64,10 +64,10 @@ HWY_INLINE FibreStress fibre_stress(const FiniteLaw& law, V stretch) {
 
 /// ∫ stress over the stretch, Pa, up to a constant that depends on the lane alone.
 HWY_INLINE V fibre_energy(const FiniteLaw& law, V stretch, const FibreStress& f) {
-  const V floor_at = hn::Div(hn::Sub(hn::Set(d, law.least_share), law.share_at_none), hn::Set(d, law.slope));
+  const V floor_at = hn::Div(hn::Sub(hn::Set(d, law.min_share), law.share_at_none), hn::Set(d, law.slope));
   const V below = hn::Min(hn::Sub(stretch, floor_at), hn::Zero(d));
   const V active =
-      mul_add(hn::Set(d, law.least_share), below, hn::Mul(hn::Mul(f.share, f.share), hn::Set(d, 0.5F / law.slope)));
+      mul_add(hn::Set(d, law.min_share), below, hn::Mul(hn::Mul(f.share, f.share), hn::Set(d, 0.5F / law.slope)));
   const V z = f.curved, past = hn::Sub(f.exponent, z);
   const V curved =
       hn::Mul(hn::Mul(z, z),
@@ -177,7 +177,7 @@ HWY_NOINLINE inline void stretch_fibres(const FiniteLaw& law, const FiniteKernel
     const V drawn2 = mul_add(along[0], along[0], mul_add(along[1], along[1], hn::Mul(along[2], along[2])));
     for (std::size_t r = 0; r < 3; ++r) state->along[r] = along[r];
     state->rest2 = rest2;
-    state->now2 = hn::Max(neg_mul_add(rise, swayed, drawn2), hn::Mul(rest2, hn::Set(d, least_stretch2)));
+    state->now2 = hn::Max(neg_mul_add(rise, swayed, drawn2), hn::Mul(rest2, hn::Set(d, min_stretch2)));
   }
 }
 
@@ -226,7 +226,7 @@ HWY_INLINE void stress_element(const FiniteLaw& law, const FiniteKernelElement& 
   const V determinant =
       mul_add(A[0][0], cofactor[0][0], mul_add(A[0][1], cofactor[0][1], hn::Mul(A[0][2], cofactor[0][2])));
   const V ratio = hn::Mul(determinant, law.over_volume);
-  const V dilatation = hn::Min(hn::Max(hn::Sub(ratio, one), hn::Set(d, least_dilatation)), hn::Set(d, most_dilatation));
+  const V dilatation = hn::Min(hn::Max(hn::Sub(ratio, one), hn::Set(d, min_dilatation)), hn::Set(d, max_dilatation));
   const V pressure = mul_sub(hn::Set(d, law.bulk_pa), dilatation, hn::Set(d, law.shear_pa));
 
   const V volume = hn::Set(d, element.volume_m3);

@@ -25,14 +25,14 @@ void blend_all(const ShapeBlock& block, ShapeBlend& blend) {
   const FiniteShape& shape = block.shape;
   const Wide across = load(block.scale.across), along = load(block.scale.along);
   const Wide length = along * shape.length_m, moved = load(block.far_end_m);
-  const Wide asked = -moved / length, e = clamp(asked, least_shortening, most_shortening);
-  const Wide ratio = clamp(across / along, least_slenderness, most_slenderness);
+  const Wide asked = -moved / length, e = clamp(asked, min_shortening, max_shortening);
+  const Wide ratio = clamp(across / along, min_slenderness, max_slenderness);
   const Wide slender = log(ratio), slender2 = slender * slender;
   const Wide root = block.activation == nullptr ? wide(0.0F) : root_of(max(load(*block.activation), 0.0F));
   const Wide e2 = e * e, root2 = root * root;
   const Wide amount[shape_amount_count] = {e,         e2,        e * e2,       root,          e * root,        root2,
                                            e2 * root, e * root2, root * root2, e * e2 * root, e * root * root2};
-  for (std::size_t v = 0; v < shape_vectors; ++v) {
+  for (std::size_t v = 0; v < shape_modes; ++v) {
     Wide sum = wide(0.0F);
     for (std::size_t f = 0; f < shape_amount_count; ++f) {
       const auto& c = shape.coefficient[v][f];
@@ -57,7 +57,7 @@ HWY_INLINE void move_end(std::size_t first, std::size_t count, const Wide& along
 HWY_INLINE void move_point(const float* row, const Wide* vector, float drawn, const Wide& drawn_m,
                            const float* computed, float* shown) {
   Wide sum = fma(wide(row[0]), vector[0], load(computed));
-  for (std::size_t v = 1; v < shape_vectors; ++v) sum = fma(wide(row[v]), vector[v], sum);
+  for (std::size_t v = 1; v < shape_modes; ++v) sum = fma(wide(row[v]), vector[v], sum);
   store(fma(wide(drawn), drawn_m, sum), shown);
 }
 
@@ -65,8 +65,8 @@ void add_all(const ShapeBlock& block, const ShapeBlend& blend, bool in_place_of_
              float* shown) {
   const FiniteShape& shape = block.shape;
   const Wide along = load(block.scale.along), across = load(block.scale.across);
-  Wide aside_vector[shape_vectors], along_vector[shape_vectors];
-  for (std::size_t v = 0; v < shape_vectors; ++v) {
+  Wide aside_vector[shape_modes], along_vector[shape_modes];
+  for (std::size_t v = 0; v < shape_modes; ++v) {
     aside_vector[v] = across * load(blend.vector[v]);
     along_vector[v] = along * load(blend.vector[v]);
   }
@@ -78,7 +78,7 @@ void add_all(const ShapeBlock& block, const ShapeBlend& blend, bool in_place_of_
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t i = c + axis, at = i * lane_count;
       const float drawn = shape.even[i] - linear * shape.stretch[i];
-      move_point(&shape.vector[i * shape_vectors], axis == 2 ? along_vector : aside_vector, drawn,
+      move_point(&shape.vector[i * shape_modes], axis == 2 ? along_vector : aside_vector, drawn,
                  axis == 2 ? within : aside, computed + at, shown + at);
     }
   }

@@ -21,7 +21,7 @@ struct ShapeBlock {
 /// How much of each vector there is, at the template's size; and what of the far end's displacement (m) is within the
 /// tables' range, and what is left over, which the method's own statics go on to show.
 struct ShapeBlend {
-  Lanes<float> vector[shape_vectors], within_m, beyond_m;
+  Lanes<float> vector[shape_modes], within_m, beyond_m;
 };
 ShapeBlend blend_of(const ShapeBlock& block);
 

@@ -44,7 +44,7 @@ HWY_INLINE void for_each_component(const Bellies& belly, std::uint32_t past_node
 
 /// Constant average acceleration, for the change of velocity from vₙ to the step's mean.
 template <Stiffness stiffness, Mass mass>
-HWY_NOINLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
+HWY_NOINLINE void step_newmark(const Bellies& belly, const Step& step, bool exact) {
   const bool held = belly.end == FarEnd::held;
   const float half = 0.5F * step.dt, strain_half = half + step.beta;
   float *const strained = belly.image, *const rates = belly.direction;
@@ -75,7 +75,7 @@ HWY_NOINLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
 
 /// Implicit (consistent-mass) central differences.
 template <Stiffness stiffness>
-HWY_NOINLINE void step_icd(const Bellies& belly, const Step& step) {
+HWY_NOINLINE void step_implicit(const Bellies& belly, const Step& step) {
   const bool held = belly.end == FarEnd::held;
   const float* strained = belly.u;
   if (held) set_far_z(belly, belly.v, step.far_speed);
@@ -253,16 +253,16 @@ void tick_of_lanes(const BellyBlock& block, const BellySolver& solver, const Far
   if (end.way == FarEnd::held) set_far_z(belly, belly.u, from.z);
   for (std::uint32_t s = 0; s < substeps; ++s) {
     step.far_to = s + 1 == substeps ? to.z : place(fraction(static_cast<float>(s + 1))).z;
-    const float moment = static_cast<float>(s) + (method == Method::caa ? 0.5F : 0.0F);
+    const float moment = static_cast<float>(s) + (method == Method::newmark ? 0.5F : 0.0F);
     step.loads = loads_at(fraction(moment));
-    if (method == Method::caa) {
-      step_caa<stiffness, mass>(belly, step, exact);
+    if (method == Method::newmark) {
+      step_newmark<stiffness, mass>(belly, step, exact);
     } else {
-      step_icd<stiffness>(belly, step);
+      step_implicit<stiffness>(belly, step);
     }
   }
   if (!block.reported) return;
-  if (method == Method::icd) {
+  if (method == Method::implicit_central) {
     report_strain_across_step<stiffness>(belly, step);
   } else {
     report_strain_energy<stiffness>(block, belly.factor, first_lane);
@@ -307,7 +307,7 @@ HWY_EXPORT(implicit_tick);
 
 std::size_t scratch_floats(const MuscleTemplate& muscle, Method method) {
   const std::size_t column = nodal_width(muscle.mesh.cells) * lane_count;
-  if (method == Method::ecd) return muscle.options.stiffness_damping_s > 0 ? column : 0;
+  if (method == Method::explicit_central) return muscle.options.stiffness_damping_s > 0 ? column : 0;
   if (method == Method::finite) {
     const Cells& cells = muscle.mesh.cells;  // forces of two planes, and each plane's mean sideways
     return 2 * (3 * std::size_t{plane_nodes(cells)} + cells[2] + 1) * lane_count;

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "systems/deformation/method_finite.h"
-#include "systems/deformation/method_reduced.h"
+#include "systems/deformation/method_modal.h"
 #include "systems/deformation/method_static.h"
 #include "systems/deformation/method_stepped.h"
 
@@ -11,7 +11,7 @@ namespace mobil::inline v0_3 {
 
 std::span<const DeformationMethod> deformation_methods() {
   static const std::array all = {explicit_method, implicit_method, newmark_method,
-                                 static_method,   reduced_method,  finite_method};
+                                 static_method,   modal_method,    finite_method};
   return all;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // A way to deform bellies as one value: what it puts on a muscle's row, how a belly begins and goes on in it, and its
-// systems. Each has a file of its own here (method_stepped, method_static, method_reduced, method_finite) and a row in
+// systems. Each has a file of its own here (method_stepped, method_static, method_modal, method_finite) and a row in
 // `deformation_methods`. What all muscles have whatever their method is systems/muscles/muscle_parts.h.
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct MuscleKind {
   Shared<MuscleLines> lines{};
   Shared<MuscleTemplate> shape{};  // whose nodes are the control points; null without
   Shared<BellySolver> solver{};    // null where the method has none
-  Shared<ReducedBasis> basis{};    // of reduced, else null
+  Shared<ModalBasis> basis{};      // of modal, else null
   Shared<FiniteShape> finite{};    // of who shows finite strain, else null
 };
 
@@ -53,7 +53,7 @@ struct PastBelly {
   const BellyMotion& motion() const { return apart ? computed : shown; }
 };
 
-/// What a belly begins with: displacement and velocity of its control points, the state of a reduced one, and what
+/// What a belly begins with: displacement and velocity of its control points, the state of a modal one, and what
 /// fades (mobil/components/fade.h). Empty where there is no such thing, or where it stays as it is.
 struct Beginning {
   std::vector<float> displacement, velocity, state, fade;
@@ -64,9 +64,9 @@ struct DeformationMethod {
   /// Its systems, and every part that they need and no other method has.
   Module (*module)();
   /// The parts that a muscle of that kind has because of its method, besides its control points'.
-  void (*parts)(const MuscleKind& kind, std::vector<KeyPart>& parts);
+  void (*parts)(const MuscleKind& kind, std::vector<ComponentId>& parts);
   /// Whether a table's parts are this method's: its resources are set in `kind`. Fills in method, steps.
-  bool (*recognise)(const TableKey& key, MuscleKind& kind);
+  bool (*recognise)(const Archetype& key, MuscleKind& kind);
   /// What its control points do between ticks: displacement and velocity. Nothing where that cannot be told.
   std::optional<BellyMotion> (*computed)(const World& world, Entity muscle, float tick_s, LastReducedBelly& last);
   /// Under its line's length and what loads it, so that it does not ring: at rest, or, where it `moves`, at the speed
@@ -74,7 +74,7 @@ struct DeformationMethod {
   Beginning (*begin)(const NextBelly& next, bool moves);
   /// The static answer to what drives its end alone, and how that moves.
   BellyMotion (*at_rest)(const NextBelly& next);
-  /// Going on from what was shown; `keeps`: the state of the reduced belly stays as it is.
+  /// Going on from what was shown; `keeps`: the state of the modal belly stays as it is.
   Beginning (*go_on)(const NextBelly& next, const PastBelly& past, bool keeps);
 };
 

@@ -26,30 +26,31 @@ void deform(Shared<MuscleTemplate> shape, TagValue<FiniteSteps> steps, float tic
                 {shape->options.far_end, end}, activation.block == nullptr ? nullptr : &activation.block->activation,
                 static_cast<std::uint32_t>(steps.value), tick_s, scratch.data);
   // Thrown that far a belly may come to rest turned inside out.
-  constexpr float least_volume = 0.5F, most_volume = 2.0F;
+  constexpr float min_volume = 0.5F, max_volume = 2.0F;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     float& volume = report.volume_ratio[lane];
-    if (!(volume > least_volume && volume < most_volume)) volume = std::numeric_limits<float>::quiet_NaN();
+    if (!(volume > min_volume && volume < max_volume)) volume = std::numeric_limits<float>::quiet_NaN();
   }
   restarted.add(restart_bellies(*shape, rows, end, tick_s, report, displacement.data, velocity.data));
 }
 
 Module module() {
   return {.name = "deformation, finite strain",
-          .parts = {key_part(TagValue<FiniteSteps>{})},
+          .parts = {component_id(TagValue<FiniteSteps>{})},
           .systems = [](ScheduleBuilder& systems) {
             systems.add("deformation, finite strain", &deform).one_of("bellies");
           }};
 }
 
-void parts(const MuscleKind& kind, std::vector<KeyPart>& to) {
-  to.push_back(key_part(TagValue<ScratchFloats>{scratch_floats(*kind.shape, Method::finite)}));
-  to.push_back(key_part(FieldWidth<NodalVelocity>{static_cast<std::uint32_t>(nodal_width(kind.shape->mesh.cells))}));
-  to.push_back(key_part(TagValue<FiniteSteps>{kind.steps}));
+void parts(const MuscleKind& kind, std::vector<ComponentId>& to) {
+  to.push_back(component_id(TagValue<ScratchFloats>{scratch_floats(*kind.shape, Method::finite)}));
+  to.push_back(
+      component_id(FieldWidth<NodalVelocity>{static_cast<std::uint32_t>(nodal_width(kind.shape->mesh.cells))}));
+  to.push_back(component_id(TagValue<FiniteSteps>{kind.steps}));
 }
 
-bool recognise(const TableKey& key, MuscleKind& kind) {
-  const KeyPart* const steps = find_part(key, type_id<FiniteSteps>());
+bool recognise(const Archetype& key, MuscleKind& kind) {
+  const ComponentId* const steps = find_component(key, type_id<FiniteSteps>());
   if (steps == nullptr || kind.shape.resource == nullptr || kind.shape->options.strain != Strain::finite) return false;
   kind.method.method = Method::finite;
   kind.steps = static_cast<std::uint32_t>(steps->value);

@@ -21,18 +21,18 @@ void settle(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<S
 
 Module static_module() {
   return {.name = "deformation, static",
-          .parts = {key_part(TagValue<StaticSteps>{})},
+          .parts = {component_id(TagValue<StaticSteps>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("deformation, static", &settle).one_of("bellies"); }};
 }
 
-void static_parts(const MuscleKind& kind, std::vector<KeyPart>& parts) {
-  parts.push_back(key_part(TagValue<ScratchFloats>{scratch_floats(*kind.shape, Method::statics)}));
-  parts.push_back(key_part(TagValue<StaticSteps>{kind.steps}));
-  parts.push_back(key_part(kind.solver));
+void static_parts(const MuscleKind& kind, std::vector<ComponentId>& parts) {
+  parts.push_back(component_id(TagValue<ScratchFloats>{scratch_floats(*kind.shape, Method::statics)}));
+  parts.push_back(component_id(TagValue<StaticSteps>{kind.steps}));
+  parts.push_back(component_id(kind.solver));
 }
 
-bool recognise(const TableKey& key, MuscleKind& kind) {
-  const KeyPart* const steps = find_part(key, type_id<StaticSteps>());
+bool recognise(const Archetype& key, MuscleKind& kind) {
+  const ComponentId* const steps = find_component(key, type_id<StaticSteps>());
   if (steps == nullptr || kind.shape.resource == nullptr) return false;
   if (kind.solver.resource == nullptr || kind.solver->method != Method::statics) return false;
   kind.method.method = Method::statics;

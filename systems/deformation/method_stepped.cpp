@@ -28,24 +28,26 @@ void solve(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<So
   restarted.add(restart_bellies(*shape, rows, end, tick_s, report, displacement.data, velocity.data));
 }
 
-void stepped_parts(const MuscleKind& kind, std::vector<KeyPart>& parts) {
+void stepped_parts(const MuscleKind& kind, std::vector<ComponentId>& parts) {
   const MuscleTemplate& shape = *kind.shape;
   const auto width = static_cast<std::uint32_t>(nodal_width(shape.mesh.cells));
-  parts.push_back(key_part(TagValue<ScratchFloats>{scratch_floats(shape, kind.method.method)}));
-  parts.push_back(key_part(FieldWidth<NodalVelocity>{width}));
-  if (kind.method.method == Method::ecd) {
-    parts.push_back(key_part(TagValue<Substeps>{kind.steps}));
+  parts.push_back(component_id(TagValue<ScratchFloats>{scratch_floats(shape, kind.method.method)}));
+  parts.push_back(component_id(FieldWidth<NodalVelocity>{width}));
+  if (kind.method.method == Method::explicit_central) {
+    parts.push_back(component_id(TagValue<Substeps>{kind.steps}));
   } else {
-    parts.push_back(key_part(TagValue<SolvedSteps>{kind.steps}));
-    parts.push_back(key_part(kind.solver));
+    parts.push_back(component_id(TagValue<SolvedSteps>{kind.steps}));
+    parts.push_back(component_id(kind.solver));
   }
 }
 
 template <Method method>
-bool recognise(const TableKey& key, MuscleKind& kind) {
-  const KeyPart* const steps = find_part(key, method == Method::ecd ? type_id<Substeps>() : type_id<SolvedSteps>());
+bool recognise(const Archetype& key, MuscleKind& kind) {
+  const ComponentId* const steps =
+      find_component(key, method == Method::explicit_central ? type_id<Substeps>() : type_id<SolvedSteps>());
   if (steps == nullptr || kind.shape.resource == nullptr) return false;
-  if (method != Method::ecd && (kind.solver.resource == nullptr || kind.solver->method != method)) return false;
+  if (method != Method::explicit_central && (kind.solver.resource == nullptr || kind.solver->method != method))
+    return false;
   kind.method.method = method;
   kind.steps = static_cast<std::uint32_t>(steps->value);
   return kind.steps == steps->value;
@@ -63,29 +65,39 @@ Beginning begin(const NextBelly& next, bool moves) {
 
 Module explicit_module() {
   return {.name = "deformation, explicit",
-          .parts = {key_part(TagValue<Substeps>{}), key_part(FieldWidth<NodalVelocity>{})},
+          .parts = {component_id(TagValue<Substeps>{}), component_id(FieldWidth<NodalVelocity>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("deformation", &deform).one_of("bellies"); }};
 }
 
 Module implicit_module() {
   return {.name = "deformation, implicit",
-          .parts = {key_part(TagValue<SolvedSteps>{}), key_part(Shared<BellySolver>{})},
+          .parts = {component_id(TagValue<SolvedSteps>{}), component_id(Shared<BellySolver>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("deformation, solved", &solve).one_of("bellies"); }};
 }
 
 }  // namespace of_stepped
 }  // namespace
 
-constinit const DeformationMethod explicit_method = {
-    Method::ecd,   &of_stepped::explicit_module, &of_stepped::stepped_parts, &of_stepped::recognise<Method::ecd>,
-    &nodal_motion, &of_stepped::begin,           &stretched_at_rest,         &go_on_as_nodes};
-constinit const DeformationMethod implicit_method = {
-    Method::icd,   &of_stepped::implicit_module, &of_stepped::stepped_parts, &of_stepped::recognise<Method::icd>,
-    &nodal_motion, &of_stepped::begin,           &stretched_at_rest,         &go_on_as_nodes};
-constinit const DeformationMethod newmark_method = {Method::caa,
+constinit const DeformationMethod explicit_method = {Method::explicit_central,
+                                                     &of_stepped::explicit_module,
+                                                     &of_stepped::stepped_parts,
+                                                     &of_stepped::recognise<Method::explicit_central>,
+                                                     &nodal_motion,
+                                                     &of_stepped::begin,
+                                                     &stretched_at_rest,
+                                                     &go_on_as_nodes};
+constinit const DeformationMethod implicit_method = {Method::implicit_central,
+                                                     &of_stepped::implicit_module,
+                                                     &of_stepped::stepped_parts,
+                                                     &of_stepped::recognise<Method::implicit_central>,
+                                                     &nodal_motion,
+                                                     &of_stepped::begin,
+                                                     &stretched_at_rest,
+                                                     &go_on_as_nodes};
+constinit const DeformationMethod newmark_method = {Method::newmark,
                                                     nullptr,
                                                     &of_stepped::stepped_parts,
-                                                    &of_stepped::recognise<Method::caa>,
+                                                    &of_stepped::recognise<Method::newmark>,
                                                     &nodal_motion,
                                                     &of_stepped::begin,
                                                     &stretched_at_rest,

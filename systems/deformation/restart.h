@@ -1,6 +1,6 @@
 #pragma once
 // A belly that is not finite at a tick's end begins anew. Usually a host's own system wrote NaN or infinity. Here are
-// bellies whose displacements are the state; reduced ones do so themselves (systems/deformation/reduced.h).
+// bellies whose displacements are the state; modal ones do so themselves (systems/deformation/modal.h).
 
 #include <cstdint>
 

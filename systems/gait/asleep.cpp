@@ -45,7 +45,7 @@ HWY_EXPORT(heads_block);
 
 namespace {
 
-constexpr int most_strikes = 12;
+constexpr int max_strikes = 12;
 
 /// The grid of a parameter: its default and whole steps from there, as far as its range goes; a byte counts them.
 struct StyleGrid {
@@ -108,7 +108,7 @@ void wind_back(SteadyWalk<float>& walk, std::uint32_t tick, std::int32_t per_tic
   walk.steps = steps - progress_at(walk.clock, walk.step_units, tick, per_tick).strikes;
 }
 
-bool same_strike(const Strike<Lanes<float>>& a, const Strike<Lanes<float>>& b, std::size_t lane) {
+bool same_strike(const HeelStrike<Lanes<float>>& a, const HeelStrike<Lanes<float>>& b, std::size_t lane) {
   return a.speed_m_s[lane] == b.speed_m_s[lane] && a.length_m[lane] == b.length_m[lane] &&
          a.pace_hz[lane] == b.pace_hz[lane] && a.advance_m[lane] == b.advance_m[lane] &&
          a.half_width_m[lane] == b.half_width_m[lane] && a.toe_out[lane] == b.toe_out[lane];
@@ -338,7 +338,7 @@ void settle(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>
   SteadyWalk<Lanes<float>> walk;
   std::uint32_t left = 0xFFFF;
   until = {};
-  for (int i = 0; i < most_strikes && left != 0; ++i) {
+  for (int i = 0; i < max_strikes && left != 0; ++i) {
     walkers->strike(left, &time_next_step);
     const std::uint32_t steady =
         left & steady_lanes(*fresh, block.gait, block.plan, block.state, walkers->tick, tick_s, walk);

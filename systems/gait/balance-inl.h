@@ -26,7 +26,7 @@ HWY_INLINE Wide pendulum(const Wide& height) {
 }
 
 /// Where a steady walk of that shape presses the ground aside, as a pendulum on the hips' way.
-HWY_NOINLINE inline Wide steady_aside(const Strike<Lanes<float>>& strike, const Wide& height, const StepWaves& w) {
+HWY_NOINLINE inline Wide steady_aside(const HeelStrike<Lanes<float>>& strike, const Wide& height, const StepWaves& w) {
   const OneShape of{strike.shape};
   const Wide pace = load(strike.pace_hz), per = pendulum(height) * (pi_f * pi_f) * pace * pace;
   const ShapePart& a = step_shape::aside;
@@ -45,7 +45,7 @@ constexpr float room_aside = 0.015F;
 
 /// Where a step all but leaves the ground it presses it anywhere: what is made of that, of the weight; and the most
 /// that one of the hips' other ways may be, of the height.
-constexpr float least_lift = 0.4F, most_other_way = 0.05F;
+constexpr float min_lift = 0.4F, max_other_way = 0.05F;
 
 HWY_NOINLINE inline void room_ahead(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
                                     const Wide& phase, const Wide& pitch, const WideMask& both, std::size_t i,
@@ -84,7 +84,7 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
       const std::size_t i = k - 1;
       Wide centre = wide(0.0F);
       for (std::size_t j = 0; j < planar_points; ++j) centre = fma(wide(planar_mass(j)), last.forward[j], centre);
-      const Wide lift = max(fma(now.rising - before.rising, per_apart, wide(gravity_f)), least_lift * gravity_f);
+      const Wide lift = max(fma(now.rising - before.rising, per_apart, wide(gravity_f)), min_lift * gravity_f);
       ahead.at[i] = fma(wide(gravity_f), centre, (now.turning - before.turning) * per_apart) / lift;
       const Wide& p = phase[i % 2];
       const WideMask both = (p < off) | (p > landing);
@@ -232,7 +232,7 @@ HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one,
   normal.factor();
   auto choose = [&](const Pressed& pressed, Lanes<float>(&way)[other_way_count], float sign) {
     Wide by[other_ways];
-    const Wide outside = into_room(normal, effect, pressed, by), most = most_other_way * height;
+    const Wide outside = into_room(normal, effect, pressed, by), most = max_other_way * height;
     for (std::size_t k = 0; k < other_ways; ++k)
       store(select(alike, wide(0.0F), sign * min(max(by[k], -most), most)), way[k]);
     return select(alike, wide(0.0F), outside);

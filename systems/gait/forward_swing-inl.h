@@ -299,7 +299,7 @@ HWY_NOINLINE inline void as_bumps(const SwingLeg& leg, const SwingToMeet& swing,
 }
 
 /// The most that a swing may miss its heel strike by (rad), and be moved by (of the height): else it stays as it is.
-constexpr float most_miss = 0.03F, most_moved = 0.1F;
+constexpr float max_miss = 0.03F, max_moved = 0.1F;
 
 /// Chooses plan.swing_by_forward_m and swing_by_up_m: what a swing that is integrated forward has beside the curves of
 /// the shape. `share`: how much of that is wanted; where it is 0, the swing stays as it is.
@@ -317,9 +317,9 @@ HWY_NOINLINE inline void integrate_swing(const Wide& height, const Wide& share, 
   as_bumps(leg, swing, way, forward, up);
   const SwingState &landed = way[swing_steps], &meant = swing.at[swing_instants - 1];
   WideMask sound =
-      (share > 0.0F) & (abs(landed.thigh - meant.thigh) < most_miss) & (abs(landed.shank - meant.shank) < most_miss);
+      (share > 0.0F) & (abs(landed.thigh - meant.thigh) < max_miss) & (abs(landed.shank - meant.shank) < max_miss);
   for (std::size_t k = 0; k < other_way_count; ++k)
-    sound = sound & (abs(forward[k]) < most_moved) & (abs(up[k]) < most_moved);
+    sound = sound & (abs(forward[k]) < max_moved) & (abs(up[k]) < max_moved);
   for (std::size_t k = 0; k < other_way_count; ++k) {
     store(select(sound, share * height * forward[k], wide(0.0F)), plan.swing_by_forward_m[k]);
     store(select(sound, share * height * up[k], wide(0.0F)), plan.swing_by_up_m[k]);

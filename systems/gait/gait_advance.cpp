@@ -148,7 +148,7 @@ void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const Chord chord = {length, bend * length, (next.bend - bend) * length};
   const Wide moves = length + load(plan.length_before_m), slant = load(plan.slant_rad);
   const WideMask on_spot = steps_on_spot(plan) & (abs(way) > off_heading) & (moves <= 0.0F);
-  const Wide on_the_spot = select(on_spot, min(max(way, -step_limits::most_turn), step_limits::most_turn), wide(0.0F));
+  const Wide on_the_spot = select(on_spot, min(max(way, -step_limits::max_turn), step_limits::max_turn), wide(0.0F));
   auto begin = [&](const Wide& value, Lanes<float>& to) { store(select(begun, value + 0.0F, load(to)), to); };  // no −0
   begin(select(length > 0.0F, chord_turn(chord), on_the_spot), state.turn_rad);
   begin(chord_heading(chord) + slant, state.chord_rad);

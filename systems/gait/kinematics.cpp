@@ -122,13 +122,13 @@ HWY_NOINLINE void pose_column(const WideQuat& facing, const Wide& turned_back, c
 }
 
 /// What both arms share.
-struct ArmManner {
+struct ArmParameters {
   Wide back, forward, elbow_back, elbow_forward, abduction, pronation, fingers;
 };
 
 /// One arm; `ahead` is the place of the opposite leg in its range, 0 back to 1 forward.
-HWY_NOINLINE void pose_arm(const ArmManner& arm_manner, const Wide& ahead, std::size_t side, const Skeleton& skeleton,
-                           JointAngles<Lanes<float>>& angles) {
+HWY_NOINLINE void pose_arm(const ArmParameters& arm_manner, const Wide& ahead, std::size_t side,
+                           const Skeleton& skeleton, JointAngles<Lanes<float>>& angles) {
   using enum Segment;
   auto of = [&](Segment s) { return on_side(s, side); };
   const float out = side == Side::left ? 1.0F : -1.0F;
@@ -183,20 +183,20 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
     store(0.5F * select(now.stands[side], now.part, now.part + 1.0F), feet.phase[side]);
   }
 
-  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
+  const PostureParameters<Lanes<float>>&from = plan.from.posture, &to = plan.to.posture;
   fetch();
   Wide lean = harmonics(now.shape, step_shape::trunk, 3, now.waves);
   if (footing != nullptr) lean = lean + now.lean;
-  pose_column(facing, -manner(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation, lean, skeleton);
-  const ArmManner arms = {manner(from.arm_back, to.arm_back, eased),
-                          manner(from.arm_forward, to.arm_forward, eased),
-                          manner(from.elbow_back, to.elbow_back, eased),
-                          manner(from.elbow_forward, to.elbow_forward, eased),
-                          manner(from.arm_abduction, to.arm_abduction, eased),
-                          manner(from.forearm_pronation, to.forearm_pronation, eased),
-                          manner(from.finger_flexion, to.finger_flexion, eased)};
-  const Wide leg_back = manner(from.leg_back, to.leg_back, eased);
-  const Wide per_range = 1.0F / max(manner(from.leg_forward, to.leg_forward, eased) - leg_back, 1e-3F);
+  pose_column(facing, -posture(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation, lean, skeleton);
+  const ArmParameters arms = {posture(from.arm_back, to.arm_back, eased),
+                              posture(from.arm_forward, to.arm_forward, eased),
+                              posture(from.elbow_back, to.elbow_back, eased),
+                              posture(from.elbow_forward, to.elbow_forward, eased),
+                              posture(from.arm_abduction, to.arm_abduction, eased),
+                              posture(from.forearm_pronation, to.forearm_pronation, eased),
+                              posture(from.finger_flexion, to.finger_flexion, eased)};
+  const Wide leg_back = posture(from.leg_back, to.leg_back, eased);
+  const Wide per_range = 1.0F / max(posture(from.leg_forward, to.leg_forward, eased) - leg_back, 1e-3F);
   for (std::size_t side = 0; side < 2; ++side) {
     fetch();
     pose_arm(arms, (leg[1 - side] - leg_back) * per_range, side, skeleton, angles);

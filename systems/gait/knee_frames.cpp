@@ -117,14 +117,14 @@ FetchAhead between(const Lanes<float>& first, const void* end) {
 }
 
 /// Of a strike: what comes before its trunk, what comes between that and the pressure, and how the pelvis turns.
-FetchAhead before_trunk(const Lanes<float>& first, const Strike<Lanes<float>>& strike) {
+FetchAhead before_trunk(const Lanes<float>& first, const HeelStrike<Lanes<float>>& strike) {
   return between(first, &strike.shape[step_shape::trunk.first]);
 }
-FetchAhead behind_trunk(const Strike<Lanes<float>>& strike) {
+FetchAhead behind_trunk(const HeelStrike<Lanes<float>>& strike) {
   return between(strike.shape[step_shape::aside.first], &strike.shape[step_shape::pressure.first]);
 }
-FetchAhead of_pelvis(const Strike<Lanes<float>>& strike) {
-  return between(strike.manner.pelvis_rotation, &strike.manner.shoulder_rotation);
+FetchAhead of_pelvis(const HeelStrike<Lanes<float>>& strike) {
+  return between(strike.posture.pelvis_rotation, &strike.posture.shoulder_rotation);
 }
 
 std::array<FetchAhead, 7> leg_parts(const StepPlan<Lanes<float>>* plan) {

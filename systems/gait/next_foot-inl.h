@@ -40,7 +40,7 @@ HWY_INLINE NextFoot next_foot(const StepBegun& step, const Wide& way) {
   const Wide &height = step.height, &length = step.length, &speed = step.speed, &shift = step.shift;
   const WideMask walks = (length > 0.0F) & (speed > 0.0F);
   const Wide far = max(length, 0.05F), squared = max(speed * speed, 0.01F);
-  const Wide most = min(step_limits::most_sideways / squared, step_limits::most_turn / far);
+  const Wide most = min(step_limits::max_sideways / squared, step_limits::max_turn / far);
   const Wide bends = length * step.bend;
   const WideMask there = max(abs(way), abs(bends)) < as_asked;
   const Wide after = select(there, wide(0.0F), (way - (1.0F - slope_at_end) * bends) / far);

@@ -130,13 +130,14 @@ HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const
       fma(harmonics(of, step_shape::trunk, 3, waves), wide(b::per_lean), b::per_tilt * pelvis_tilt(plan, waves, eased));
   out.lean = bent_forward * (1.0F / (b::per_lean + b::per_tilt));
   // Arms follow the opposite legs.
-  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
-  const Wide back = manner(from.leg_back, to.leg_back, eased),
-             range = manner(from.leg_forward, to.leg_forward, eased) - back;
+  const PostureParameters<Lanes<float>>&from = plan.from.posture, &to = plan.to.posture;
+  const Wide back = posture(from.leg_back, to.leg_back, eased),
+             range = posture(from.leg_forward, to.leg_forward, eased) - back;
   const Wide legs = (stance_forward + other.ankle_forward - 2.0F * hips.forward) / hips.up;
-  const Wide swing = (legs - 2.0F * back) / max(range, 1e-3F) *
-                         (manner(from.arm_forward, to.arm_forward, eased) + manner(from.arm_back, to.arm_back, eased)) -
-                     2.0F * manner(from.arm_back, to.arm_back, eased);
+  const Wide swing =
+      (legs - 2.0F * back) / max(range, 1e-3F) *
+          (posture(from.arm_forward, to.arm_forward, eased) + posture(from.arm_back, to.arm_back, eased)) -
+      2.0F * posture(from.arm_back, to.arm_back, eased);
   const Wide ahead = fma(wide(b::per_swing), swing, bent_forward + b::ahead);
   out.forward[planar_points - 1] = fma(ahead, height, hips.forward);
   out.up[planar_points - 1] = fma(wide(b::above), height, hips.up);

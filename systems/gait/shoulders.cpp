@@ -69,7 +69,7 @@ void shoulders_block(const Lanes<float>& turn_rad, Pose<Lanes<float>>& pose) {
   }
 }
 
-void ease_block(Course<Lanes<float>>& course, float tick_s, float decay) {
+void ease_block(AvoidanceState<Lanes<float>>& course, float tick_s, float decay) {
   constexpr float rate = shoulder_spring_per_s;  // critically damped, solved exactly: ticks do not matter
   const Wide to = load(course.turn_to_rad), turn = load(course.turn_rad), speed = load(course.turn_rad_s);
   const Wide off = turn - to, pull = fma(wide(rate), off, speed);
@@ -93,7 +93,7 @@ void turn_shoulders(const Lanes<float>& turn_rad, Pose<Lanes<float>>& pose) {
   HWY_DYNAMIC_DISPATCH(shoulders_block)(turn_rad, pose);
 }
 
-void ease_shoulders(Course<Lanes<float>>& course, float tick_s) {
+void ease_shoulders(AvoidanceState<Lanes<float>>& course, float tick_s) {
   // e to the power of as many springs' times, by its series: good to 1e-5 in ticks of up to 0.1 s.
   const float x = shoulder_spring_per_s * tick_s;
   const float growth = 1 + x * (1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6 * (1 + x / 7))))));

@@ -84,10 +84,10 @@ void bounds_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float
   Wide leg[2];
   for (std::size_t side = 0; side < 2; ++side) leg[side] = leg_bounds(now, side, height, furthest);
 
-  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
-  const auto of = [&](Lanes<float> Manner<Lanes<float>>::*what)
-                      HWY_ATTR { return manner(from.*what, to.*what, now.eased); };
-  using M = Manner<Lanes<float>>;
+  const PostureParameters<Lanes<float>>&from = plan.from.posture, &to = plan.to.posture;
+  const auto of = [&](Lanes<float> PostureParameters<Lanes<float>>::*what)
+                      HWY_ATTR { return posture(from.*what, to.*what, now.eased); };
+  using M = PostureParameters<Lanes<float>>;
   const Wide leg_back = of(&M::leg_back), per_range = 1.0F / max(of(&M::leg_forward) - leg_back, 1e-3F);
   const Wide arm_back = of(&M::arm_back), arm_range = of(&M::arm_forward) + arm_back;
   const Wide elbow_back = of(&M::elbow_back), elbow_range = of(&M::elbow_forward) - elbow_back;

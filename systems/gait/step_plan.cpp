@@ -26,7 +26,7 @@ constexpr float spot_double_support = 0.05F, spot_landing = 0.95F;
 /// How much further than straight legs need the hips sink between two such steps.
 constexpr float sinks_apart = 2.0F;
 /// How far outside the soles the centre of pressure may lie before a step is marked, of the height.
-constexpr float most_astray = 0.04F;
+constexpr float max_astray = 0.04F;
 
 HWY_INLINE WideMask either(const WideMask& m, const Wide& yes, const Wide& no) {
   return select(m, yes, no) > 0.5F;
@@ -42,7 +42,7 @@ HWY_NOINLINE Wide usual_length(const Wide& height, const Wide& speed) {
 }
 
 /// Whether somebody has put one foot aside and not the other yet: that comes before anything else.
-HWY_INLINE WideMask half_aside(const Strike<Lanes<float>>& from) {
+HWY_INLINE WideMask half_aside(const HeelStrike<Lanes<float>>& from) {
   return stands(from) & (load(from.length_m) > 0.0F);
 }
 
@@ -69,13 +69,13 @@ HWY_NOINLINE Wide calm_style(const Wide& own, const GaitStyleOf<Lanes<float>>& s
 
 /// The steps toward the wanted gait: the strike at the end of this one, at whose beginning `turn` is left to turn.
 HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted, const Wide& turn,
-                              const Strike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
-                              Solve solve, Strike<Lanes<float>>& to) {
+                              const HeelStrike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
+                              Solve solve, HeelStrike<Lanes<float>>& to) {
   const Wide leg = ratio(fraction::thigh + fraction::shank, height);
   const Wide scale = sqrt(leg / leg_m);
   const Wide now = load(from.speed_m_s), aim = select(half_aside(from), wide(0.0F), load(wanted.speed_m_s));
   const WideMask standing = now <= 0.0F, to_stand = aim <= 0.0F;
-  const Wide slower = now - most_slower * scale, faster = now + most_faster * scale;
+  const Wide slower = now - max_slower * scale, faster = now + max_faster * scale;
   const Wide stopping = select(now <= last_speed * scale, wide(0.0F), max(slower, last_speed * scale));
   const Wide walking = select(standing, min(aim, first_speed * scale), min(max(aim, slower), faster));
   StrikeRequest r;
@@ -175,7 +175,7 @@ HWY_INLINE Standing standing(const StepPlan<Lanes<float>>& plan, const WideMask&
 /// The times and lengths of the step from plan.from to plan.to.
 HWY_NOINLINE void time_step(const Gait<Lanes<float>>& wanted, const WideMask& right_lands, const WideMask& on_spot,
                             StepPlan<Lanes<float>>& plan) {
-  const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
+  const HeelStrike<Lanes<float>>&from = plan.from, &to = plan.to;
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask from_stands = stands(from), to_stands = stands(to), still = from_stands & to_stands;
   const auto [stays, spot] = standing(plan, on_spot);
@@ -209,7 +209,7 @@ HWY_INLINE Wide feet_differ(const StepPlan<Lanes<float>>& plan) {
 /// Whether the step is followed by its mirror image. `alike`: its strikes are the same.
 HWY_NOINLINE void settle_step(const Gait<Lanes<float>>& wanted, const WideMask& alike, const WideMask& on_spot,
                               StepPlan<Lanes<float>>& plan) {
-  const Strike<Lanes<float>>& to = plan.to;
+  const HeelStrike<Lanes<float>>& to = plan.to;
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const Wide uneven = abs(load(wanted.style.step_asymmetry)) + abs(load(wanted.style.time_asymmetry));
   const WideMask even_steps = uneven <= 0.0F;
@@ -223,7 +223,7 @@ HWY_NOINLINE void settle_step(const Gait<Lanes<float>>& wanted, const WideMask& 
 HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
                              const WideMask& right_lands, const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   time_step(wanted, right_lands, on_spot, plan);
-  const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
+  const HeelStrike<Lanes<float>>&from = plan.from, &to = plan.to;
   const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
   const WideMask from_stands = stands(from), to_stands = stands(to);
   const auto [stays, spot] = standing(plan, on_spot);
@@ -246,7 +246,7 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   if (any(share > 0.0F)) integrate_swing(height, share, plan);
   const WideMask alike = same_words(from, to);
   const Wide astray = balance_step(height, select(right_lands, -one, one), alike | stays, spot, plan);
-  store_flags(astray > most_astray * height, plan.clamped);
+  store_flags(astray > max_astray * height, plan.clamped);
   settle_step(wanted, alike, on_spot, plan);
 }
 
@@ -254,13 +254,13 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
 HWY_NOINLINE void time_step_alone(const Gait<Lanes<float>>& wanted, const WideMask& right_lands,
                                   const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   time_step(wanted, right_lands, on_spot, plan);
-  const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
+  const HeelStrike<Lanes<float>>&from = plan.from, &to = plan.to;
   Wide off = wide(0.0F);
   // All else of a strike follows from these.
   for (const auto word :
-       {&Strike<Lanes<float>>::speed_m_s, &Strike<Lanes<float>>::length_m, &Strike<Lanes<float>>::pace_hz,
-        &Strike<Lanes<float>>::advance_m, &Strike<Lanes<float>>::half_width_m, &Strike<Lanes<float>>::toe_out,
-        &Strike<Lanes<float>>::own_style})
+       {&HeelStrike<Lanes<float>>::speed_m_s, &HeelStrike<Lanes<float>>::length_m, &HeelStrike<Lanes<float>>::pace_hz,
+        &HeelStrike<Lanes<float>>::advance_m, &HeelStrike<Lanes<float>>::half_width_m,
+        &HeelStrike<Lanes<float>>::toe_out, &HeelStrike<Lanes<float>>::own_style})
     off = max(off, abs(load(from.*word) - load(to.*word)));
   settle_step(wanted, off <= 0.0F, on_spot, plan);
 }

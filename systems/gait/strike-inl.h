@@ -66,7 +66,7 @@ constexpr float limping_sink = 0.06F, late_sink = 0.12F;
 /// How much lower than with straight legs people stand, of the height: their knees are bent by some 6°.
 constexpr float soft_knees = 0.0006F;
 
-/// How a walk's manner differs from the usual one, in the units of style_effects and in their order.
+/// How a walk's posture differs from the usual one, in the units of style_effects and in their order.
 HWY_NOINLINE inline StyleAmounts style_amounts(const Wide& height, const GaitStyleOf<Lanes<float>>& style) {
   constexpr GaitStyle usual;
   // A leg that is damped more bends less under its load: how far a spring of that damping (of critical) overshoots, by
@@ -102,7 +102,7 @@ HWY_NOINLINE inline StyleAmounts style_amounts(const Wide& height, const GaitSty
 /// The table's step of each lane, in the body's own lengths; zero where the lane stands. `length`: of the step that
 /// ends here, also where it is not the mean of both sides.
 HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wide& length, const StyleAmounts& amounts,
-                                 Strike<Lanes<float>>& strike) {
+                                 HeelStrike<Lanes<float>>& strike) {
   const Wide leg = ratio(fraction::hip_height, height);
   Lanes<float> tall, fast, far;
   store(height, tall);
@@ -117,9 +117,9 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
     }
     strike.double_support[l] = static_cast<float>(step.usual.double_support);
     const float longer = std::clamp(far[l] / static_cast<float>(step.usual.step_length), 0.5F, 1.5F);
-    strike.manner.pelvis_rotation[l] = longer * static_cast<float>(step.usual.pelvis_rotation);
-    strike.manner.pelvis_list[l] = static_cast<float>(step.usual.pelvis_list);
-    strike.manner.pelvis_tilt[l] = static_cast<float>(step.usual.pelvis_tilt);
+    strike.posture.pelvis_rotation[l] = longer * static_cast<float>(step.usual.pelvis_rotation);
+    strike.posture.pelvis_list[l] = static_cast<float>(step.usual.pelvis_list);
+    strike.posture.pelvis_tilt[l] = static_cast<float>(step.usual.pelvis_tilt);
     // The hips keep their part of a step that is shorter or longer than the table's.
     const float tabled = std::clamp(far[l], static_cast<float>(step_table::length.front() * step.usual.step_length),
                                     static_cast<float>(step_table::length.back() * step.usual.step_length));
@@ -140,7 +140,7 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
 
 /// The foot comes down flat in `times` the time that its numbers are for, from the same landing: pitch, its rate and
 /// two more derivatives stay at heel strike, where the swing meets them. Where `times` is 1, to the bit.
-HWY_NOINLINE inline void flatten_within(const Wide& times, Strike<Lanes<float>>& strike) {
+HWY_NOINLINE inline void flatten_within(const Wide& times, HeelStrike<Lanes<float>>& strike) {
   Lanes<float>* const k = strike.shape + step_shape::strike.first;
   const Wide pitch = load(k[0]), k1 = load(k[1]), k2 = load(k[2]), k3 = load(k[3]);
   const Wide times2 = times * times;
@@ -159,7 +159,7 @@ HWY_INLINE Wide step_width(const StrikeRequest& r, const GaitStyleOf<Lanes<float
 
 /// Where and how fast a strike is: all that the footholds and times of steps follow from.
 HWY_INLINE void time_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style,
-                            Strike<Lanes<float>>& strike) {
+                            HeelStrike<Lanes<float>>& strike) {
   const WideMask stands = r.speed <= 0.0F;
   auto walking = [&](const Wide& value) { return select(stands, wide(0.0F), value); };
   const Wide step = select(stands, wide(1.0F), r.step_length);  // no division by zero
@@ -173,7 +173,7 @@ HWY_INLINE void time_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<floa
 
 /// The strike of a gait at its own pace, or of standing where the speed is 0.
 HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style,
-                                     Strike<Lanes<float>>& strike) {
+                                     HeelStrike<Lanes<float>>& strike) {
   constexpr GaitStyle usual;
   const WideMask stands = r.speed <= 0.0F;
   auto walking = [&](const Wide& value) { return select(stands, wide(0.0F), value); };
@@ -216,7 +216,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   times(step_shape::aside, width * (1.0F / usual.step_width_h) +
                                beyond(style.pelvis_shift_h, usual.pelvis_shift_h) * (1.0F / usual.pelvis_shift_h));
 
-  Manner<Lanes<float>>& m = strike.manner;
+  PostureParameters<Lanes<float>>& m = strike.posture;
   store(walking(load(m.pelvis_rotation) * load(style.pelvis_rotation_deg) * (1.0F / usual.pelvis_rotation_deg)),
         m.pelvis_rotation);
   store(walking(load(m.pelvis_list) * load(style.pelvis_list_deg) * (1.0F / usual.pelvis_list_deg)), m.pelvis_list);

@@ -2,7 +2,7 @@
 //   import { load } from './mobil.js';
 //   const mobil = await load('.');                       // the folder of mobil.wasm and mobil-plain.wasm
 //   const world = mobil.world();
-//   const people = world.spawn([{ height_m: 1.8, mass_kg: 80, speed_m_s: 1.4 }], { method: METHODS.ecd });
+//   const people = world.spawn([{ height_m: 1.8, mass_kg: 80, speed_m_s: 1.4 }], { method: METHODS.explicit_central });
 //   world.tick(60);
 //   world.matrices(people);                              // 48 × 3 × 4 floats
 import { constants as c, structs } from './interface.js';
@@ -36,7 +36,7 @@ class Mobil {
       return listed((i) => (x.mobil_style(i, at) === 0 ? library.object('mobil_style_number', at, ['name', 'unit', 'meaning']) : null));
     });
   }
-  /** Levels of detail of a muscle, among which is chosen, as measured: {name, method, vectors, moving, error_m, cost_us}. */
+  /** Levels of detail of a muscle, among which is chosen, as measured: {name, method, modes, moving, error_m, cost_us}. */
   levels(muscle, { speed_m_s = 1.4, height_m = 1.8, inertia = false, pulling = false } = {}) {
     return this.library.within((take) => {
       const at = take(structs.mobil_level.size);

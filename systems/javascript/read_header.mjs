@@ -15,13 +15,14 @@ function declarators(type, list) {  // "float place[3], heading_rad" → [{name,
 }
 
 export function readHeader(text) {
-  const code = text.replace(/\/\*[\s\S]*?\*\//g, '').replace(/^\s*#.*$/gm, '');
+  const code = text.replace(/\/\*[\s\S]*?\*\//g, '').replace(/^\s*#.*$/gm, '').replace(/MOBIL_DEPRECATED\(.*?\)/g, '')
+    .replace(/MOBIL_RENAMED\((\w+), (\w+), \w+\)/g, '$1 $2');
   const constants = {};
   for (const [, body] of code.matchAll(/\benum\s*\{([^}]*)\}/g)) {
     let next = 0;
     for (const entry of body.split(',').map((e) => e.trim()).filter(Boolean)) {
       const [name, value] = entry.split('=').map((e) => e.trim());
-      next = value === undefined ? next : Number(value);
+      next = value === undefined ? next : constants[value] ?? Number(value);
       constants[name] = next++;
     }
   }

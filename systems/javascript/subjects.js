@@ -59,10 +59,10 @@ export class Avoidance extends Subject {
   manage(people) { this.inside.call('avoidance_manage', people.ids, people.count, 1); }
   release(people) { this.inside.call('avoidance_manage', people.ids, people.count, 0); }
   /** Where they want to go: an array of [speed in m/s, heading in rad], one a person. */
-  want(people, wishes) {
+  setDesiredVelocity(people, wishes) {
     const { library, call, table } = this.inside;
     if (wishes.length !== people.count) throw new MobilError(`${wishes.length} wishes for ${people.count} people; give one each`, c.MOBIL_REFUSED);
-    library.within((take) => call('avoidance_want', people.ids, people.count, table(take, wishes, 2, 'wishes'), 0));
+    library.within((take) => call('avoidance_set_desired_velocity', people.ids, people.count, table(take, wishes, 2, 'wishes'), 0));
   }
   /** Instead of those before: arrays of six numbers, two places. */
   setWalls(walls) {
@@ -116,7 +116,7 @@ export class Terrain extends Subject {
   manage(people) { this.inside.call('terrain_manage', people.ids, people.count, 1); }
   release(people) { this.inside.call('terrain_manage', people.ids, people.count, 0); }
   /** People slow down on slopes and stairs, or no more. */
-  setSlowing(on = true) { this.inside.call('terrain_set_slowing', on ? 1 : 0); }
+  setSlowing(on = true) { this.inside.call('terrain_set_speed_scaling', on ? 1 : 0); }
   /** Fields of mobil_terrain_counts. */
   get report() { return this.counts('terrain'); }
 }

@@ -5,7 +5,7 @@ import { MobilError } from './library.js';
 import { Avoidance, Lod, Terrain } from './subjects.js';
 import { Surfaces } from './surfaces.js';
 
-export const METHODS = { static: c.MOBIL_STATIC, ecd: c.MOBIL_ECD, icd: c.MOBIL_ICD, caa: c.MOBIL_CAA, reduced: c.MOBIL_REDUCED, none: c.MOBIL_NONE, finite: c.MOBIL_FINITE };
+export const METHODS = { static: c.MOBIL_STATIC, explicit_central: c.MOBIL_EXPLICIT_CENTRAL, implicit_central: c.MOBIL_IMPLICIT_CENTRAL, newmark: c.MOBIL_NEWMARK, modal: c.MOBIL_MODAL, none: c.MOBIL_NONE, finite: c.MOBIL_FINITE };
 export const AXES = { yUp: c.MOBIL_AXES_Y_UP, unity: c.MOBIL_AXES_UNITY, unreal: c.MOBIL_AXES_UNREAL, godot: c.MOBIL_AXES_GODOT, zUp: c.MOBIL_AXES_Z_UP };
 export const STATES = { full: c.MOBIL_FULL, compact: c.MOBIL_COMPACT, asleep: c.MOBIL_ASLEEP, posed: c.MOBIL_POSED };
 export const FEATURES = { stepEvents: c.MOBIL_STEP_EVENTS, fat: c.MOBIL_FAT, forces: c.MOBIL_FORCES };
@@ -376,7 +376,7 @@ const old = {
   why: (w, ...all) => w.lod.why(...all),
   startAvoidance: (w, options) => w.avoidance.setOptions(options),
   avoid: (w, people, on = true) => (on ? w.avoidance.manage(people) : w.avoidance.release(people)),
-  want: (w, ...all) => w.avoidance.want(...all),
+  want: (w, ...all) => w.avoidance.setDesiredVelocity(...all),
   setWalls: (w, walls) => w.avoidance.setWalls(walls),
   setDiscs: (w, discs) => w.avoidance.setDiscs(discs),
   steer: (w) => w.avoidance.report,

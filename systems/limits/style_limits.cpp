@@ -24,17 +24,17 @@ namespace {
 constexpr std::size_t parameter_count = gait_parameters.size();
 /// Walkers on the way from the usual style to that asked for: sixteen lanes, `lanes_each` to a walker. With several
 /// lanes several of the next answers are foreseen in one look; what is found is the same.
-class StyleBlock {
+class StyleLimitSearch {
  public:
-  StyleBlock(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
-             std::span<const std::size_t> people, Looking looking, std::size_t lanes_each = 1);
+  StyleLimitSearch(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
+                   std::span<const std::size_t> people, Looking looking, std::size_t lanes_each = 1);
   /// Who breaks a limit with what was asked, or comes near one where walks are looked at roughly.
   std::array<bool, lane_count> broken();
   /// Moves step lengths and styles as far as limits ask, as keep_walk_limits says
   /// (mobil/systems/limits/style_limits.h).
-  void draw_nearer();
-  /// What draw_nearer came to, walker by walker: whether anything was moved; the style and the step length; what was
-  /// moved, the step length before the numbers of the style.
+  void clamp_toward_default();
+  /// What clamp_toward_default came to, walker by walker: whether anything was moved; the style and the step length;
+  /// what was moved, the step length before the numbers of the style.
   bool is_drawn(std::size_t walker) const { return walkers_[walker].step_why || walkers_[walker].is_moved(); }
   const GaitStyle& style(std::size_t walker) const { return walkers_[walker].style; }
   float step_length_m(std::size_t walker) const { return walkers_[walker].length_m(); }
@@ -149,8 +149,8 @@ std::array<std::size_t, gait_parameters.size()> giving_back_order() {
 
 }  // namespace
 
-StyleBlock::StyleBlock(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
-                       std::span<const std::size_t> people, Looking looking, std::size_t lanes_each)
+StyleLimitSearch::StyleLimitSearch(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
+                                   std::span<const std::size_t> people, Looking looking, std::size_t lanes_each)
     : people_(people.size()), each_(lanes_each), looking_(looking) {
   for (std::size_t w = 0; w < people_; ++w) {
     const Gait<float>& gait = gaits[people[w]];
@@ -170,12 +170,12 @@ StyleBlock::StyleBlock(std::span<const BodySize<float>> sizes, std::span<const G
   }
 }
 
-std::array<bool, lane_count> StyleBlock::broken() {
+std::array<bool, lane_count> StyleLimitSearch::broken() {
   hold_to_limits();
   return still_broken();
 }
 
-void StyleBlock::draw_nearer() {
+void StyleLimitSearch::clamp_toward_default() {
   hold_to_limits();
   look_at_usual_and_asked();
   const auto is_shortened = [](const Walker& walker) { return walker.step_why.has_value(); };
@@ -196,7 +196,7 @@ void StyleBlock::draw_nearer() {
         [](Walker& walker, float share) { walker.style = walker.at(share); });
 }
 
-std::vector<StyleChange> StyleBlock::changes(std::size_t walker) const {
+std::vector<StyleChange> StyleLimitSearch::changes(std::size_t walker) const {
   std::vector<StyleChange> changes;
   const Walker& of = walkers_[walker];
   const float speed_m_s = gait_row_[walker * each_].speed_m_s;
@@ -211,7 +211,7 @@ std::vector<StyleChange> StyleBlock::changes(std::size_t walker) const {
   return changes;
 }
 
-void StyleBlock::hold_to_limits() {
+void StyleLimitSearch::hold_to_limits() {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const bool usual_style = same_style(walkers_[walker_of(l)].asked, usual_);
     for (std::size_t b = 0; b < bound_count; ++b) {
@@ -221,19 +221,19 @@ void StyleBlock::hold_to_limits() {
   }
 }
 
-std::array<bool, lane_count> StyleBlock::still_broken() {
+std::array<bool, lane_count> StyleLimitSearch::still_broken() {
   look_at_walkers();
   std::array<bool, lane_count> broken{};
   for (std::size_t w = 0; w < people_; ++w) broken[w] = worst(w * each_).has_value();
   return broken;
 }
 
-void StyleBlock::look_at_walkers() {
+void StyleLimitSearch::look_at_walkers() {
   for (std::size_t l = 0; l < lane_count; ++l) try_in(l, walkers_[walker_of(l)]);
   look();
 }
 
-void StyleBlock::look_at_usual_and_asked() {
+void StyleLimitSearch::look_at_usual_and_asked() {
   const auto together = std::min(each_, tries);
   for (std::size_t first = 0; first < tries; first += together) {
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -251,7 +251,7 @@ void StyleBlock::look_at_usual_and_asked() {
   for (Walker& walker : walkers()) walker.style = usual_;
 }
 
-void StyleBlock::note_try(std::size_t which, std::size_t w, std::size_t lane) {
+void StyleLimitSearch::note_try(std::size_t which, std::size_t w, std::size_t lane) {
   const auto breaks = which == try_usual_walk ? std::nullopt : worst(lane);
   Walker& walker = walkers_[w];
   if (which == try_usual_style) walker.step_why = breaks;
@@ -271,19 +271,19 @@ void StyleBlock::note_try(std::size_t which, std::size_t w, std::size_t lane) {
   }
 }
 
-void StyleBlock::try_in(std::size_t lane, const Walker& walker) {
+void StyleLimitSearch::try_in(std::size_t lane, const Walker& walker) {
   Gait<float>& row = gait_row_[lane];
   row.style = walker.style;
   row.step_length_m = walker.length_m();
   row.step_frequency_hz = walker.asked_m > 0 ? row.speed_m_s / row.step_length_m : 0;
 }
 
-void StyleBlock::look() {
+void StyleLimitSearch::look() {
   for (std::size_t l = 0; l < lane_count; ++l) put_row(gait_row_[l], gait_, l);
   walk_extremes(size_, gait_, looking_, found_);
 }
 
-std::optional<StyleBlock::Break> StyleBlock::worst(std::size_t lane) const {
+std::optional<StyleLimitSearch::Break> StyleLimitSearch::worst(std::size_t lane) const {
   std::optional<Break> worst;
   double most = 0;
   const auto note = [&](std::size_t b, const WalkReach& reach, float held) {
@@ -303,7 +303,7 @@ std::optional<StyleBlock::Break> StyleBlock::worst(std::size_t lane) const {
   return worst;
 }
 
-void StyleBlock::give_back() {
+void StyleLimitSearch::give_back() {
   static const auto order = giving_back_order();
   std::array<std::size_t, lane_count> next{};
   for (;;) {
@@ -342,7 +342,7 @@ void StyleBlock::give_back() {
 }
 
 template <class Of, class Set>
-void StyleBlock::halve(Of of, Set set) {
+void StyleLimitSearch::halve(Of of, Set set) {
   struct Between {
     float kept, broken_at;
     float middle() const { return 0.5F * (kept + broken_at); }
@@ -420,7 +420,7 @@ std::string described(const StyleChange& change) {
 }
 
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
-                      StyleWork& work, std::span<std::vector<StyleChange>> moved) {
+                      StyleLimitWork& work, std::span<std::vector<StyleChange>> moved) {
   // The reserved memory depends on the number of people alone.
   for (std::vector<StyleChange>& of : moved) of.clear();
   for (auto* const list : {&work.near, &work.far, &work.farther}) {
@@ -444,21 +444,21 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
     in_parallel(jobs, (people.size() + of_block - 1) / of_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin * of_block; first < std::min(end * of_block, people.size()); first += of_block) {
         const auto some = people.subspan(first, std::min(of_block, people.size() - first));
-        StyleBlock block(sizes, gaits, some, looking, lanes_each);
+        StyleLimitSearch block(sizes, gaits, some, looking, lanes_each);
         look_at(some, block);
       }
     });
   };
   // Few come near a limit, fewer break one: those come together in blocks of their own.
   const auto keep_broken = [&](std::vector<std::size_t>& people, Looking looking) {
-    in_blocks(people, looking, 1, [&](std::span<const std::size_t> some, StyleBlock& block) {
+    in_blocks(people, looking, 1, [&](std::span<const std::size_t> some, StyleLimitSearch& block) {
       const auto broken = block.broken();
       for (std::size_t l = 0; l < some.size(); ++l) work.breaks[some[l]] = static_cast<std::uint8_t>(broken[l]);
     });
     std::erase_if(people, [&](std::size_t i) { return work.breaks[i] == 0; });
   };
-  const auto draw = [&](std::span<const std::size_t> some, StyleBlock& block) {
-    block.draw_nearer();
+  const auto draw = [&](std::span<const std::size_t> some, StyleLimitSearch& block) {
+    block.clamp_toward_default();
     for (std::size_t w = 0; w < some.size(); ++w) {
       if (!block.is_drawn(w)) continue;
       const float height_m = sizes[some[w]].height_m;
@@ -491,7 +491,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
 
 std::vector<StyleChange> keep_walk_limits(const BodySize<float>& size, Gait<float>& gait) {
   std::vector<StyleChange> moved;
-  StyleWork work;
+  StyleLimitWork work;
   keep_walk_limits({}, {&size, 1}, {&gait, 1}, work, {&moved, 1});
   return moved;
 }

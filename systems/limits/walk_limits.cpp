@@ -19,7 +19,7 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double limit_degree = 3.14159265358979324 / 180;
-constexpr std::uint32_t most_parts = 4;
+constexpr std::uint32_t max_parts = 4;
 
 /// Of the joint at the origin of a segment, one way.
 constexpr double limb_limit(Segment segment, std::string_view joint, std::string_view motion, bool more) {
@@ -111,10 +111,10 @@ constexpr int stopping_steps = 6;
 
 /// Turns and changes of speed that are looked at, and for how many steps: by their end nearly all walk as before.
 constexpr float turned_rad = 1.05F, slowed_to = 0.6F;
-constexpr int turning_steps = 6, slowing_steps = 3, quickening_steps = 5;
+constexpr int turning_steps = 6, scaled_steps = 3, quickening_steps = 5;
 
 /// Heights of the pelvis, sixteen side by side, one instant after the other.
-using Heights = std::array<Lanes<float>, 2 * most_parts>;
+using Heights = std::array<Lanes<float>, 2 * max_parts>;
 
 /// Sixteen walks, step by step, looked at `lag` times in that time.
 class WalkLooked {
@@ -137,7 +137,7 @@ class WalkLooked {
   }
   /// From the next step on everybody is to walk at such a part of their speed, or the lowest that they may, with the
   /// steps that are usual then.
-  void slow_down(float part) {
+  void scale_speed(float part) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const float height_m = size_.height_m[l], speed_m_s = gait_.speed_m_s[l];
       if (!(speed_m_s > 0)) continue;
@@ -156,7 +156,7 @@ class WalkLooked {
   void walk() {
     clear_bounds(bounds_);
     const float longest_s = *std::ranges::max_element(plan_.duration_s.lane);
-    std::array<Lanes<float>, 2 * most_parts + 1> up_m{};  // at the last instants
+    std::array<Lanes<float>, 2 * max_parts + 1> up_m{};  // at the last instants
     for (std::uint32_t k = 0; static_cast<float>(k) * instant_s_ <= longest_s; ++k) {
       const float time_s = static_cast<float>(k) * instant_s_;
       // Who has come to the end waits at the last instant before it, so that others' longer steps show nothing more.
@@ -231,7 +231,7 @@ std::span<const WalkLimit, bound_count> walk_limits() {
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes) {
   const bool seldom = looking == Looking::roughly || looking == Looking::at_changes;
-  WalkLooked walk(size, gait, seldom ? 1 : most_parts);
+  WalkLooked walk(size, gait, seldom ? 1 : max_parts);
   const Lanes<std::uint32_t> settled = walk.settled();
   const auto note = [&](const WalkLooked& looked, WalkPart part, auto whose) {
     WalkReach& reach = part == WalkPart::steady || part == WalkPart::stop ? extremes.steady : extremes.changing;
@@ -252,7 +252,7 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   const auto uneven = [&settled](std::size_t l) { return settled[l] == 0; };
   walk.walk();
   for (WalkReach* const reach : {&extremes.steady, &extremes.changing}) {
-    std::ranges::fill(reach->value, in_every_lane<Lanes<float>>(least_bound));
+    std::ranges::fill(reach->value, in_every_lane<Lanes<float>>(min_bound));
     for (auto& of_bound : reach->part) of_bound.fill(WalkPart::steady);
   }
   std::ranges::copy(walk.bounds().value, extremes.steady.value);
@@ -270,8 +270,8 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
       note_steps(turn, turning_steps, WalkPart::turn, whose);
     }
     WalkLooked other_speed = from;
-    other_speed.slow_down(slowed_to);
-    note_steps(other_speed, slowing_steps, WalkPart::change_of_speed, whose);
+    other_speed.scale_speed(slowed_to);
+    note_steps(other_speed, scaled_steps, WalkPart::change_of_speed, whose);
     other_speed.walk_as(gait);
     note_steps(other_speed, quickening_steps, WalkPart::change_of_speed, whose);
   };
@@ -284,7 +284,7 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
     note_from(from, uneven);
   };
   if (looking == Looking::at_stops_too || looking == Looking::at_changes_too)
-    from_either_foot(most_parts / 2, note_stop);
+    from_either_foot(max_parts / 2, note_stop);
   if (looking == Looking::at_changes || looking == Looking::at_changes_too) from_either_foot(1, note_changes);
 }
 
@@ -396,7 +396,7 @@ bool is_within_usual(const GaitStyle& style, float part) {
 }
 
 bool is_near_usual(const GaitStyle& style) {
-  constexpr float most_rms = 0.07F;
+  constexpr float max_rms = 0.07F;
   constexpr GaitStyle usual;
   float squares = 0, count = 0;
   for (const GaitParameter& p : gait_parameters) {
@@ -406,7 +406,7 @@ bool is_near_usual(const GaitStyle& style) {
     squares += off * off;
     ++count;
   }
-  return squares <= count * most_rms * most_rms && is_within_usual(style, tenth + 0.001F);
+  return squares <= count * max_rms * max_rms && is_within_usual(style, tenth + 0.001F);
 }
 
 bool has_usual_steps(float height_m, float speed_m_s, float step_length_m) {

@@ -104,11 +104,11 @@ HWY_INLINE void turn(hn::Vec<Four> (&v)[4]) {
 }
 
 constexpr std::size_t leg_words = sizeof(LegFrames<float>) / sizeof(float);
-static_assert(sizeof(LegPost::Leg) >= 4 * ((leg_words + 3) / 4) * sizeof(float));
+static_assert(sizeof(PublishedLeg::Leg) >= 4 * ((leg_words + 3) / 4) * sizeof(float));
 // Copied in fours, a leg's frames leave zeros in its clock: who does not walk stands.
-static_assert(offsetof(LegPost::Leg, clock) == 4 * leg_words && leg_words % 4 == 1);
+static_assert(offsetof(PublishedLeg::Leg, clock) == 4 * leg_words && leg_words % 4 == 1);
 
-void take_rows(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
+void gather_rows(const PublishedLeg::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
   const Four d;
   auto* const to = reinterpret_cast<float*>(&legs);
   for (std::size_t lane = 0; lane < lane_count; lane += 4) {
@@ -121,7 +121,7 @@ void take_rows(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<fl
   }
 }
 
-void put_rows(const LegFrames<Lanes<float>>& legs, Side side, LegPost* posts) {
+void scatter_rows(const LegFrames<Lanes<float>>& legs, Side side, PublishedLeg* posts) {
   const Four d;
   const auto* const from = reinterpret_cast<const float*>(&legs);
   for (std::size_t lane = 0; lane < lane_count; lane += 4) {
@@ -146,8 +146,8 @@ namespace mobil::inline v0_3 {
 namespace {
 
 HWY_EXPORT(act_on_end);
-HWY_EXPORT(take_rows);
-HWY_EXPORT(put_rows);
+HWY_EXPORT(gather_rows);
+HWY_EXPORT(scatter_rows);
 
 /// `word(i)` is the i-th of a pose's words; put(f, x, sign) makes sign·x what f becomes.
 template <class Word, class F, class Put>
@@ -182,7 +182,7 @@ void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std
          [lane](Lanes<float>& to, float x, float sign) { to[lane] = sign * x; });
 }
 
-void post_legs(const Pose<Lanes<float>>& pose, const Pose<Lanes<float>>* next, LegPost* posts) {
+void post_legs(const Pose<Lanes<float>>& pose, const Pose<Lanes<float>>* next, PublishedLeg* posts) {
   const auto *words = reinterpret_cast<const Lanes<float>*>(&pose),
              *ahead = reinterpret_cast<const Lanes<float>*>(next);
   const auto word = [words, ahead](std::size_t i) -> const Lanes<float>& {
@@ -194,12 +194,12 @@ void post_legs(const Pose<Lanes<float>>& pose, const Pose<Lanes<float>>* next, L
     gather(word, side, legs, [](Lanes<float>& to, const Lanes<float>& x, float sign) {
       for (std::size_t lane = 0; lane < lane_count; ++lane) to[lane] = sign * x[lane];
     });
-    HWY_DYNAMIC_DISPATCH(put_rows)(legs, side, posts);
+    HWY_DYNAMIC_DISPATCH(scatter_rows)(legs, side, posts);
   }
 }
 
-void take_legs(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
-  HWY_DYNAMIC_DISPATCH(take_rows)(from, legs);
+void take_legs(const PublishedLeg::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
+  HWY_DYNAMIC_DISPATCH(gather_rows)(from, legs);
 }
 
 void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane) {

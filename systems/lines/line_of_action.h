@@ -12,15 +12,15 @@
 
 namespace mobil::inline v0_3 {
 
-/// Copies one leg of one human into a lane: joint centres and rotations of thigh, shank and foot, and the pelvis'
-/// rotation; a left leg as its mirror image. `pose`: the human's lane of a block of Pose, that is its first word, the
+/// Copies one leg of one person into a lane: joint centres and rotations of thigh, shank and foot, and the pelvis'
+/// rotation; a left leg as its mirror image. `pose`: the person's lane of a block of Pose, that is its first word, the
 /// others following at a distance of `lane_count` floats; no NaN is looked for.
 void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane);
 /// The same of both legs of sixteen people, for their muscles to look up. `next`: the block that follows, fetched
 /// meanwhile and never read; may be null.
-void post_legs(const Pose<Lanes<float>>& pose, const Pose<Lanes<float>>* next, LegPost* posts);
+void post_legs(const Pose<Lanes<float>>& pose, const Pose<Lanes<float>>* next, PublishedLeg* posts);
 /// Sixteen of them side by side.
-void take_legs(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs);
+void take_legs(const PublishedLeg::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs);
 /// The same from one row.
 void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane);
 

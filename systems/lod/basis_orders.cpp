@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "systems/bellies/choice_words.h"
+#include "systems/bellies/leg_muscles_io.h"
 
 namespace mobil::inline v0_3 {
 
@@ -21,7 +21,7 @@ OrderedBasis BasisOrders::name_of(Muscle muscle, const LegMuscles& choice, const
           static_cast<float>(key.ratio),
           static_cast<float>(key.product),
           static_cast<std::uint16_t>(muscle),
-          static_cast<std::uint16_t>(choice.reduced.cells[2]),
+          static_cast<std::uint16_t>(choice.modal.cells[2]),
           0};
 }
 

@@ -17,13 +17,13 @@
 #include <mobil/muscle_library.h>
 #include <mobil/muscle_table.h>
 #include <mobil/rows.h>
-#include "systems/accuracy/packed_rungs.h"
+#include "systems/accuracy/packed_levels.h"
 #include "systems/lod/lod_module.h"
 #include "systems/lod/lod_round.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
-#include "systems/people/by_table.h"
+#include "systems/people/group_by_table.h"
 #include "systems/states/muscle_verbs.h"
 #include "systems/states/person_states.h"
 #include "systems/states/sleep.h"
@@ -43,7 +43,7 @@ Result<void> check(const LodOptions& options) {
 }
 
 std::string explain(const Choice& choice, View view, const std::string& goal) {
-  const std::string_view name = rungs_of(choice.living)[choice.rung].name;
+  const std::string_view name = levels_of(choice.active)[choice.level].name;
   const double error_mm = 1e3 * static_cast<double>(choice.predicted_error_m);
   const double allowed_mm = 1e3 * static_cast<double>(choice.tolerance_m);
   std::string figures = fmt::format("{}: {:.3g} mm of {:.3g} mm allowed, {:.3g} us a tick", name, error_mm, allowed_mm,
@@ -78,7 +78,7 @@ LodWork& Lod::work() const {
   return frame_.workspace.get<LodWork>();
 }
 
-const SceneNeeds& Lod::scene() const {
+const LodScene& Lod::scene() const {
   return work().scene;
 }
 
@@ -90,12 +90,12 @@ Result<void> Lod::set_options(const LodOptions& options) {
   if (auto ok = check(options); !ok) return ok;
   LodWork& to = work();
   to.options = options;
-  to.ladder = RungLadder(options.table != nullptr ? *options.table : accuracy_table());
+  to.lod_table = LodTable(options.table != nullptr ? *options.table : accuracy_table());
   to.orders.make_by(options.background, options.making_ticks);
   return {};
 }
 
-Result<void> Lod::set_scene(const SceneNeeds& needs) {
+Result<void> Lod::set_scene(const LodScene& needs) {
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("set_scene: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
   if (!positive(static_cast<double>(needs.tolerance_px)))
@@ -123,22 +123,22 @@ Result<void> Lod::set_scene(const SceneNeeds& needs) {
   return {};
 }
 
-/// Rungs that may be the cheapest for one of the scene's muscles and any walk: for these tolerances, where a cheaper
+/// Levels that may be the cheapest for one of the scene's muscles and any walk: for these tolerances, where a cheaper
 /// method must keep to the least part of one; for any, where tolerances follow from a camera or a budget.
-static std::array<bool, rung_count> called_for(const LodWork& work, std::span<const float> tolerances_m) {
-  std::array<bool, rung_count> called{};
-  RungCase of{.inertia = work.options.leg_muscles.inertia, .living = pulls_alive(work.options.leg_muscles)};
+static std::array<bool, level_count> called_for(const LodWork& work, std::span<const float> tolerances_m) {
+  std::array<bool, level_count> called{};
+  LevelCase of{.inertia = work.options.leg_muscles.inertia, .active = pulls_alive(work.options.leg_muscles)};
   for (of.muscle = 0; of.muscle < muscles().size(); ++of.muscle) {
-    for (of.speed_step = 0; of.speed_step < RungLadder::speed_steps && work.scene.muscles[of.muscle]; ++of.speed_step) {
+    for (of.speed_step = 0; of.speed_step < LodTable::speed_steps && work.scene.muscles[of.muscle]; ++of.speed_step) {
       if (!work.scene.camera && !work.scene.budget_s) {
         for (const float tolerance_m : tolerances_m)
-          called[work.ladder.cheapest(of, work.options.slack * tolerance_m / work.options.margin)] = true;
+          called[work.lod_table.cheapest(of, work.options.slack * tolerance_m / work.options.margin)] = true;
         continue;
       }
       for (const bool points : {false, true}) {
         of.points = points;
-        for (std::uint32_t r = 0; r < rung_count; ++r)
-          called[work.ladder.cheapest(of, work.ladder.error_m(of, r))] = true;
+        for (std::uint32_t r = 0; r < level_count; ++r)
+          called[work.lod_table.cheapest(of, work.lod_table.error_m(of, r))] = true;
       }
     }
   }
@@ -154,14 +154,14 @@ Result<void> Lod::prepare(std::span<const float> own_tolerances_m,
   if (!work().scene.camera) tolerances.push_back(work().scene.tolerance_m.value_or(default_tolerance_m));
   const auto called = called_for(work(), tolerances);
   const auto calls = std::accumulate(called.begin() + 1, called.end(), std::size_t{0});
-  for (std::size_t r = 1, done = 0; r < rung_count; ++r) {
+  for (std::size_t r = 1, done = 0; r < level_count; ++r) {
     if (!called[r]) continue;
     if (progress) progress(done++, calls);
     LegMuscles choice = work().options.leg_muscles;
-    const MuscleMethod method = rung_method(r, true, pulls_alive(choice));
+    const MuscleMethod method = level_method(r, true, pulls_alive(choice));
     choice.muscles = work().scene.muscles;
     choice.method = method.method;
-    choice.reduced = method.reduced;
+    choice.modal = method.modal;
     if (auto made = MuscleLibrary(frame_).prepare(choice); !made) return made;
   }
   return {};
@@ -169,32 +169,32 @@ Result<void> Lod::prepare(std::span<const float> own_tolerances_m,
 
 /// All are awake, whole and have muscles, or nobody has changed.
 static Result<void> make_ready(const Frame& frame, const LodWork& work, std::span<const Entity> people,
-                               const PersonNeeds& needs) {
-  World::Attempt attempt(frame.world, frame.jobs);
-  if (auto done = make_muscles_whole(frame, people); !done) return done;
+                               const LodOverrides& needs) {
+  World::Transaction transaction(frame.world, frame.jobs);
+  if (auto done = make_muscles_full(frame, people); !done) return done;
   LegMuscles choice = work.options.leg_muscles;
   choice.muscles = needs.muscles.value_or(work.scene.muscles);
   choice.method = Method::none;
-  for (const Entity human : people) {
-    if (choice.muscles.none() || frame.world.alive(frame.world.first_member(human))) continue;
-    if (auto done = set_muscles(frame, {&human, 1}, choice); !done) return done;
+  for (const Entity person : people) {
+    if (choice.muscles.none() || frame.world.alive(frame.world.first_member(person))) continue;
+    if (auto done = set_muscles(frame, {&person, 1}, choice); !done) return done;
   }
-  attempt.keep();
+  transaction.commit();
   return {};
 }
 
-Result<void> Lod::manage(Entity human, const PersonNeeds& needs) {
-  return manage(std::span(&human, 1), needs);
+Result<void> Lod::manage(Entity person, const LodOverrides& needs) {
+  return manage(std::span(&person, 1), needs);
 }
 
-Result<void> Lod::manage(std::span<const Entity> people, const PersonNeeds& needs) {
+Result<void> Lod::manage(std::span<const Entity> people, const LodOverrides& needs) {
   if (!frame_.world.alive_once(people) ||
-      !std::ranges::all_of(people, [&](Entity human) { return is_person(frame_.world, human); }))
+      !std::ranges::all_of(people, [&](Entity person) { return is_person(frame_.world, person); }))
     return fail("manage: somebody is not there (a stale handle), or named twice; spawn people first, name each once",
                 Status::stale_entity);
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("manage: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
-  Needs<float> row{};
+  LodRequest<float> row{};
   if (needs.muscles) {
     row.own |= own_muscles;
     row.muscles = static_cast<std::uint32_t>(needs.muscles->to_ulong());
@@ -209,28 +209,29 @@ Result<void> Lod::manage(std::span<const Entity> people, const PersonNeeds& need
   }
   const float tolerance_m =
       row.tolerance_m > 0 ? row.tolerance_m : work().scene.tolerance_m.value_or(default_tolerance_m);
-  World::Attempt attempt(frame_.world, frame_.jobs);
+  World::Transaction transaction(frame_.world, frame_.jobs);
   if (auto done = make_ready(frame_, work(), people, needs); !done) return done;
-  std::vector<Tiers<float>> tiers(people.size());
+  std::vector<LodState<float>> lod_state(people.size());
   in_parallel(frame_.jobs, people.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      tiers[i] = tiers_of(frame_.world, people[i]);
-      tiers[i].tolerance_m = tolerance_m;
-      tiers[i].relative_size = work().options.margin;
+      lod_state[i] = lod_state_of(frame_.world, people[i]);
+      lod_state[i].tolerance_m = tolerance_m;
+      lod_state[i].relative_size = work().options.margin;
     }
   });
   std::vector<Entity> anew;
-  for (const Entity human : people)
-    if (!frame_.world.has<Needs>(human) || !frame_.world.has<Tiers>(human)) anew.push_back(human);
-  by_table(frame_.world, anew, [&](std::span<const Entity> together) {
-    frame_.world.remake_many(
-        together, std::array{PartValue{component_part<Needs>(), nullptr}, PartValue{component_part<Tiers>(), nullptr}},
-        {}, frame_.jobs);
+  for (const Entity person : people)
+    if (!frame_.world.has<LodRequest>(person) || !frame_.world.has<LodState>(person)) anew.push_back(person);
+  group_by_table(frame_.world, anew, [&](std::span<const Entity> together) {
+    frame_.world.change_archetype(
+        together,
+        std::array{PartValue{component_id<LodRequest>(), nullptr}, PartValue{component_id<LodState>(), nullptr}}, {},
+        frame_.jobs);
   });
-  attempt.keep();
+  transaction.commit();
   for (std::size_t i = 0; i < people.size(); ++i) {
     frame_.world.set(people[i], row);
-    frame_.world.set(people[i], tiers[i]);
+    frame_.world.set(people[i], lod_state[i]);
   }
   return {};
 }
@@ -239,8 +240,8 @@ Result<std::size_t> Lod::manage_asleep(std::span<const Entity> people) {
   if (!frame_.world.alive_once(people))
     return fail("manage_asleep: somebody is not there (a stale handle), or named twice; name each once",
                 Status::stale_entity);
-  for (const Entity human : people)
-    if (!is_person(frame_.world, human) || has_any_muscles(frame_.world, human))
+  for (const Entity person : people)
+    if (!is_person(frame_.world, person) || has_any_muscles(frame_.world, person))
       return fail("manage_asleep: somebody has muscles, or is no person; manage them instead", Status::already_there);
   LegMuscles choice = work().options.leg_muscles;
   choice.muscles = work().scene.muscles;
@@ -248,113 +249,114 @@ Result<std::size_t> Lod::manage_asleep(std::span<const Entity> people) {
   if (choice.muscles.any()) {
     if (auto ok = check_choice(choice, frame_.workspace.get<MuscleMeans>().tick_s); !ok)
       return tl::unexpected(ok.error());
-    for (const Entity human : people)
-      if (auto ok = check_leg_moments(frame_.world, human, choice); !ok) return tl::unexpected(ok.error());
+    for (const Entity person : people)
+      if (auto ok = check_leg_moments(frame_.world, person, choice); !ok) return tl::unexpected(ok.error());
   }
   frame_.world.global<LodProgress>().all_sleepers = 1;  // some may be in view of a camera that stands still
   const auto kept = keep_choice(frame_.world, *frame_.workspace.get<MuscleMeans>().library, choice);
-  const std::array keeps = {key_part(TagValue<SleepsManaged>{1}), key_part(kept)};
+  const std::array keeps = {component_id(TagValue<SleepsManaged>{1}), component_id(kept)};
   const std::size_t slept = sleep_managed(frame_, people, keeps);
-  for (const Entity human : people) {
-    if (is_managed(frame_.world, human)) continue;
-    if (auto done = manage(human); !done) return tl::unexpected(done.error());
+  for (const Entity person : people) {
+    if (is_managed(frame_.world, person)) continue;
+    if (auto done = manage(person); !done) return tl::unexpected(done.error());
   }
   return slept;
 }
 
-Result<void> Lod::release(Entity human) {
-  return release(std::span(&human, 1));
+Result<void> Lod::release(Entity person) {
+  return release(std::span(&person, 1));
 }
 
 Result<void> Lod::release(std::span<const Entity> people) {
   if (!frame_.world.alive_once(people))
     return fail("release: somebody is not there (a stale handle), or named twice", Status::stale_entity);
   std::vector<Entity> whole;
-  for (const Entity human : people) {
-    if (!is_managed(frame_.world, human)) return fail("release: somebody is not managed", Status::missing);
+  for (const Entity person : people) {
+    if (!is_managed(frame_.world, person)) return fail("release: somebody is not managed", Status::missing);
     // Nobody else would begin the muscles that are to come.
-    const bool stays_compact = is_compact(frame_.world, human) &&
-                               (frame_.world.has<CompactMuscles>(human) || !kept_choice(frame_.world, human));
-    if (!stays_compact) whole.push_back(human);
+    const bool stays_compact = is_compact(frame_.world, person) &&
+                               (frame_.world.has<CompactMuscles>(person) || !kept_choice(frame_.world, person));
+    if (!stays_compact) whole.push_back(person);
   }
-  World::Attempt attempt(frame_.world, frame_.jobs);
-  if (auto done = make_muscles_whole(frame_, whole); !done) return done;
-  constexpr std::array parts = {type_id<Needs<float>>(), type_id<Tiers<float>>()};
-  by_table(frame_.world, people,
-           [&](std::span<const Entity> together) { frame_.world.remake_many(together, {}, parts, frame_.jobs); });
-  attempt.keep();
+  World::Transaction transaction(frame_.world, frame_.jobs);
+  if (auto done = make_muscles_full(frame_, whole); !done) return done;
+  constexpr std::array parts = {type_id<LodRequest<float>>(), type_id<LodState<float>>()};
+  group_by_table(frame_.world, people, [&](std::span<const Entity> together) {
+    frame_.world.change_archetype(together, {}, parts, frame_.jobs);
+  });
+  transaction.commit();
   return {};
 }
 
-Result<void> Lod::force(Entity human, Muscle muscle, const MuscleMethod& method) {
-  auto tiers = frame_.world.get<Tiers>(human);
+Result<void> Lod::force(Entity person, Muscle muscle, const MuscleMethod& method) {
+  auto lod_state = frame_.world.get<LodState>(person);
   const auto m = static_cast<std::uint32_t>(muscle);
-  if (!tiers || m >= most_muscles || !bit_at(tiers->muscles, m))
+  if (!lod_state || m >= max_muscles || !bit_at(lod_state->muscles, m))
     return fail("force: that person, or that muscle of theirs, is not managed; manage it first",
-                tiers ? Status::missing : tiers.error());
-  struct AsBefore {  // where it is refused, or memory runs out: once the attempt is undone
+                lod_state ? Status::missing : lod_state.error());
+  struct AsBefore {  // where it is refused, or memory runs out: once the transaction is undone
     World& world;
-    Entity human;
-    Tiers<float> tiers;
+    Entity person;
+    LodState<float> lod_state;
     bool done = false;
     ~AsBefore() {
-      if (!done) world.set(human, tiers);
+      if (!done) world.set(person, lod_state);
     }
-  } as_before{frame_.world, human, *tiers};
-  std::optional<World::Attempt> attempt;
+  } as_before{frame_.world, person, *lod_state};
+  std::optional<World::Transaction> transaction;
   const auto ask = [&]() -> Result<void> {
-    if ((tiers->effects & tier_bare) != 0) {
-      attempt.emplace(frame_.world, frame_.jobs);
-      if (auto done = mobil::make_whole(frame_, {&human, 1}); !done) return done;
-      if (auto done = LodRound(frame_).begin_muscles(std::span(&human, 1), 0, false); !done) return done;
+    if ((lod_state->effects & lod_bare) != 0) {
+      transaction.emplace(frame_.world, frame_.jobs);
+      if (auto done = mobil::make_full(frame_, {&person, 1}); !done) return done;
+      if (auto done = LodRound(frame_).begin_muscles(std::span(&person, 1), 0, false); !done) return done;
     }
-    return set_method(frame_, {&human, 1}, muscle, method);
+    return set_method(frame_, {&person, 1}, muscle, method);
   };
   if (auto done = ask(); !done) return done;
-  if (attempt) attempt->keep();
+  if (transaction) transaction->commit();
   as_before.done = true;
-  tiers = frame_.world.get<Tiers>(human);
-  set_rung(tiers->rung, m, forced_rung);
-  frame_.world.set(human, *tiers);
+  lod_state = frame_.world.get<LodState>(person);
+  set_level(lod_state->level, m, forced_level);
+  frame_.world.set(person, *lod_state);
   return {};
 }
 
-Result<void> Lod::unforce(Entity human, Muscle muscle) {
-  auto tiers = frame_.world.get<Tiers>(human);
-  if (!tiers) return fail(tiers.error());
+Result<void> Lod::unforce(Entity person, Muscle muscle) {
+  auto lod_state = frame_.world.get<LodState>(person);
+  if (!lod_state) return fail(lod_state.error());
   const auto m = static_cast<std::uint32_t>(muscle);
-  if (m >= most_muscles || !bit_at(tiers->muscles, m)) return fail(Status::missing);
-  const MuscleMethod method = method_of(frame_.world, human, muscle);
-  set_rung(tiers->rung, m, rung_of(method, is_living(*tiers)));
-  set_bit(tiers->points, m, method.method != Method::none && method.reduced.control_points);
-  return result_of("unforce", frame_.world.set(human, *tiers));
+  if (m >= max_muscles || !bit_at(lod_state->muscles, m)) return fail(Status::missing);
+  const MuscleMethod method = method_of(frame_.world, person, muscle);
+  set_level(lod_state->level, m, level_of(method, is_active(*lod_state)));
+  set_bit(lod_state->points, m, method.method != Method::none && method.modal.control_points);
+  return result_of("unforce", frame_.world.set(person, *lod_state));
 }
 
-Result<Choice> Lod::why(Entity human, Muscle muscle) const {
-  const auto tiers = frame_.world.get<Tiers>(human);
-  if (!tiers) return fail(tiers.error());
-  const auto needs = *frame_.world.get<Needs>(human);
+Result<Choice> Lod::why(Entity person, Muscle muscle) const {
+  const auto lod_state = frame_.world.get<LodState>(person);
+  if (!lod_state) return fail(lod_state.error());
+  const auto needs = *frame_.world.get<LodRequest>(person);
   const auto m = static_cast<std::uint32_t>(muscle);
-  if (m >= most_muscles || !bit_at(tiers->muscles, m)) return fail(Status::missing);
+  if (m >= max_muscles || !bit_at(lod_state->muscles, m)) return fail(Status::missing);
   Choice choice;
-  choice.method = method_of(frame_.world, human, muscle);
-  const std::uint32_t marked = rung_at(tiers->rung, m), goal = rung_at(tiers->goal, m);
-  choice.living = is_living(*tiers);
-  choice.rung = marked >= refused_rung ? rung_of(choice.method, choice.living) : marked;
-  const RungCase of = rung_case(*tiers, m, bit_at(tiers->points, m));
-  const Ladder& ladder = rungs_of(choice.living);
-  const auto rung = static_cast<std::uint32_t>(choice.rung);
-  choice.predicted_error_m = work().ladder.error_m(of, rung) * tiers->relative_size;
-  choice.predicted_volume_off = work().ladder.volume_off(of, rung);
-  choice.tolerance_m = tiers->tolerance_m;
+  choice.method = method_of(frame_.world, person, muscle);
+  const std::uint32_t marked = level_at(lod_state->level, m), goal = level_at(lod_state->goal, m);
+  choice.active = is_active(*lod_state);
+  choice.level = marked >= refused_level ? level_of(choice.method, choice.active) : marked;
+  const LevelCase of = level_case(*lod_state, m, bit_at(lod_state->points, m));
+  const LodLevels& all = levels_of(choice.active);
+  const auto level = static_cast<std::uint32_t>(choice.level);
+  choice.predicted_error_m = work().lod_table.error_m(of, level) * lod_state->relative_size;
+  choice.predicted_volume_off = work().lod_table.volume_off(of, level);
+  choice.tolerance_m = lod_state->tolerance_m;
   choice.predicted_cost_us =
-      0.5e-6 * static_cast<double>(work().ladder.cost_ps(of, rung)) * LodRound(frame_).machine().mean();
-  const auto view = static_cast<View>(tiers->view);
+      0.5e-6 * static_cast<double>(work().lod_table.cost_ps(of, level)) * LodRound(frame_).machine().mean();
+  const auto view = static_cast<View>(lod_state->view);
   const bool shown_differs =
-      bit_at(tiers->points, m) != bit_at(tiers->goal_points, m) && ladder[choice.rung].method == Method::reduced;
-  if (marked == forced_rung) {
+      bit_at(lod_state->points, m) != bit_at(lod_state->goal_points, m) && all[choice.level].method == Method::modal;
+  if (marked == forced_level) {
     choice.reason = Reason::forced;
-  } else if (marked == refused_rung) {
+  } else if (marked == refused_level) {
     choice.reason = Reason::refused;
   } else if (goal != marked || shown_differs) {
     choice.reason = Reason::switch_pending;
@@ -369,17 +371,17 @@ Result<Choice> Lod::why(Entity human, Muscle muscle) const {
   } else {
     choice.reason = work().scene.budget_s && LodRound(frame_).factor() > 1 ? Reason::budget : Reason::best;
   }
-  choice.text = explain(choice, view, std::string(goal < rung_count ? ladder[goal].name : "another"));
+  choice.text = explain(choice, view, std::string(goal < level_count ? all[goal].name : "another"));
   return choice;
 }
 
-std::array<std::size_t, rung_count + 1> Lod::muscles_by_rung(bool living) const {
-  std::array<std::size_t, rung_count + 1> count{};
-  each(frame_.world, [&](const Rows& rows, const Tiers<Lanes<float>>& block) {
+std::array<std::size_t, level_count + 1> Lod::muscles_by_level(bool active) const {
+  std::array<std::size_t, level_count + 1> count{};
+  each(frame_.world, [&](const Rows& rows, const LodState<Lanes<float>>& block) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
-      const Tiers<float> tiers = row_of(block, lane);
-      for (std::uint32_t m = 0; m < most_muscles && is_living(tiers) == living; ++m) {
-        if (bit_at(tiers.muscles, m)) count[std::min<std::size_t>(rung_at(tiers.rung, m), rung_count)] += 2;
+      const LodState<float> lod_state = row_of(block, lane);
+      for (std::uint32_t m = 0; m < max_muscles && is_active(lod_state) == active; ++m) {
+        if (bit_at(lod_state.muscles, m)) count[std::min<std::size_t>(level_at(lod_state.level, m), level_count)] += 2;
       }
     }
   });

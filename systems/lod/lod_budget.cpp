@@ -5,8 +5,8 @@
 #include <mobil/anthropometry.h>
 #include <mobil/lod.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/people/person.h>
-#include "systems/accuracy/packed_rungs.h"
+#include <mobil/systems/people/person_requests.h>
+#include "systems/accuracy/packed_levels.h"
 #include "systems/lod/basis_orders.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_muscles.h"
@@ -55,17 +55,17 @@ void LodRound::observe_machine() {
 void LodRound::plan_budget() {
   progress_.budget_ps =
       static_cast<std::int64_t>(std::min(*work_.scene.budget_s / machine().pessimistic() * 1e12, 9e18));
-  const float least = work_.scene.tolerance_m || work_.scene.camera ? 1.0F : CostSpectrum::least_factor;
+  const float least = work_.scene.tolerance_m || work_.scene.camera ? 1.0F : CostSpectrum::min_factor;
   const float afforded = std::max(progress_.crowd.factor_within(progress_.budget_ps), least);
   progress_.factor = afforded > progress_.factor ? afforded : std::max(afforded, easing * progress_.factor);
 }
 
-/// In their order, until the update has spent `most_ps` on changes.
-void LodRound::change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget) {
+/// In their order, until the update has spent `max_ps` on changes.
+void LodRound::change_first(std::span<const Switch> all, std::int64_t max_ps, bool within_budget) {
   for (const Switch& one : all) {
-    const float us = (one.living ? living_switch_us : switch_us)[one.rung];
+    const float us = (one.active ? active_switch_us : switch_us)[one.level];
     const auto cost_ps = static_cast<std::int64_t>(1e6 * static_cast<double>(us) * machine().mean());
-    if (switching_ps_ > 0 && switching_ps_ + cost_ps > most_ps) return;
+    if (switching_ps_ > 0 && switching_ps_ + cost_ps > max_ps) return;
     if (within_budget && progress_.cost_ps + one.cost_ps > progress_.budget_ps) continue;
     if (change(one)) switching_ps_ += cost_ps;
   }
@@ -75,7 +75,7 @@ void LodRound::change_first(std::span<const Switch> all, std::int64_t most_ps, b
 void LodRound::carry_out() {
   const auto first = [](const Switch& a, const Switch& b, bool most) {
     if (a.excess != b.excess) return most ? a.excess > b.excess : a.excess < b.excess;
-    if (a.human.index != b.human.index) return a.human.index < b.human.index;
+    if (a.person.index != b.person.index) return a.person.index < b.person.index;
     return a.muscle < b.muscle;
   };
   const auto arrange = [&](std::vector<Switch>& all, std::size_t count, bool most) {
@@ -91,59 +91,59 @@ void LodRound::carry_out() {
   const std::size_t up = std::min(work_.now.dearer.size(), turns - down);
   arrange(work_.now.cheaper, down, false);
   arrange(work_.now.dearer, up, true);
-  const auto most_ps = static_cast<std::int64_t>(std::min(1e12 * work_.options.switching_s, 9e18));
+  const auto max_ps = static_cast<std::int64_t>(std::min(1e12 * work_.options.switching_s, 9e18));
   switching_ps_ = 0;
   const std::size_t refused_before = report_.refused;
-  change_first(std::span(work_.now.cheaper).first(down), over || up == 0 ? most_ps : most_ps / 2, false);
-  change_first(std::span(work_.now.dearer).first(up), most_ps, work_.scene.budget_s.has_value());
+  change_first(std::span(work_.now.cheaper).first(down), over || up == 0 ? max_ps : max_ps / 2, false);
+  change_first(std::span(work_.now.dearer).first(up), max_ps, work_.scene.budget_s.has_value());
   report_.waiting =
       work_.now.cheaper.size() + work_.now.dearer.size() - report_.switched - (report_.refused - refused_before);
 }
 
-/// Whether what a rung shares is there, or time has come for it.
-bool LodRound::at_hand(const Switch& one, std::uint32_t rung, bool order) {
-  const MuscleMethod method = rung_method(rung, one.points, one.living);
-  if (work_.options.background.run == nullptr || method.method != Method::reduced) return true;
+/// Whether what a level shares is there, or time has come for it.
+bool LodRound::at_hand(const Switch& one, std::uint32_t level, bool order) {
+  const MuscleMethod method = level_method(level, one.points, one.active);
+  if (work_.options.background.run == nullptr || method.method != Method::modal) return true;
   const auto muscle = static_cast<Muscle>(one.muscle);
-  auto choice = choice_of(world_, one.human);
+  auto choice = choice_of(world_, one.person);
   if (!choice) return true;  // set_method says so
   choice->method = method.method;
-  choice->reduced = method.reduced;
-  const auto plan = make_muscle_plan(*make_body(body_request(world_, one.human)), muscle);
+  choice->modal = method.modal;
+  const auto plan = make_muscle_plan(*make_body(body_request(world_, one.person)), muscle);
   return work_.orders.ready(library(), muscle, *choice, plan->scale, frame_.tick.index, order, progress_.ordered);
 }
 
 /// False where it waits for what its method shares.
 bool LodRound::change(const Switch& one) {
-  if (is_compact(world_, one.human)) return false;  // waits to be whole
-  auto tiers = *world_.get<Tiers>(one.human);
-  const std::uint32_t now = rung_at(tiers.rung, one.muscle);
-  const RungCase of = rung_case(tiers, one.muscle, one.points);
-  std::uint32_t rung = one.rung;
-  if (rung != now && !at_hand(one, rung, true)) {
-    const auto& order = work_.ladder.by_cost(of);
-    auto cheaper = std::find(order.begin(), order.end(), static_cast<std::uint8_t>(rung));
+  if (is_compact(world_, one.person)) return false;  // waits to be whole
+  auto lod_state = *world_.get<LodState>(one.person);
+  const std::uint32_t now = level_at(lod_state.level, one.muscle);
+  const LevelCase of = level_case(lod_state, one.muscle, one.points);
+  std::uint32_t level = one.level;
+  if (level != now && !at_hand(one, level, true)) {
+    const auto& order = work_.lod_table.by_cost(of);
+    auto cheaper = std::find(order.begin(), order.end(), static_cast<std::uint8_t>(level));
     while (cheaper != order.begin() && !at_hand(one, *cheaper, false)) --cheaper;
-    rung = *cheaper;
-    if (rung == now || work_.ladder.error_m(of, rung) >= work_.ladder.error_m(of, now)) return false;
+    level = *cheaper;
+    if (level == now || work_.lod_table.error_m(of, level) >= work_.lod_table.error_m(of, now)) return false;
   }
-  const auto done =
-      set_method(frame_, {&one.human, 1}, static_cast<Muscle>(one.muscle), rung_method(rung, one.points, one.living));
+  const auto done = set_method(frame_, {&one.person, 1}, static_cast<Muscle>(one.muscle),
+                               level_method(level, one.points, one.active));
   if (done) {
-    RungCase before = of;
-    before.points = bit_at(tiers.points, one.muscle);
-    const std::int64_t more_ps = work_.ladder.cost_ps(of, rung) - work_.ladder.cost_ps(before, now);
-    set_rung(tiers.rung, one.muscle, rung);
-    set_bit(tiers.points, one.muscle, one.points);
+    LevelCase before = of;
+    before.points = bit_at(lod_state.points, one.muscle);
+    const std::int64_t more_ps = work_.lod_table.cost_ps(of, level) - work_.lod_table.cost_ps(before, now);
+    set_level(lod_state.level, one.muscle, level);
+    set_bit(lod_state.points, one.muscle, one.points);
     progress_.cost_ps += more_ps;
     progress_.counted_ps += more_ps;
     ++report_.switched;
   } else {
-    set_rung(tiers.rung, one.muscle, refused_rung);
+    set_level(lod_state.level, one.muscle, refused_level);
     ++report_.refused;
     report_.refusal = done.error().message;
   }
-  world_.set(one.human, tiers);
+  world_.set(one.person, lod_state);
   return true;
 }
 

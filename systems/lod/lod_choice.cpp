@@ -11,7 +11,7 @@
 #include <mobil/rows.h>
 #include "engine/exact_math.h"
 #include "engine/state_hash.h"
-#include "systems/accuracy/packed_rungs.h"
+#include "systems/accuracy/packed_levels.h"
 #include "systems/gait/asleep.h"
 #include "systems/lod/sight.h"
 #include "systems/states/person_states.h"
@@ -65,13 +65,13 @@ Vec3<float> LodRound::pelvis_of(const Table& table, const Columns& at, std::size
 }
 
 /// Who is to be whole, and who may be compact: of whom nothing is seen and who waits for nothing.
-void LodRound::decide_compact(Entity human, bool compact, const Tiers<float>& tiers, bool settled, float excess,
+void LodRound::decide_compact(Entity person, bool compact, const LodState<float>& lod_state, bool settled, float excess,
                               Looked& out) const {
-  const bool looked_at = static_cast<View>(tiers.view) == View::seen;
-  if ((tiers.effects & (tier_inertia | tier_living)) != 0 && !compact) return;
-  if (compact && (looked_at || !settled || !work_.scene.compact_unseen)) out.expanding.push_back({excess, human});
-  if (!compact && work_.scene.compact_unseen && !looked_at && settled && !world_.has<Footing>(human))
-    out.unseen.push_back(human);
+  const bool looked_at = static_cast<View>(lod_state.view) == View::seen;
+  if ((lod_state.effects & (lod_inertia | lod_active)) != 0 && !compact) return;
+  if (compact && (looked_at || !settled || !work_.scene.compact_unseen)) out.expanding.push_back({excess, person});
+  if (!compact && work_.scene.compact_unseen && !looked_at && settled && !world_.has<Footing>(person))
+    out.unseen.push_back(person);
 }
 
 /// Tables come and stay. Their order follows from what they are, not from which came first: where not everybody's turn
@@ -81,11 +81,11 @@ void LodRound::find_tables() {
   if (work_.tables_seen == managed.size()) return;
   for (; work_.tables_seen < managed.size(); ++work_.tables_seen) {
     Table& table = *managed[work_.tables_seen];
-    const Columns at{TableColumn<Needs>(table),    TableColumn<Tiers>(table), TableColumn<Pose>(table),
-                     TableColumn<BodySize>(table), TableColumn<Gait>(table),  TableColumn<StepPlan>(table),
+    const Columns at{TableColumn<LodRequest>(table), TableColumn<LodState>(table), TableColumn<Pose>(table),
+                     TableColumn<BodySize>(table),   TableColumn<Gait>(table),     TableColumn<StepPlan>(table),
                      TableColumn<GaitState>(table)};
-    if (find_part(table.key(), type_id<SleepsManaged>()) != nullptr) work_.sleeping_tables.push_back(&table);
-    if (!at.needs || !at.tiers || !at.size || !(at.pose || at.state)) continue;
+    if (find_component(table.key(), type_id<SleepsManaged>()) != nullptr) work_.sleeping_tables.push_back(&table);
+    if (!at.needs || !at.lod_state || !at.size || !(at.pose || at.state)) continue;
     work_.tables.emplace_back(&table, at);
   }
   const auto hash_of = [&](const Table* table) { return key_hash(world_, table->key()); };
@@ -178,7 +178,7 @@ void LodRound::choose() {
     progress_.counting.clear();
     progress_.counted_ps = 0;
   }
-  make_whole();
+  make_full();
   begin_muscles();
   end_muscles();
   carry_out();
@@ -206,34 +206,34 @@ MachineFactor LodRound::machine() const {
 
 void LodRound::evaluate(Table& table, const Columns& at, std::size_t b, Looked& out) const {
   const auto& all_needs = at.needs.at(table, b);
-  auto& all_tiers = at.tiers.at(table, b);
+  auto& all_tiers = at.lod_state.at(table, b);
   const bool compact = !at.pose;
-  const auto* const kept = find_part(table.key(), type_id<LegMuscles>());
+  const auto* const kept = find_component(table.key(), type_id<LegMuscles>());
   const auto* const choice = kept == nullptr ? nullptr : static_cast<const LegMuscles*>(world_.resource(kept->value));
   const std::uint32_t live = table.live(b);
   const Gap gap(work_.scene.camera.value_or(Viewpoint{}), cone_cos_, cone_sin_);
   for (std::uint32_t lane = 0; lane < live; ++lane) {
-    const Needs<float> needs = row_of(all_needs, lane);
-    Tiers<float> tiers = row_of(all_tiers, lane);
-    if (tiers.relative_size == 0) tiers = begin_tiers(choice);
+    const LodRequest<float> needs = row_of(all_needs, lane);
+    LodState<float> lod_state = row_of(all_tiers, lane);
+    if (lod_state.relative_size == 0) lod_state = begin_tiers(choice);
     const float height = at.size.at(table, b).height_m[lane];
     float speed = INFINITY;
     if (at.gait && at.plan) {
       const auto& plan = at.plan.at(table, b);
       speed = std::max({at.gait.at(table, b).speed_m_s[lane], plan.from.speed_m_s[lane], plan.to.speed_m_s[lane]});
     }
-    tiers.speed_step = RungLadder::speed_step(speed, height);
-    tiers.relative_size = work_.options.margin * height / reference_height;
+    lod_state.speed_step = LodTable::speed_step(speed, height);
+    lod_state.relative_size = work_.options.margin * height / reference_height;
 
-    tiers.tolerance_m = work_.scene.tolerance_m.value_or(default_tolerance_m);
+    lod_state.tolerance_m = work_.scene.tolerance_m.value_or(default_tolerance_m);
     const bool own_view = (needs.own & own_look) != 0;
     View view = work_.scene.looked_at ? View::seen : View::near;
     if (work_.scene.camera) {
       const Vec3<float> pelvis = pelvis_of(table, at, b, lane);
       const Sight of = sight(*work_.scene.camera, cone_cos_, cone_sin_, work_.scene.tolerance_px, pelvis,
-                             static_cast<View>(tiers.view), compact ? off_the_line_m : 0);
+                             static_cast<View>(lod_state.view), compact ? off_the_line_m : 0);
       view = of.view;
-      tiers.tolerance_m = of.tolerance_m;
+      lod_state.tolerance_m = of.tolerance_m;
       if (work_.scene.asleep_beyond_m && view > View::near) {
         view = View::near;  // soon, perhaps
         if (!(own_view && needs.looked_at != 0) && at.plan &&
@@ -243,69 +243,70 @@ void LodRound::evaluate(Table& table, const Columns& at, std::size_t b, Looked& 
       }
     }
     if (own_view) view = needs.looked_at != 0 ? View::seen : View::near;
-    if ((needs.own & own_tolerance) != 0) tiers.tolerance_m = needs.tolerance_m;
-    tiers.view = static_cast<std::uint32_t>(view);
+    if ((needs.own & own_tolerance) != 0) lod_state.tolerance_m = needs.tolerance_m;
+    lod_state.view = static_cast<std::uint32_t>(view);
 
-    decide(table.entities(b)[lane], tiers, wanted(needs), compact, out);
-    put_row(tiers, all_tiers, lane);
+    decide(table.entities(b)[lane], lod_state, wanted(needs), compact, out);
+    put_row(lod_state, all_tiers, lane);
   }
 }
 
-std::uint32_t LodRound::wanted(const Needs<float>& needs) const {
+std::uint32_t LodRound::wanted(const LodRequest<float>& needs) const {
   return (needs.own & own_muscles) != 0 ? needs.muscles : static_cast<std::uint32_t>(work_.scene.muscles.to_ulong());
 }
 
-void LodRound::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
+void LodRound::decide(Entity person, LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact,
                       Looked& out) const {
-  const auto view = static_cast<View>(tiers.view);
+  const auto view = static_cast<View>(lod_state.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
-  const float size = tiers.relative_size / tiers.tolerance_m;  // errors as parts of the tolerance, over the table's
+  const float size =
+      lod_state.relative_size / lod_state.tolerance_m;  // errors as parts of the tolerance, over the table's
   const float limit = progress_.factor / size;
-  if ((tiers.effects & tier_bare) != 0) return decide_bare(human, tiers, wanted_muscles, compact, out);
+  if ((lod_state.effects & lod_bare) != 0) return decide_bare(person, lod_state, wanted_muscles, compact, out);
   const bool over = work_.scene.budget_s && progress_.cost_ps > progress_.budget_ps;
   // Where nothing is seen of any of them, and nothing was forced, all go at once.
-  bool idle = work_.scene.asleep_beyond_m && tiers.muscles != 0, settled = true;
+  bool idle = work_.scene.asleep_beyond_m && lod_state.muscles != 0, settled = true;
   float excess = 0;
   const std::size_t dearer = out.dearer.size(), cheaper = out.cheaper.size();
-  for (std::uint32_t left = tiers.muscles; left != 0; left &= left - 1) {
+  for (std::uint32_t left = lod_state.muscles; left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
-    const std::uint32_t now = rung_at(tiers.rung, m);
-    if (now >= refused_rung) {
+    const std::uint32_t now = level_at(lod_state.level, m);
+    if (now >= refused_level) {
       idle = settled = false;
       continue;
     }
-    const bool points = bit_at(tiers.points, m);
-    const RungCase as_is = rung_case(tiers, m, points);
-    RungCase as_seen = as_is;
+    const bool points = bit_at(lod_state.points, m);
+    const LevelCase as_is = level_case(lod_state, m, points);
+    LevelCase as_seen = as_is;
     as_seen.points = looked_at;
-    const std::int64_t cost = work_.ladder.cost_ps(as_is, now);
+    const std::int64_t cost = work_.lod_table.cost_ps(as_is, now);
     if (!compact) out.counted_ps += cost;  // what is compact is no part of what a budget is for
     std::uint32_t goal = 0;
     if (simulated && bit_at(wanted_muscles, m)) {
-      if (work_.scene.budget_s && !compact) out.counting.add(work_.ladder, as_seen, size);
-      goal = work_.ladder.from(now, as_seen, limit, over ? 1.0F : work_.options.slack);
+      if (work_.scene.budget_s && !compact) out.counting.add(work_.lod_table, as_seen, size);
+      goal = work_.lod_table.from(now, as_seen, limit, over ? 1.0F : work_.options.slack);
     }
     idle = idle && goal == 0;
     const bool shown = looked_at && goal != 0;
-    set_rung(tiers.goal, m, goal);
-    set_bit(tiers.goal_points, m, shown);
-    const bool reduced = rungs_of(as_is.living)[goal].method == Method::reduced;
-    if (goal == now && (points == shown || !reduced)) continue;
-    const std::int64_t more = work_.ladder.cost_ps(as_seen, goal) - cost;
+    set_level(lod_state.goal, m, goal);
+    set_bit(lod_state.goal_points, m, shown);
+    const bool modal = levels_of(as_is.active)[goal].method == Method::modal;
+    if (goal == now && (points == shown || !modal)) continue;
+    const std::int64_t more = work_.lod_table.cost_ps(as_seen, goal) - cost;
     const bool lit = shown && !points;  // until then there is nothing to be seen of it
     const std::uint32_t worst = more > 0 ? (lit ? 0 : now) : goal;
     settled = false;
-    const float misses = work_.ladder.error_m(as_seen, worst) * size;
+    const float misses = work_.lod_table.error_m(as_seen, worst) * size;
     excess = std::max(excess, misses);
     (more > 0 ? out.dearer : out.cheaper)
         .push_back(
-            {misses, human, static_cast<std::uint8_t>(m), static_cast<std::uint8_t>(goal), shown, as_is.living, more});
+            {misses, person, static_cast<std::uint8_t>(m), static_cast<std::uint8_t>(goal), shown, as_is.active, more});
   }
-  decide_compact(human, compact, tiers, settled, excess, out);
+  decide_compact(person, compact, lod_state, settled, excess, out);
   if (!idle) return;
   out.dearer.resize(dearer);
   out.cheaper.resize(cheaper);
-  out.idle.push_back(human);
+  out.idle.push_back(person);
 }
 
 }  // namespace mobil::inline v0_3

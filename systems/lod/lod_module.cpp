@@ -5,32 +5,32 @@
 
 #include <mobil/components/lod.h>
 #include "engine/snapshot.h"
-#include "systems/accuracy/packed_rungs.h"
+#include "systems/accuracy/packed_levels.h"
 #include "systems/lod/lod_round.h"
 
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Whether every rung, view and speed is one that there is.
-bool is_sound_tiers(const Tiers<float>& tiers) {
-  for (std::uint32_t m = 0; m < most_muscles; ++m) {
-    const std::uint32_t rung = rung_at(tiers.rung, m), goal = rung_at(tiers.goal, m);
-    if ((rung >= rung_count && rung < refused_rung) || (goal >= rung_count && goal < refused_rung)) return false;
+/// Whether every level, view and speed is one that there is.
+bool is_sound_state(const LodState<float>& lod_state) {
+  for (std::uint32_t m = 0; m < max_muscles; ++m) {
+    const std::uint32_t level = level_at(lod_state.level, m), goal = level_at(lod_state.goal, m);
+    if ((level >= level_count && level < refused_level) || (goal >= level_count && goal < refused_level)) return false;
   }
-  return tiers.view < view_name.size() && tiers.speed_step < RungLadder::speed_steps;
+  return lod_state.view < view_name.size() && lod_state.speed_step < LodTable::speed_steps;
 }
 
 Result<void> check_tiers(const SavedWorld& saved, std::uint32_t table) {
-  if (every_row<Tiers>(saved, table, is_sound_tiers)) return {};
+  if (every_row<LodState>(saved, table, is_sound_state)) return {};
   return damaged("a choice of methods");
 }
 
 bool is_sound_progress(const LodProgress& progress) {
-  constexpr std::int64_t most_ps = std::int64_t{1} << 60;
-  const auto sound = [&](std::int64_t cost_ps) { return cost_ps >= -most_ps && cost_ps <= most_ps; };
+  constexpr std::int64_t max_ps = std::int64_t{1} << 60;
+  const auto sound = [&](std::int64_t cost_ps) { return cost_ps >= -max_ps && cost_ps <= max_ps; };
   return progress.crowd.is_sound() && progress.counting.is_sound() && progress.machine.is_sound() &&
          sound(progress.cost_ps) && sound(progress.counted_ps) && progress.budget_ps >= 0 && progress.factor > 0 &&
-         progress.factor <= CostSpectrum::most_factor && progress.ordered.count <= progress.ordered.one.size();
+         progress.factor <= CostSpectrum::max_factor && progress.ordered.count <= progress.ordered.one.size();
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ bool is_sound_progress(const LodProgress& progress) {
 Module lod_module() {
   return {.name = "lod",
           .version = 2,
-          .parts = {component_part<Needs>(), component_part<Tiers>()},
+          .parts = {component_id<LodRequest>(), component_id<LodState>()},
           .globals = {global_part<LodProgress, &is_sound_progress>()},
           .before = {detail_chosen()},
           .check_rows = &check_tiers};

@@ -36,7 +36,7 @@ struct LodProgress {
 /// Whether there is anybody to choose for, in the simulation's workspace.
 struct ManagedPeople {
   explicit ManagedPeople(std::pmr::memory_resource* memory)
-      : tables({type_id<Tiers<float>>(), type_id<SleepsManaged>()}, memory) {}
+      : tables({type_id<LodState<float>>(), type_id<SleepsManaged>()}, memory) {}
 
   TableList tables;
 };
@@ -45,8 +45,8 @@ struct ManagedPeople {
 struct LodWork {
   /// Where a table of people keeps what is needed.
   struct Columns {
-    TableColumn<Needs> needs;
-    TableColumn<Tiers> tiers;
+    TableColumn<LodRequest> needs;
+    TableColumn<LodState> lod_state;
     TableColumn<Pose> pose;
     TableColumn<BodySize> size;
     TableColumn<Gait> gait;  // walkers have this and the next
@@ -55,23 +55,23 @@ struct LodWork {
   };
   struct Switch {
     float excess;  // error over tolerance: as it is, to be dearer; as it will be, to be cheaper
-    Entity human;
-    std::uint8_t muscle, rung;
-    bool points, living;
+    Entity person;
+    std::uint8_t muscle, level;
+    bool points, active;
     std::int64_t cost_ps;  // more than now
   };
 
-  /// Who wakes without muscles and is to have them: all by one rung.
+  /// Who wakes without muscles and is to have them: all by one level.
   struct Bare {
     float excess;
-    Entity human;
-    std::uint32_t rung;
+    Entity person;
+    std::uint32_t level;
     bool points;
   };
   /// Who is compact and is to be whole.
   struct Expanding {
     float excess;
-    Entity human;
+    Entity person;
   };
   /// What looking at some people came to.
   struct Looked {
@@ -87,8 +87,8 @@ struct LodWork {
   };
 
   LodOptions options;
-  SceneNeeds scene;
-  RungLadder ladder{accuracy_table()};
+  LodScene scene;
+  LodTable lod_table{accuracy_table()};
   BasisOrders orders;
   LodReport report;
   std::size_t tables_seen = 0;  // of those of ManagedPeople
@@ -102,7 +102,7 @@ struct LodWork {
   std::vector<BlockOf> blocks;
   struct WakingSleeper {
     float order;
-    Entity human;
+    Entity person;
     bool seen;
   };
   std::vector<Table*> sleeping_tables;
@@ -122,9 +122,9 @@ class LodRound {
 
   void run();
 
-  /// Muscles of people who woke without them begin on that rung.
-  Result<void> begin_muscles(std::span<const Entity> people, std::uint32_t rung, bool points);
-  std::uint32_t wanted(const Needs<float>& needs) const;
+  /// Muscles of people who woke without them begin on that level.
+  Result<void> begin_muscles(std::span<const Entity> people, std::uint32_t level, bool points);
+  std::uint32_t wanted(const LodRequest<float>& needs) const;
   /// How much slower this machine is than the one of the table.
   MachineFactor machine() const;
   /// By which tolerances are missed under the budget.
@@ -144,28 +144,28 @@ class LodRound {
   void find_tables();
   std::size_t look_at_the_awake();
   void evaluate(Table& table, const Columns& at, std::size_t block, Looked& out) const;
-  void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact, Looked& out) const;
+  void decide(Entity person, LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact, Looked& out) const;
   void observe_machine();
   void plan_budget();
   void wake_sleepers();
   void look_at_sleepers();
   void list_all_sleepers();
   std::array<float, 4> sees() const;  // with a camera and a distance of sleep
-  Tiers<float> begin_tiers(const LegMuscles* choice) const;
-  void decide_bare(Entity human, const Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
+  LodState<float> begin_tiers(const LegMuscles* choice) const;
+  void decide_bare(Entity person, const LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact,
                    Looked& out) const;
   void begin_muscles();
   void end_muscles();
   void put_to_sleep();
   static Vec3<float> pelvis_of(const Table& table, const Columns& at, std::size_t block, std::uint32_t lane);
-  void decide_compact(Entity human, bool compact, const Tiers<float>& tiers, bool settled, float excess,
+  void decide_compact(Entity person, bool compact, const LodState<float>& lod_state, bool settled, float excess,
                       Looked& out) const;
-  void make_whole();
+  void make_full();
   void make_compact();
   void carry_out();
-  void change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget);
+  void change_first(std::span<const Switch> all, std::int64_t max_ps, bool within_budget);
   bool change(const Switch& one);
-  bool at_hand(const Switch& one, std::uint32_t rung, bool order);
+  bool at_hand(const Switch& one, std::uint32_t level, bool order);
 
   const Frame& frame_;
   World& world_;

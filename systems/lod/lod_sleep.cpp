@@ -11,7 +11,7 @@
 #include <mobil/lod.h>
 #include <mobil/rows.h>
 #include "engine/exact_math.h"
-#include "systems/accuracy/packed_rungs.h"
+#include "systems/accuracy/packed_levels.h"
 #include "systems/bellies/belly_library.h"
 #include "systems/gait/asleep.h"
 #include "systems/lod/sight.h"
@@ -144,7 +144,7 @@ void LodRound::wake_sleepers() {
   }
   const std::size_t now = std::min<std::size_t>(work_.waking.size(), work_.options.wakes);
   const auto nearer = [](const WakingSleeper& a, const WakingSleeper& b) {
-    return a.order != b.order ? a.order < b.order : a.human.index < b.human.index;
+    return a.order != b.order ? a.order < b.order : a.person.index < b.person.index;
   };
   std::partial_sort(work_.waking.begin(), work_.waking.begin() + static_cast<std::ptrdiff_t>(now), work_.waking.end(),
                     nearer);
@@ -153,14 +153,14 @@ void LodRound::wake_sleepers() {
   work_.waking.resize(now);
   // Who is not seen yet has no pose until then; with forces there is one.
   const auto whole = [&](const WakingSleeper& one) {
-    return !work_.scene.compact_unseen || one.seen || world_.has<SleepsWithForces>(one.human) ||
-           world_.has<Footing>(one.human);
+    return !work_.scene.compact_unseen || one.seen || world_.has<SleepsWithForces>(one.person) ||
+           world_.has<Footing>(one.person);
   };
   const auto compact = std::partition(work_.waking.begin(), work_.waking.end(), whole);
-  for (const auto& [some, as] : {std::pair{std::span(work_.waking.begin(), compact), Woken::whole},
+  for (const auto& [some, as] : {std::pair{std::span(work_.waking.begin(), compact), Woken::full_detail},
                                  std::pair{std::span(compact, work_.waking.end()), Woken::compact}}) {
     work_.people.clear();
-    for (const WakingSleeper& one : some) work_.people.push_back(one.human);
+    for (const WakingSleeper& one : some) work_.people.push_back(one.person);
     if (work_.people.empty()) continue;
     if (const auto done = wake_managed(frame_, work_.people, as); !done) {
       report_.refused += work_.people.size();
@@ -172,16 +172,16 @@ void LodRound::wake_sleepers() {
 }
 
 /// Who misses most first.
-void LodRound::make_whole() {
+void LodRound::make_full() {
   const auto first = [](const Expanding& a, const Expanding& b) {
-    return a.excess != b.excess ? a.excess > b.excess : a.human.index < b.human.index;
+    return a.excess != b.excess ? a.excess > b.excess : a.person.index < b.person.index;
   };
   const std::size_t now = std::min<std::size_t>(work_.now.expanding.size(), work_.options.expands);
   std::partial_sort(work_.now.expanding.begin(), work_.now.expanding.begin() + static_cast<std::ptrdiff_t>(now),
                     work_.now.expanding.end(), first);
   report_.to_expand = work_.now.expanding.size() - now;
   work_.people.clear();
-  for (std::size_t i = 0; i < now; ++i) work_.people.push_back(work_.now.expanding[i].human);
+  for (std::size_t i = 0; i < now; ++i) work_.people.push_back(work_.now.expanding[i].person);
   if (work_.people.empty()) return;
   if (const auto done = expand(frame_, work_.people); !done) {
     report_.refused += work_.people.size();
@@ -201,45 +201,45 @@ void LodRound::make_compact() {
 }
 
 /// Of who has woken without muscles; `choice`: what they are to be, null where there will be none.
-Tiers<float> LodRound::begin_tiers(const LegMuscles* choice) const {
-  Tiers<float> tiers{};
-  tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
-  tiers.relative_size = work_.options.margin;
-  tiers.tolerance_m = work_.scene.tolerance_m.value_or(default_tolerance_m);
-  if (choice == nullptr) return tiers;
-  tiers.effects = tier_bare;
-  if (choice->inertia) tiers.effects |= tier_inertia;
-  if (pulls_alive(*choice)) tiers.effects |= tier_living;
-  tiers.muscles = static_cast<std::uint32_t>(choice->muscles.to_ulong());
-  return tiers;
+LodState<float> LodRound::begin_tiers(const LegMuscles* choice) const {
+  LodState<float> lod_state{};
+  lod_state.view = static_cast<std::uint32_t>(View::out_of_reach);
+  lod_state.relative_size = work_.options.margin;
+  lod_state.tolerance_m = work_.scene.tolerance_m.value_or(default_tolerance_m);
+  if (choice == nullptr) return lod_state;
+  lod_state.effects = lod_bare;
+  if (choice->inertia) lod_state.effects |= lod_inertia;
+  if (pulls_alive(*choice)) lod_state.effects |= lod_active;
+  lod_state.muscles = static_cast<std::uint32_t>(choice->muscles.to_ulong());
+  return lod_state;
 }
 
-/// The rung that all of a person's muscles begin with: the dearest that one of them calls for.
-void LodRound::decide_bare(Entity human, const Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
+/// The level that all of a person's muscles begin with: the dearest that one of them calls for.
+void LodRound::decide_bare(Entity person, const LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact,
                            Looked& out) const {
-  const auto view = static_cast<View>(tiers.view);
+  const auto view = static_cast<View>(lod_state.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
-  const float size = tiers.relative_size / tiers.tolerance_m, limit = progress_.factor / size;
-  Bare bare{0, human, 0, looked_at};
+  const float size = lod_state.relative_size / lod_state.tolerance_m, limit = progress_.factor / size;
+  Bare bare{0, person, 0, looked_at};
   std::int64_t dearest = -1;
-  for (std::uint32_t left = simulated ? tiers.muscles & wanted_muscles : 0; left != 0; left &= left - 1) {
+  for (std::uint32_t left = simulated ? lod_state.muscles & wanted_muscles : 0; left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
-    const RungCase of = rung_case(tiers, m, looked_at);
-    if (work_.scene.budget_s) out.counting.add(work_.ladder, of, size);
-    const std::uint32_t goal = work_.ladder.cheapest(of, limit);
-    const std::int64_t cost = work_.ladder.cost_ps(of, goal);
+    const LevelCase of = level_case(lod_state, m, looked_at);
+    if (work_.scene.budget_s) out.counting.add(work_.lod_table, of, size);
+    const std::uint32_t goal = work_.lod_table.cheapest(of, limit);
+    const std::int64_t cost = work_.lod_table.cost_ps(of, goal);
     if (goal == 0 || cost <= dearest) continue;
     dearest = cost;
-    bare.rung = goal;
-    bare.excess = std::max(bare.excess, work_.ladder.error_m(of, 0) * size);
+    bare.level = goal;
+    bare.excess = std::max(bare.excess, work_.lod_table.error_m(of, 0) * size);
   }
-  if (bare.rung != 0) out.bare.push_back(bare);
-  decide_compact(human, compact, tiers, bare.rung == 0, bare.excess, out);
+  if (bare.level != 0) out.bare.push_back(bare);
+  decide_compact(person, compact, lod_state, bare.level == 0, bare.excess, out);
 }
 
 void LodRound::begin_muscles() {
   const auto first = [](const Bare& a, const Bare& b) {
-    return a.excess != b.excess ? a.excess > b.excess : a.human.index < b.human.index;
+    return a.excess != b.excess ? a.excess > b.excess : a.person.index < b.person.index;
   };
   const std::size_t count = std::min<std::size_t>(work_.now.bare.size(), work_.options.begins);
   std::partial_sort(work_.now.bare.begin(), work_.now.bare.begin() + static_cast<std::ptrdiff_t>(count),
@@ -247,21 +247,21 @@ void LodRound::begin_muscles() {
   report_.to_begin = work_.now.bare.size() - count;
   work_.now.bare.resize(count);
   std::erase_if(work_.now.bare,
-                [&](const Bare& one) { return is_compact(world_, one.human); });  // they wait to be whole
-  // Those of one choice and rung together.
+                [&](const Bare& one) { return is_compact(world_, one.person); });  // they wait to be whole
+  // Those of one choice and level together.
   for (std::size_t i = 0; i < work_.now.bare.size(); ++i) {
-    if (work_.now.bare[i].rung == 0) continue;
+    if (work_.now.bare[i].level == 0) continue;
     const Bare one = work_.now.bare[i];
-    const LegMuscles* const choice = world_.shared<LegMuscles>(one.human);
+    const LegMuscles* const choice = world_.shared<LegMuscles>(one.person);
     work_.people.clear();
     for (std::size_t k = i; k < work_.now.bare.size(); ++k) {
       Bare& other = work_.now.bare[k];
-      if (other.rung != one.rung || other.points != one.points || world_.shared<LegMuscles>(other.human) != choice)
+      if (other.level != one.level || other.points != one.points || world_.shared<LegMuscles>(other.person) != choice)
         continue;
-      work_.people.push_back(other.human);
-      other.rung = 0;
+      work_.people.push_back(other.person);
+      other.level = 0;
     }
-    if (const auto done = begin_muscles(work_.people, one.rung, one.points); done) {
+    if (const auto done = begin_muscles(work_.people, one.level, one.points); done) {
       report_.begun += work_.people.size();
     } else {
       report_.refused += work_.people.size();
@@ -272,65 +272,66 @@ void LodRound::begin_muscles() {
 
 /// What they are to be is kept on the person's row.
 void LodRound::end_muscles() {
-  std::erase_if(work_.now.idle,
-                [&](Entity human) { return is_compact(world_, human) || !world_.alive(world_.first_member(human)); });
+  std::erase_if(work_.now.idle, [&](Entity person) {
+    return is_compact(world_, person) || !world_.alive(world_.first_member(person));
+  });
   work_.now.idle.resize(std::min<std::size_t>(work_.now.idle.size(), work_.options.begins));
   work_.people.clear();
-  for (const Entity human : work_.now.idle) {
+  for (const Entity person : work_.now.idle) {
     // What an earlier end has kept is that of muscles that may have changed since.
-    LegMuscles now = *choice_of(world_, human);
-    const LegMuscles* const kept = world_.shared<LegMuscles>(human);
-    if (kept != nullptr) now.method = kept->method, now.reduced = kept->reduced;
+    LegMuscles now = *choice_of(world_, person);
+    const LegMuscles* const kept = world_.shared<LegMuscles>(person);
+    if (kept != nullptr) now.method = kept->method, now.modal = kept->modal;
     if (kept == nullptr || *kept != now) {
       const std::array part = {part_value(keep_choice(world_, library(), now))};
-      world_.remake_many({&human, 1}, part, std::array{type_id<LegMuscles>()}, frame_.jobs);
+      world_.change_archetype({&person, 1}, part, std::array{type_id<LegMuscles>()}, frame_.jobs);
     }
   }
-  for (const Entity human : work_.now.idle)
-    world_.each_member(human, [&](Entity member) {
+  for (const Entity person : work_.now.idle)
+    world_.each_member(person, [&](Entity member) {
       if (world_.has<MuscleOwner>(member)) work_.people.push_back(member);
     });
-  for (const Entity human : work_.now.idle) {  // who is marked must have none: nothing fails from here on
-    auto tiers = *world_.get<Tiers>(human);
-    tiers.effects |= tier_bare;
-    world_.set(human, tiers);
+  for (const Entity person : work_.now.idle) {  // who is marked must have none: nothing fails from here on
+    auto lod_state = *world_.get<LodState>(person);
+    lod_state.effects |= lod_bare;
+    world_.set(person, lod_state);
   }
   world_.destroy_many(work_.people, frame_.jobs);
   report_.ended = work_.now.idle.size();
 }
 
-Result<void> LodRound::begin_muscles(std::span<const Entity> people, std::uint32_t rung, bool points) {
+Result<void> LodRound::begin_muscles(std::span<const Entity> people, std::uint32_t level, bool points) {
   LegMuscles choice = *world_.shared<LegMuscles>(people.front());
-  const MuscleMethod method = rung_method(rung, points, pulls_alive(choice));
+  const MuscleMethod method = level_method(level, points, pulls_alive(choice));
   choice.method = method.method;
-  choice.reduced = method.reduced;
+  choice.modal = method.modal;
   // Who is seen already has no time to come within the tolerance.
   float within_m = INFINITY;
-  for (const Entity human : people)
-    if (points) within_m = std::min(within_m, world_.get<Tiers>(human)->tolerance_m);
+  for (const Entity person : people)
+    if (points) within_m = std::min(within_m, world_.get<LodState>(person)->tolerance_m);
   auto done = mobil::begin_muscles(frame_, people, choice, within_m);
-  for (const Entity human : people) {
-    auto tiers = *world_.get<Tiers>(human);
-    tiers.effects &= ~std::uint32_t{tier_bare};
-    for (std::uint32_t left = tiers.muscles; left != 0; left &= left - 1) {
+  for (const Entity person : people) {
+    auto lod_state = *world_.get<LodState>(person);
+    lod_state.effects &= ~std::uint32_t{lod_bare};
+    for (std::uint32_t left = lod_state.muscles; left != 0; left &= left - 1) {
       const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
-      set_rung(tiers.rung, m, done ? rung : refused_rung);
-      set_rung(tiers.goal, m, done ? rung : refused_rung);
-      set_bit(tiers.points, m, points && method.method != Method::none);
+      set_level(lod_state.level, m, done ? level : refused_level);
+      set_level(lod_state.goal, m, done ? level : refused_level);
+      set_bit(lod_state.points, m, points && method.method != Method::none);
     }
-    world_.set(human, tiers);
+    world_.set(person, lod_state);
   }
   return done;
 }
 
 void LodRound::put_to_sleep() {
   if (work_.now.drowsy.empty()) return;
-  constexpr std::array plain = {key_part(TagValue<SleepsManaged>{1})};
-  constexpr std::array needy = {key_part(TagValue<SleepsManaged>{1}), component_part<Needs>()};
+  constexpr std::array plain = {component_id(TagValue<SleepsManaged>{1})};
+  constexpr std::array needy = {component_id(TagValue<SleepsManaged>{1}), component_id<LodRequest>()};
   work_.now.drowsy.resize(std::min<std::size_t>(work_.now.drowsy.size(), work_.options.sleeps));
   // Who has needs of their own keeps them.
   const auto own = std::stable_partition(work_.now.drowsy.begin(), work_.now.drowsy.end(),
-                                         [&](Entity human) { return world_.get<Needs>(human)->own == 0; });
+                                         [&](Entity person) { return world_.get<LodRequest>(person)->own == 0; });
   const auto without = static_cast<std::size_t>(own - work_.now.drowsy.begin());
   report_.slept = sleep_managed(frame_, std::span(work_.now.drowsy).first(without), plain) +
                   sleep_managed(frame_, std::span(work_.now.drowsy).subspan(without), needy);

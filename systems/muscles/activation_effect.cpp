@@ -19,13 +19,13 @@ namespace of_activation {
 
 constexpr std::uint32_t design_words = sizeof(MemberDesign<float>) / sizeof(float);
 constexpr std::uint32_t state_words = sizeof(MemberState<float>) / sizeof(float);
-using Excitations = std::array<Lanes<float>, most_row_members>;
+using Excitations = std::array<Lanes<float>, max_row_members>;
 
 /// What all muscles of a row of the table share.
 struct RowMembers {
   RowExcitation excitation;
-  std::array<float, most_row_members> weight{};
-  std::array<std::size_t, most_row_members> number{};  // among the leg's
+  std::array<float, max_row_members> weight{};
+  std::array<std::size_t, max_row_members> number{};  // among the leg's
 };
 
 const RowMembers& row_members(Muscle muscle) {
@@ -93,9 +93,9 @@ void pull(LegsOfOwners posts, LookupPublished<AskedForces> asked, const MuscleOw
 Module module() {
   row_members(Muscle{});  // made here, not in a tick
   return {.name = "activation",
-          .parts = {component_part<Activation>(), component_part<Musculotendon>(),
-                    key_part(TagValue<ExcitationSource>{}), key_part(FieldWidth<MemberLength>{}),
-                    key_part(FieldWidth<MemberDesignField>{}), key_part(FieldWidth<MemberStateField>{})},
+          .parts = {component_id<Activation>(), component_id<Musculotendon>(),
+                    component_id(TagValue<ExcitationSource>{}), component_id(FieldWidth<MemberLength>{}),
+                    component_id(FieldWidth<MemberDesignField>{}), component_id(FieldWidth<MemberStateField>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("activation", &pull).after("lines of action"); }};
 }
 
@@ -103,14 +103,14 @@ bool wanted(const MuscleKind& kind) {
   return kind.activation != ExcitationSource::none;
 }
 
-void parts(const MuscleKind& kind, std::vector<KeyPart>& to) {
+void parts(const MuscleKind& kind, std::vector<ComponentId>& to) {
   const auto members = static_cast<std::uint32_t>(members_of(kind.muscle).size());
-  to.push_back(component_part<Activation>());
-  to.push_back(component_part<Musculotendon>());
-  to.push_back(key_part(TagValue<ExcitationSource>{static_cast<std::uint64_t>(kind.activation)}));
-  to.push_back(key_part(FieldWidth<MemberLength>{members}));
-  to.push_back(key_part(FieldWidth<MemberDesignField>{design_words * members}));
-  to.push_back(key_part(FieldWidth<MemberStateField>{state_words * members}));
+  to.push_back(component_id<Activation>());
+  to.push_back(component_id<Musculotendon>());
+  to.push_back(component_id(TagValue<ExcitationSource>{static_cast<std::uint64_t>(kind.activation)}));
+  to.push_back(component_id(FieldWidth<MemberLength>{members}));
+  to.push_back(component_id(FieldWidth<MemberDesignField>{design_words * members}));
+  to.push_back(component_id(FieldWidth<MemberStateField>{state_words * members}));
 }
 
 Lanes<float> in_all_lanes(float x) {
@@ -119,13 +119,13 @@ Lanes<float> in_all_lanes(float x) {
   return lanes;
 }
 
-LegClock<Lanes<float>> present_clock(const World& world, Entity human, Side side) {
+LegClock<Lanes<float>> present_clock(const World& world, Entity person, Side side) {
   LegClock<Lanes<float>> clock{};
-  const auto plan = world.get<StepPlan>(human);
-  const auto state = world.get<GaitState>(human);
+  const auto plan = world.get<StepPlan>(person);
+  const auto state = world.get<GaitState>(person);
   if (!plan || !state) return clock;
-  std::array<LegPost, lane_count> posts{};
-  set_clocks(broadcast(*world.get<BodySize>(human)), broadcast(*plan), broadcast(*state), posts.data());
+  std::array<PublishedLeg, lane_count> posts{};
+  set_clocks(broadcast(*world.get<BodySize>(person)), broadcast(*plan), broadcast(*state), posts.data());
   return broadcast(posts[0].leg[side].clock);
 }
 
@@ -144,9 +144,9 @@ void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<Activation>(start.entity)) return;
   const auto members = members_of(start.kind.muscle);
   const RowMembers& row = row_members(start.kind.muscle);
-  std::array<MemberDesign<Lanes<float>>, most_row_members> design;
-  std::array<MemberState<Lanes<float>>, most_row_members> state{};
-  std::array<Lanes<float>, most_row_members> length;
+  std::array<MemberDesign<Lanes<float>>, max_row_members> design;
+  std::array<MemberState<Lanes<float>>, max_row_members> state{};
+  std::array<Lanes<float>, max_row_members> length;
   for (std::size_t i = 0; i < members.size(); ++i) {
     design[i] = broadcast(member_design(members[i], start.size.member[i]));
     length[i] = in_all_lanes(static_cast<float>(start.size.member[i].rest_length_m));
@@ -156,12 +156,12 @@ void begin(const EffectStart& start, RowValues& values) {
   auto line = broadcast(start.line);
   EndDrive<Lanes<float>> end{};
   lines_of_action(*start.kind.lines, broadcast(start.size.leg_scale),
-                  leg_of(*start.world.get<Pose>(start.human), start.side), start.kind.far_end, line, end,
+                  leg_of(*start.world.get<Pose>(start.person), start.side), start.kind.far_end, line, end,
                   length.data());
   Excitations excitation;
-  excitation.fill(in_all_lanes(least_activation));
+  excitation.fill(in_all_lanes(min_activation));
   if (start.kind.activation != ExcitationSource::host)
-    excite(row.excitation, present_clock(start.world, start.human, start.side), excitation.data());
+    excite(row.excitation, present_clock(start.world, start.person, start.side), excitation.data());
   Activation<Lanes<float>> activation{};
   Musculotendon<Lanes<float>> tendon{};
   settle(block_of(row, design[0].fibre_m.lane, length[0].lane, excitation, state[0].activation.lane), activation,

@@ -9,9 +9,9 @@
 #include <mobil/components/pose.h>
 #include <mobil/engine/access.h>
 #include <mobil/rows.h>
-#include "assets/reduction/reduced_rows.h"
+#include "assets/reduction/modal_rows.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/method_reduced.h"
+#include "systems/deformation/method_modal.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
@@ -31,7 +31,7 @@ struct Column {
 
 class Columns {
  public:
-  void add(const KeyPart& part, std::size_t blocks) {
+  void add(const ComponentId& part, std::size_t blocks) {
     all_.push_back({part.id, static_cast<std::size_t>(part.value),
                     std::make_unique_for_overwrite<Lanes<float>[]>(blocks * part.value)});
   }
@@ -61,7 +61,7 @@ struct Group {
   MuscleKind kind;
   SharedBelly common;
   std::vector<std::uint32_t> who;
-  std::vector<KeyPart> parts;
+  std::vector<ComponentId> parts;
   Columns both;                 // alike on both sides
   std::array<Columns, 2> side;  // by side
 
@@ -69,10 +69,10 @@ struct Group {
 };
 
 constexpr std::uint64_t alike_on_both_sides[] = {type_id<LegScale<float>>(), type_id<BellyScale<float>>(),
-                                                 type_id<ReducedMotion>(), type_id<ReducedShape>()};
+                                                 type_id<ModalMotion>(), type_id<ModalShape>()};
 /// Velocities, states and reports begin with zeros; but for the states of tuned bellies whose frame's loads have them
 /// at rest elsewhere than without tension.
-constexpr std::uint64_t zero_at_first[] = {type_id<NodalVelocity>(), type_id<ReducedState>(),
+constexpr std::uint64_t zero_at_first[] = {type_id<NodalVelocity>(), type_id<ModalState>(),
                                            type_id<BellyReport<float>>()};
 
 bool begins_with_state(const MuscleKind& kind) {
@@ -81,8 +81,8 @@ bool begins_with_state(const MuscleKind& kind) {
 
 void make_room(Group& group) {
   group.parts = muscle_parts(group.kind);
-  for (const KeyPart& part : group.parts) {
-    const bool own_state = part.id == type_id<ReducedState>() && begins_with_state(group.kind);
+  for (const ComponentId& part : group.parts) {
+    const bool own_state = part.id == type_id<ModalState>() && begins_with_state(group.kind);
     if (!has_column(part.kind) || (!own_state && std::ranges::count(zero_at_first, part.id) != 0)) continue;
     if (std::ranges::count(alike_on_both_sides, part.id) != 0) {
       group.both.add(part, group.blocks());
@@ -115,8 +115,12 @@ class Block {
   }
 
  private:
-  std::uint32_t person(std::size_t lane) const { return group_.who[b_ * lane_count + (lane < count_ ? lane : 0)]; }
-  const MuscleSize& size(std::size_t lane) const { return all_.size[person(lane) * all_.muscles + group_.muscle]; }
+  std::uint32_t person_index(std::size_t lane) const {
+    return group_.who[b_ * lane_count + (lane < count_ ? lane : 0)];
+  }
+  const MuscleSize& size(std::size_t lane) const {
+    return all_.size[person_index(lane) * all_.muscles + group_.muscle];
+  }
 
   void follow_lines() {
     auto& leg_scale = group_.both.block<LegScale>(b_);
@@ -125,15 +129,15 @@ class Block {
     const Lookup<Pose> poses(all_.world);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const MuscleSize& of = size(lane);
-      const Entity human = all_.people[person(lane)];
+      const Entity person = all_.people[person_index(lane)];
       put_row(of.leg_scale, leg_scale, lane);
       rest.rest_length_m[lane] = of.rest_length_m;
       rest.stiffness_n_per_m[lane] = static_cast<float>(axial_stiffness(
           group_.common.shape->axial, static_cast<double>(of.scale.across), static_cast<double>(of.scale.along)));
-      const float* const pose = poses.find(human);
+      const float* const pose = poses.find(person);
       for (const Side side : {Side::right, Side::left}) {
         gather_leg(pose, side, leg[side], lane);
-        put_row(MuscleOwner<float>{human.index, human.generation, side}, group_.side[side].block<MuscleOwner>(b_),
+        put_row(MuscleOwner<float>{person.index, person.generation, side}, group_.side[side].block<MuscleOwner>(b_),
                 lane);
       }
     }
@@ -151,9 +155,9 @@ class Block {
     RecentPoses recent;
     for (const MuscleEffect& effect : muscle_effects()) {
       if (!effect.wanted(group_.kind)) continue;
-      std::vector<KeyPart> parts;
+      std::vector<ComponentId> parts;
       effect.parts(group_.kind, parts);
-      std::erase_if(parts, [](const KeyPart& part) { return !has_column(part.kind); });
+      std::erase_if(parts, [](const ComponentId& part) { return !has_column(part.kind); });
       for (std::size_t lane = 0; lane < count_; ++lane) {
         for (const Side side : {Side::right, Side::left}) {
           const Columns& of = group_.side[side];
@@ -161,7 +165,7 @@ class Block {
           const auto line = row_of(of.block<LineOfAction>(b_), lane);
           effect.begin({all_.world,
                         {},
-                        all_.people[person(lane)],
+                        all_.people[person_index(lane)],
                         side,
                         group_.kind,
                         size(lane),
@@ -170,12 +174,12 @@ class Block {
                         all_.tick_s,
                         recent},
                        values);
-          for (const KeyPart& part : parts) scatter(values.find(part.id), part.value, *of.find(part.id), lane);
+          for (const ComponentId& part : parts) scatter(values.find(part.id), part.value, *of.find(part.id), lane);
           if (const auto end = values.get<EndDrive>()) put_row(*end, of.block<EndDrive>(b_), lane);
         }
       }
       for (const Columns& of : group_.side) {
-        for (const KeyPart& part : parts) park(*of.find(part.id));
+        for (const ComponentId& part : parts) park(*of.find(part.id));
         park(*of.find(type_id<EndDrive<float>>()));
       }
     }
@@ -193,15 +197,15 @@ class Block {
       scale[lane] = size(lane).scale;
       put_row(scale[lane], group_.both.block<BellyScale>(b_), lane);
     }
-    ReducedBellies bellies;
+    ModalBellies bellies;
     bellies.tuned = is_tuned(group_.kind.method);
-    const ReducedBasis* const basis = group_.kind.basis.resource;
+    const ModalBasis* const basis = group_.kind.basis.resource;
     if (basis != nullptr) {
       if (auto solved = solve_bellies(*basis, {scale.data(), count_}, bellies); !solved) return solved;
       const double damping = basis->options.damping_per_s;
-      if (auto* const motion = group_.both.field<ReducedMotion>(b_))
+      if (auto* const motion = group_.both.field<ModalMotion>(b_))
         write_motions(bellies, damping, static_cast<double>(all_.tick_s), motion->lane);
-      if (auto* const shape = group_.both.field<ReducedShape>(b_)) write_shapes(bellies, damping, shape->lane);
+      if (auto* const shape = group_.both.field<ModalShape>(b_)) write_shapes(bellies, damping, shape->lane);
     }
     if (group_.kind.shape.resource == nullptr && !begins_with_state(group_.kind)) return {};
     for (const Side side : {Side::right, Side::left}) {
@@ -215,15 +219,15 @@ class Block {
     return {};
   }
 
-  void begin_one_by_one(const DeformationMethod& method, const ReducedBellies& bellies, Side side) const {
+  void begin_one_by_one(const DeformationMethod& method, const ModalBellies& bellies, Side side) const {
     const Columns& of = group_.side[side];
     const Column *const displacement = of.find(type_id<NodalDisplacement>()), *const state =
-                                                                                  of.find(type_id<ReducedState>());
+                                                                                  of.find(type_id<ModalState>());
     const bool pulls = of.find(type_id<Activation<float>>()) != nullptr;
     for (std::size_t lane = 0; lane < count_; ++lane) {
       Belly belly{group_.common, {}, {}, {}, {}};
       belly.plan.scale = size(lane).scale;
-      if (belly.basis != nullptr) belly.motions = std::make_shared<ReducedBelly>(belly_of(bellies, lane));
+      if (belly.basis != nullptr) belly.motions = std::make_shared<ModalBelly>(belly_of(bellies, lane));
       const auto end = row_of(of.block<EndDrive>(b_), lane);
       BellyLoad load{group_.kind.far_end, end.from, end.to, {}, all_.tick_s};
       if (group_.kind.inertia) load.frame = row_of(of.block<FrameLoad>(b_), lane);
@@ -268,7 +272,7 @@ class Block {
 void create_rows(World& world, const Jobs& jobs, const Group& group, std::vector<Entity>& all_made) {
   for (const Side side : {Side::right, Side::left}) {
     std::vector<PartValue> parts;
-    for (const KeyPart& part : group.parts) {
+    for (const ComponentId& part : group.parts) {
       const Column* column = group.side[side].find(part.id);
       if (column == nullptr) column = group.both.find(part.id);
       parts.push_back({part, column == nullptr ? nullptr : column->data.get()});

@@ -8,7 +8,7 @@
 #include <mobil/components/fade.h>
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/method_finite.h"
-#include "systems/deformation/method_reduced.h"
+#include "systems/deformation/method_modal.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"
@@ -39,7 +39,7 @@ std::optional<Cells> cells_of(const MuscleKind& kind) {
 
 /// Whether displacements of nodes are the state itself.
 bool is_full(Method method) {
-  return method != Method::reduced && method != Method::none;
+  return method != Method::modal && method != Method::none;
 }
 
 /// A muscle's line as it is, or as a first tick would write it.
@@ -60,7 +60,7 @@ FirstLine present_line(const World& world, const OneChange& change) {
     present.line.stiffness_n_per_m = rest.stiffness_n_per_m;
     return present;
   }
-  const Pose<float> pose = *world.get<Pose>(change.human);
+  const Pose<float> pose = *world.get<Pose>(change.person);
   FirstLine first = first_line(*shape.lines, plan.leg_scale, far_end, rest, pose, change.side);
   if (line) first.line = *line;
   first.line.stiffness_n_per_m = rest.stiffness_n_per_m;
@@ -156,7 +156,7 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
     past.shown.displacement[i] -= offset.displacement[i];
     past.shown.velocity[i] -= offset.velocity[i];
   }
-  const bool keeps = next.choice.reduced.moving && world.has<ReducedState>(change.muscle) &&
+  const bool keeps = next.choice.modal.moving && world.has<ModalState>(change.muscle) &&
                      was->basis.resource == next.belly.basis.get() && is_tuned(was->method) == is_tuned(next.choice);
   return method->go_on(next, past, keeps);
 }
@@ -169,9 +169,9 @@ void set_belly(const Beginning& from, const Belly& belly, const BellyMotion& off
   for (std::size_t i = 0; i < shown.size() && !offset.displacement.empty(); ++i) shown[i] += offset.displacement[i];
   values.set_field<NodalDisplacement>(shows_apart(kind) ? from.displacement : shown);
   values.set_field<NodalVelocity>(from.velocity);
-  values.set_field<ReducedState>(from.state);
-  values.set_field<ReducedMotion>(belly.motion);
-  values.set_field<ReducedShape>(belly.rest_shape);
+  values.set_field<ModalState>(from.state);
+  values.set_field<ModalMotion>(belly.motion);
+  values.set_field<ModalShape>(belly.rest_shape);
   if (!from.fade.empty()) {
     values.set(Fade<float>{0});
     values.set_field<FadeStart>(from.fade);
@@ -193,7 +193,7 @@ NextMuscle next_muscle(World& world, BellyLibrary& library, MuscleWork& work, co
   MuscleKind kind = kind_of(world, library, belly.plan.muscle, change.choice, belly);
   const FirstLine at = present_line(world, change);
   NextMuscle next{change.muscle, {}, {}};
-  next.values.set(MuscleOwner<float>{change.human.index, change.human.generation, change.side});
+  next.values.set(MuscleOwner<float>{change.person.index, change.person.generation, change.side});
   next.values.set(belly.plan.leg_scale);
   next.values.set(at.line);
   next.values.set(at.end);
@@ -201,7 +201,7 @@ NextMuscle next_muscle(World& world, BellyLibrary& library, MuscleWork& work, co
   for (const MuscleEffect& effect : muscle_effects()) {
     if (!effect.wanted(kind)) continue;
     effect.begin(
-        {world, change.muscle, change.human, change.side, kind, size, at.line, change.time.tick, tick_s, work.recent},
+        {world, change.muscle, change.person, change.side, kind, size, at.line, change.time.tick, tick_s, work.recent},
         next.values);
   }
   const EndDrive<float> end = *next.values.get<EndDrive>();
@@ -218,7 +218,7 @@ NextMuscle next_muscle(World& world, BellyLibrary& library, MuscleWork& work, co
   if (from.displacement.empty() && shows_apart(kind))
     from.displacement = field_of<NodalDisplacement>(world, change.muscle);
   set_belly(from, belly, offset, kind, next.values);
-  for (const KeyPart& part : muscle_parts(kind)) {
+  for (const ComponentId& part : muscle_parts(kind)) {
     next.parts.push_back({part, has_column(part.kind) ? next.values.find(part.id) : nullptr});
   }
   return next;
@@ -231,7 +231,7 @@ std::uint32_t fade_ticks(float tick_s) {
 }
 
 void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const MuscleChange& change,
-                    std::span<const Belly> bellies, std::span<const OwnMuscle> own) {
+                    std::span<const Belly> bellies, std::span<const MuscleRef> own) {
   // All that takes memory comes first. A muscle's rows come from and go to tables of that muscle alone, so that none of
   // those that go before takes the room of another.
   std::vector<NextMuscle> next;

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <mobil/engine/world.h>
-#include <mobil/systems/muscles/own_muscle.h>
+#include <mobil/systems/muscles/muscle_ref.h>
 #include "systems/deformation/belly_motion.h"
 #include "systems/muscles/begin_muscles.h"
-#include "systems/muscles/recent_poses.h"
+#include "systems/muscles/pose_history.h"
 
 namespace mobil::inline v0_3 {
 
@@ -26,7 +26,7 @@ struct MuscleWork {
 /// What a person's muscles are to be. Where it `goes_on`, so does what is shown, whatever the methods; else full
 /// methods take the fields of one another as they are, and a belly that was not there before begins at rest.
 struct MuscleChange {
-  Entity human;
+  Entity person;
   const LegMuscles& choice;
   bool goes_on;
   MuscleTime time;
@@ -39,6 +39,6 @@ std::uint32_t fade_ticks(float tick_s);
 /// need; a host's parts stay with them, stale handles are passed over. Where memory runs out that throws
 /// std::bad_alloc, and nothing has changed.
 void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const MuscleChange& change,
-                    std::span<const Belly> bellies, std::span<const OwnMuscle> own);
+                    std::span<const Belly> bellies, std::span<const MuscleRef> own);
 
 }  // namespace mobil::inline v0_3

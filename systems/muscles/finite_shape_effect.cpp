@@ -7,7 +7,7 @@
 #include <mobil/components/fade.h>
 #include <mobil/rows.h>
 #include "systems/deformation/finite_shape.h"
-#include "systems/deformation/reduced.h"
+#include "systems/deformation/modal.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -27,16 +27,16 @@ void show(const Table& table, Shared<FiniteShape> shape, const BellyScale<Lanes<
   add_shape(block, blend_of(block), true, computed.data, shown.data);
 }
 
-/// Of reduced bellies: placed as they vibrate about their linear answer to what the tables do not reach, which mostly
+/// Of modal bellies: placed as they vibrate about their linear answer to what the tables do not reach, which mostly
 /// is nothing, and the shape on top.
-void show_in_place(Shared<FiniteShape> shape, Shared<ReducedBasis> basis, const BellyScale<Lanes<float>>& scale,
+void show_in_place(Shared<FiniteShape> shape, Shared<ModalBasis> basis, const BellyScale<Lanes<float>>& scale,
                    const EndDrive<Lanes<float>>& end, Maybe<Activation> activation, Maybe<FrameLoad> frame,
-                   MaybeField<const ReducedState> state, Field<const ReducedShape> rest,
+                   MaybeField<const ModalState> state, Field<const ModalShape> rest,
                    Field<NodalDisplacement> displacement) {
   const ShapeBlock block = block_of(*shape, scale, end, activation);
   const ShapeBlend blend = blend_of(block);
   const EndDrive<Lanes<float>> beyond{blend.beyond_m, blend.beyond_m};
-  const ReducedBlock belly{*basis, scale, const_cast<float*>(state.data), nullptr, frame.block};  // only read here
+  const ModalBlock belly{*basis, scale, const_cast<float*>(state.data), nullptr, frame.block};  // only read here
   const ControlPoints points{rest.data, displacement.data, false, rest.next};
   const bool within = std::ranges::all_of(blend.beyond_m.lane, [](float beyond_m) { return beyond_m == 0.0F; });
   if (state.data == nullptr && frame.block == nullptr && within) {  // at rest, but for the shape
@@ -56,22 +56,23 @@ void report(Shared<FiniteShape>, Shared<MuscleTemplate> control, const BellyScal
 }
 
 Module module() {
-  return {.name = "finite shape", .parts = {key_part(Shared<FiniteShape>{})}, .systems = [](ScheduleBuilder& systems) {
-            systems.add("finite shape", &show)
-                .add("finite shape, reduced", &show_in_place)
-                .after("bellies")
-                .add("finite shape, volume", &report)
-                .after("fade")
-                .after("bellies");
-          }};
+  return {
+      .name = "finite shape", .parts = {component_id(Shared<FiniteShape>{})}, .systems = [](ScheduleBuilder& systems) {
+        systems.add("finite shape", &show)
+            .add("finite shape, modal", &show_in_place)
+            .after("bellies")
+            .add("finite shape, volume", &report)
+            .after("fade")
+            .after("bellies");
+      }};
 }
 
 bool wanted(const MuscleKind& kind) {
   return kind.finite.resource != nullptr;
 }
 
-void parts(const MuscleKind& kind, std::vector<KeyPart>& to) {
-  to.push_back(key_part(kind.finite));
+void parts(const MuscleKind& kind, std::vector<ComponentId>& to) {
+  to.push_back(component_id(kind.finite));
 }
 
 /// It has no state, and a first tick shows it; until then see shape_offset.
@@ -81,10 +82,11 @@ void begin(const EffectStart&, RowValues&) {}
 }  // namespace
 
 bool shows_apart(const MuscleKind& kind) {
-  return kind.finite.resource != nullptr && kind.method.method != Method::reduced;
+  return kind.finite.resource != nullptr && kind.method.method != Method::modal;
 }
-bool shows_apart(const TableKey& key) {
-  return find_part(key, type_id<FiniteShape>()) != nullptr && find_part(key, type_id<ReducedShape>()) == nullptr;
+bool shows_apart(const Archetype& key) {
+  return find_component(key, type_id<FiniteShape>()) != nullptr &&
+         find_component(key, type_id<ModalShape>()) == nullptr;
 }
 
 BellyMotion shape_offset(const NextBelly& next, float activation) {

@@ -8,10 +8,10 @@ namespace mobil::inline v0_3 {
 
 extern const MuscleEffect finite_shape_effect;
 
-/// Whether what is shown lies apart from what the method computes: where that is the method's state. Reduced bellies
+/// Whether what is shown lies apart from what the method computes: where that is the method's state. Modal bellies
 /// are shown in place.
 bool shows_apart(const MuscleKind& kind);
-bool shows_apart(const TableKey& key);
+bool shows_apart(const Archetype& key);
 
 /// What the effect adds to what the belly's method (one with control points) computes under its load, and how fast that
 /// changes as long as activation stays.

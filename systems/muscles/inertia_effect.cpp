@@ -9,7 +9,7 @@ namespace of_inertia {
 
 Module module() {
   return {.name = "inertia",
-          .parts = {component_part<FrameLoad>(), component_part<FrameHistory>()},
+          .parts = {component_id<FrameLoad>(), component_id<FrameHistory>()},
           .systems = [](ScheduleBuilder& systems) { systems.add("frame motion", &frame_motion); }};
 }
 
@@ -17,15 +17,15 @@ bool wanted(const MuscleKind& kind) {
   return kind.inertia;
 }
 
-void parts(const MuscleKind&, std::vector<KeyPart>& to) {
-  to.push_back(component_part<FrameLoad>());
-  to.push_back(component_part<FrameHistory>());
+void parts(const MuscleKind&, std::vector<ComponentId>& to) {
+  to.push_back(component_id<FrameLoad>());
+  to.push_back(component_id<FrameHistory>());
 }
 
 /// The motion of the muscle's frame up to now, as far as it is known, as the ticks before would have recorded it.
 void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<FrameHistory>(start.entity) && start.world.has<FrameLoad>(start.entity)) return;
-  look_back(start.world, start.human, start.tick, start.tick_s, start.recent);
+  look_back(start.world, start.person, start.tick, start.tick_s, start.recent);
   FrameHistory<Lanes<float>> history{};
   FrameLoad<Lanes<float>> load{};
   for (const Pose<float>& pose : start.recent.poses) {

@@ -68,8 +68,8 @@ void share(const LegDesign<Lanes<float>>& design, const Pose<Lanes<float>>& pose
 }
 
 /// All of the parts or none, and all with moments.
-Result<void> check_key(const TableKey& key, const World&) {
-  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+Result<void> check_key(const Archetype& key, const World&) {
+  const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool design = has(type_id<LegDesign<float>>()), reserve = has(type_id<MomentReserve<float>>());
   const bool asked = has(type_id<AskedForces>()), moments = has(type_id<JointMoments<float>>());
   if (design == reserve && reserve == asked && (!design || moments)) return {};
@@ -82,7 +82,7 @@ Result<void> check_key(const TableKey& key, const World&) {
 Module leg_moments_module() {
   of_leg_moments::single_lines();  // made here, not in a tick
   return {.name = "leg moments",
-          .parts = {component_part<LegDesign>(), component_part<MomentReserve>(), key_part(Publishes<AskedForces>{})},
+          .parts = {component_id<LegDesign>(), component_id<MomentReserve>(), component_id(Publishes<AskedForces>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("leg moments", &of_leg_moments::share); },
           .check_key = &of_leg_moments::check_key};
 }
@@ -102,12 +102,12 @@ void set_leg_moments(World& world, Entity person, const Body& body, const LegMus
     design.member[i++] = member_design(member, plan.member[0]);
     design.scale = plan.leg_scale;
   }
-  // Remade, so that a World::Attempt can undo it.
-  world.remake_many({&person, 1},
-                    std::array<PartValue, 3>{PartValue{component_part<LegDesign>(), nullptr},
-                                             PartValue{component_part<MomentReserve>(), nullptr},
-                                             part_value(Publishes<AskedForces>{})},
-                    {});
+  // Remade, so that a World::Transaction can undo it.
+  world.change_archetype(
+      {&person, 1},
+      std::array<PartValue, 3>{PartValue{component_id<LegDesign>(), nullptr},
+                               PartValue{component_id<MomentReserve>(), nullptr}, part_value(Publishes<AskedForces>{})},
+      {});
   world.set(person, design);
 }
 

@@ -10,9 +10,9 @@
 #include <mobil/each.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/forces.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
-#include "systems/bellies/choice_words.h"
+#include "systems/bellies/leg_muscles_io.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
@@ -105,16 +105,16 @@ tl::expected<void, NotMade> begin_each_choice(const MuscleScene& scene, std::spa
   }
   for (const LegMuscles* const choice : choices) {
     std::vector<std::size_t> who;
-    std::vector<Entity> humans;
+    std::vector<Entity> their_people;
     std::vector<MuscleSize> their;
     for (std::size_t i = 0; i < people.size(); ++i) {
       if (people[i].muscles != *choice) continue;
       who.push_back(first + i);
-      humans.push_back(entities[i]);
+      their_people.push_back(entities[i]);
       const auto of = sizes.of(first + i);
       their.insert(their.end(), of.begin(), of.end());
     }
-    auto begun = begin_muscles(scene.world, scene.library, *choice, scene.time, scene.jobs, humans, their, made);
+    auto begun = begin_muscles(scene.world, scene.library, *choice, scene.time, scene.jobs, their_people, their, made);
     if (!begun) return tl::unexpected(NotMade{who[begun.error().person], begun.error().error});
   }
   return {};
@@ -130,18 +130,18 @@ Result<Belly> belly_of(BellyLibrary& library, const MusclePlan& plan, Muscle mus
 
 }  // namespace
 
-std::vector<OwnMuscle> muscles_of(const World& world, Entity person) {
-  std::vector<OwnMuscle> all;
+std::vector<MuscleRef> muscles_of(const World& world, Entity person) {
+  std::vector<MuscleRef> all;
   world.each_member(person, [&](Entity member) {
     const auto owner = world.get<MuscleOwner>(member);
     const auto number = world.get<Muscle>(member);
     if (!owner || !number) return;
     const auto muscle = static_cast<Muscle>(*number);
-    auto at = std::ranges::find(all, muscle, &OwnMuscle::muscle);
+    auto at = std::ranges::find(all, muscle, &MuscleRef::muscle);
     if (at == all.end()) at = all.insert(at, {muscle, {}});
     at->entity[owner->side] = member;
   });
-  std::ranges::sort(all, {}, &OwnMuscle::muscle);
+  std::ranges::sort(all, {}, &MuscleRef::muscle);
   return all;
 }
 
@@ -161,16 +161,16 @@ Entity muscle_of(const World& world, Entity person, Muscle muscle, Side side) {
 }
 
 std::optional<LegMuscles> choice_of(const World& world, Entity person) {
-  const std::vector<OwnMuscle> own = muscles_of(world, person);
+  const std::vector<MuscleRef> own = muscles_of(world, person);
   if (own.empty()) return std::nullopt;
   const Entity first =
       world.alive(own.front().entity[Side::right]) ? own.front().entity[Side::right] : own.front().entity[Side::left];
   LegMuscles choice = *world.shared<LegMuscles>(first);
   const MuscleMethod method = muscle_method(world, first);
   choice.method = method.method;
-  choice.reduced = method.reduced;
+  choice.modal = method.modal;
   choice.muscles.reset();
-  for (const OwnMuscle& one : own) choice.muscles.set(static_cast<std::size_t>(one.muscle));
+  for (const MuscleRef& one : own) choice.muscles.set(static_cast<std::size_t>(one.muscle));
   return choice;
 }
 
@@ -284,18 +284,18 @@ Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice) {
   World& world = scene.world;
   if (!is_person(world, person)) return not_there();
-  const std::vector<OwnMuscle> before = muscles_of(world, person);
+  const std::vector<MuscleRef> before = muscles_of(world, person);
   if (before.empty()) return fail("this person has no leg muscles; add them first", Status::missing);
   const Body body = *make_body(body_request(world, person));
   LegMuscles new_ones = choice;
-  std::vector<OwnMuscle> stay;
+  std::vector<MuscleRef> stay;
   std::vector<Belly> bellies;
   std::vector<MuscleSize> size;
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     if (!choice.muscles[m]) continue;
     const auto muscle = static_cast<Muscle>(m);
     const MusclePlan plan = *make_muscle_plan(body, muscle);
-    const auto own = std::ranges::find(before, muscle, &OwnMuscle::muscle);
+    const auto own = std::ranges::find(before, muscle, &MuscleRef::muscle);
     if (own == before.end()) {
       size.push_back(size_of(plan));
       continue;
@@ -313,7 +313,7 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
   change_muscles(world, scene.library, scene.work, {person, choice, false, scene.time}, bellies, stay);
   if (!follows_moments(choice)) forget_leg_moments(world, person);
   rows.done = true;
-  for (const OwnMuscle& one : before) {
+  for (const MuscleRef& one : before) {
     if (choice.muscles[static_cast<std::size_t>(one.muscle)]) continue;
     for (const Entity muscle : one.entity) world.destroy(muscle);
   }
@@ -338,14 +338,14 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
 Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method) {
   World& world = scene.world;
   if (!is_person(world, person)) return not_there();
-  const OwnMuscle own{muscle,
+  const MuscleRef own{muscle,
                       {muscle_of(world, person, muscle, Side::right), muscle_of(world, person, muscle, Side::left)}};
   const Entity one = world.alive(own.entity[Side::right]) ? own.entity[Side::right] : own.entity[Side::left];
   if (!world.alive(one)) return fail("this person has no such muscle; choose it in set_muscles", Status::missing);
   if (same_method(muscle_method(world, one), method)) return {};
   LegMuscles choice = *world.shared<LegMuscles>(one);
   choice.method = method.method;
-  choice.reduced = method.reduced;
+  choice.modal = method.modal;
   const MusclePlan plan = *make_muscle_plan(*make_body(body_request(world, person)), muscle);
   const auto belly = belly_of(scene.library, plan, muscle, choice, scene.time.tick_s);
   if (!belly) return tl::unexpected(belly.error());
@@ -370,7 +370,7 @@ Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side sid
   if (auto ok = check_excitation(world, person, muscle, side, excitation); !ok) return ok;
   const Entity one = muscle_of(world, person, muscle, side);
   Activation<float> row = *world.get<Activation>(one);
-  row.excitation = std::clamp(excitation, least_activation, most_activation);
+  row.excitation = std::clamp(excitation, min_activation, max_activation);
   world.set(one, row);
   return {};
 }
@@ -417,7 +417,7 @@ void shift_muscles(World& world, float x_m, float z_m) {
 }
 
 void forget_motion(World& world, Entity person) {
-  for (const OwnMuscle& own : muscles_of(world, person)) {
+  for (const MuscleRef& own : muscles_of(world, person)) {
     for (const Entity muscle : own.entity)
       if (world.has<FrameHistory>(muscle)) world.set(muscle, FrameHistory<float>{});
   }

@@ -13,7 +13,7 @@
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/module.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/sleepers.h>
 #include <mobil/systems/people/spawn.h>
 #include "systems/bellies/belly_library.h"
@@ -39,7 +39,7 @@ struct MuscleScene {
 };
 
 /// A person's muscles in the table's order; empty for a stale handle. A side that is gone has a stale handle.
-std::vector<OwnMuscle> muscles_of(const World& world, Entity person);
+std::vector<MuscleRef> muscles_of(const World& world, Entity person);
 /// Whether there are any. Takes no memory.
 bool has_muscles(const World& world, Entity person);
 /// A person's muscle of that side; a stale handle where there is none.

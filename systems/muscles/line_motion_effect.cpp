@@ -16,7 +16,7 @@ void move_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahea
 }
 
 Module module() {
-  return {.name = "line motion", .parts = {component_part<LineMotion>()}, .systems = [](ScheduleBuilder& systems) {
+  return {.name = "line motion", .parts = {component_id<LineMotion>()}, .systems = [](ScheduleBuilder& systems) {
             systems.add("line motion", &move_lines);
           }};
 }
@@ -25,8 +25,8 @@ bool wanted(const MuscleKind& kind) {
   return kind.line_motion;
 }
 
-void parts(const MuscleKind&, std::vector<KeyPart>& to) {
-  to.push_back(component_part<LineMotion>());
+void parts(const MuscleKind&, std::vector<ComponentId>& to) {
+  to.push_back(component_id<LineMotion>());
 }
 
 /// A line that has just begun does not lengthen yet.
@@ -34,7 +34,7 @@ void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<LineMotion>(start.entity)) return;
   LineMotion<Lanes<float>> motion{};
   line_motion(*start.kind.lines, broadcast(start.size.leg_scale),
-              leg_of(*start.world.get<Pose>(start.human), start.side), broadcast(start.line), motion, start.tick_s);
+              leg_of(*start.world.get<Pose>(start.person), start.side), broadcast(start.line), motion, start.tick_s);
   values.set(first_lane(motion));
 }
 

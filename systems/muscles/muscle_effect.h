@@ -16,7 +16,7 @@
 #include <mobil/schedule.h>
 #include "systems/deformation/method.h"
 #include "systems/muscles/muscle_size.h"
-#include "systems/muscles/recent_poses.h"
+#include "systems/muscles/pose_history.h"
 
 namespace mobil::inline v0_3 {
 
@@ -56,7 +56,7 @@ class RowValues {
 /// A muscle that begins with an effect. `entity` may be stale: then it has nothing of the effect yet.
 struct EffectStart {
   const World& world;
-  Entity entity, human;
+  Entity entity, person;
   Side side;
   const MuscleKind& kind;
   const MuscleSize& size;
@@ -74,7 +74,7 @@ struct MuscleEffect {
   /// end (EndDrive) too.
   void (*begin)(const EffectStart& start, RowValues& values);
   /// Appends the parts that a muscle of that kind has of it.
-  void (*parts)(const MuscleKind& kind, std::vector<KeyPart>& parts);
+  void (*parts)(const MuscleKind& kind, std::vector<ComponentId>& parts);
 };
 
 std::span<const MuscleEffect> muscle_effects();

@@ -9,7 +9,7 @@
 #include <mobil/schedule.h>
 #include "engine/fetch_ahead.h"
 #include "engine/snapshot.h"
-#include "systems/bellies/choice_words.h"
+#include "systems/bellies/leg_muscles_io.h"
 #include "systems/deformation/fade.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/finite_shape_effect.h"
@@ -23,11 +23,11 @@ void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ah
                   Shared<MuscleLines> lines, TagValue<FarEnd> far_end, const LegScale<Lanes<float>>& scale,
                   Ahead<LegScale> next_scale, LineOfAction<Lanes<float>>& line, Ahead<LineOfAction> next_line,
                   EndDrive<Lanes<float>>& end, Ahead<EndDrive> next_end, MaybeField<MemberLength> member,
-                  Later<ReducedState> state, Later<ReducedMotion> motion) {
+                  Later<ModalState> state, Later<ModalMotion> motion) {
   FetchAhead(next_scale.block).fetch(all_lines);
   FetchAhead(next_line.block).fetch(all_lines);
   FetchAhead(next_end.block).fetch(all_lines);
-  // Reduced muscles have too little work themselves to hide memory's latency.
+  // Modal muscles have too little work themselves to hide memory's latency.
   std::array later = {FetchAhead(state.data, std::size_t{state.words} * sizeof(Lanes<float>)),
                       FetchAhead(motion.data, std::size_t{motion.words} * sizeof(Lanes<float>))};
   lines_of_action(*lines, scale, legs_of(posts, owner, ahead), static_cast<FarEnd>(far_end.value), line, end,
@@ -40,13 +40,13 @@ void fade(const Table& table, float tick_s, Field<const NodalDisplacement> displ
   fade_out(before, start.data, displacement.words, since, shown.data, tick_s);
 }
 
-Result<void> check_key(const TableKey& key, const World& world) {
-  const auto is_ours = [](const KeyPart& part) { return std::ranges::binary_search(muscle_part_ids(), part.id); };
+Result<void> check_key(const Archetype& key, const World& world) {
+  const auto is_ours = [](const ComponentId& part) { return std::ranges::binary_search(muscle_part_ids(), part.id); };
   const bool ours = std::ranges::any_of(key, is_ours);
   // What muscles are to be that a person does not have yet is kept on the person's row.
-  const bool person =
-      (find_part(key, type_id<Asleep<float>>()) != nullptr || find_part(key, type_id<Physique<float>>()) != nullptr) &&
-      find_part(key, type_id<LegMuscles>()) != nullptr && std::ranges::count_if(key, is_ours) == 1;
+  const bool person = (find_component(key, type_id<Asleep<float>>()) != nullptr ||
+                       find_component(key, type_id<Physique<float>>()) != nullptr) &&
+                      find_component(key, type_id<LegMuscles>()) != nullptr && std::ranges::count_if(key, is_ours) == 1;
   if (!ours || person || muscle_kind(key, world)) return {};
   return damaged("the parts of a muscle");
 }
@@ -63,22 +63,22 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 }
 
 /// The kind that a key's tags and resources tell of; nothing where they tell of no muscle.
-std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
-  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+std::optional<MuscleKind> recognised(const Archetype& key, const World& world) {
+  const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const auto shared = [&]<class T>(Shared<T>& to) {
-    if (const KeyPart* const part = find_part(key, type_id<T>()))
+    if (const ComponentId* const part = find_component(key, type_id<T>()))
       to = {static_cast<const T*>(world.resource(part->value)), part->value};
   };
-  const KeyPart* const muscle = find_part(key, type_id<Muscle>());
-  const KeyPart* const far_end = find_part(key, type_id<FarEnd>());
-  if (muscle == nullptr || far_end == nullptr || muscle->value >= most_muscles) return std::nullopt;
+  const ComponentId* const muscle = find_component(key, type_id<Muscle>());
+  const ComponentId* const far_end = find_component(key, type_id<FarEnd>());
+  if (muscle == nullptr || far_end == nullptr || muscle->value >= max_muscles) return std::nullopt;
   if (far_end->value > static_cast<std::uint64_t>(FarEnd::sliding)) return std::nullopt;
   MuscleKind kind;
   kind.muscle = static_cast<Muscle>(muscle->value);
   kind.far_end = static_cast<FarEnd>(far_end->value);
   kind.inertia = has(type_id<FrameLoad<float>>());
   kind.line_motion = has(type_id<LineMotion<float>>());
-  if (const KeyPart* const source = find_part(key, type_id<ExcitationSource>())) {
+  if (const ComponentId* const source = find_component(key, type_id<ExcitationSource>())) {
     if (source->value < 1 || source->value >= excitation_source_name.size()) return std::nullopt;
     kind.activation = static_cast<ExcitationSource>(source->value);
   }
@@ -96,9 +96,9 @@ std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
   }
   LegMuscles choice = *kind.choice;
   choice.method = kind.method.method;
-  choice.reduced = kind.method.reduced;
-  kind.method.reduced.linear_shape =
-      choice.method == Method::reduced && has_finite_shape(choice) && kind.finite.resource == nullptr;
+  choice.modal = kind.method.modal;
+  kind.method.modal.linear_shape =
+      choice.method == Method::modal && has_finite_shape(choice) && kind.finite.resource == nullptr;
   return kind;
 }
 
@@ -106,7 +106,7 @@ std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
 bool fits_together(const MuscleKind& kind) {
   const auto* shape = kind.shape.resource;
   const auto* basis = kind.basis.resource;
-  if (kind.steps < 1 || kind.steps > most_steps) return false;
+  if (kind.steps < 1 || kind.steps > max_steps) return false;
   if (shape != nullptr && shape->options.far_end != kind.far_end) return false;
   const auto* finite = kind.finite.resource;
   if (kind.activation != ExcitationSource::none && kind.far_end != FarEnd::held) return false;
@@ -118,11 +118,11 @@ bool fits_together(const MuscleKind& kind) {
          (shape == nullptr || basis->options.control_cells == shape->mesh.cells);
 }
 
-bool same_parts(std::vector<KeyPart> due, const TableKey& key) {
-  std::ranges::sort(due, {}, &KeyPart::id);
-  std::vector<KeyPart> there;
+bool same_parts(std::vector<ComponentId> due, const Archetype& key) {
+  std::ranges::sort(due, {}, &ComponentId::id);
+  std::vector<ComponentId> there;
   std::ranges::copy_if(key, std::back_inserter(there),
-                       [](const KeyPart& part) { return std::ranges::binary_search(muscle_part_ids(), part.id); });
+                       [](const ComponentId& part) { return std::ranges::binary_search(muscle_part_ids(), part.id); });
   return due == there;
 }
 
@@ -130,24 +130,24 @@ bool same_parts(std::vector<KeyPart> due, const TableKey& key) {
 
 Module muscles_module() {
   return {.name = "muscles",
-          .parts = {component_part<MuscleOwner>(), component_part<LegScale>(), component_part<LineOfAction>(),
-                    component_part<EndDrive>(), key_part(TagValue<FarEnd>{}), key_part(TagValue<Muscle>{}),
-                    key_part(Shared<LegMuscles>{}), key_part(Shared<MuscleLines>{}), component_part<BellyScale>(),
-                    key_part(Shared<MuscleTemplate>{}), key_part(FieldWidth<NodalDisplacement>{}),
-                    component_part<BellyReport>(), key_part(TagValue<ScratchFloats>{})},
+          .parts = {component_id<MuscleOwner>(), component_id<LegScale>(), component_id<LineOfAction>(),
+                    component_id<EndDrive>(), component_id(TagValue<FarEnd>{}), component_id(TagValue<Muscle>{}),
+                    component_id(Shared<LegMuscles>{}), component_id(Shared<MuscleLines>{}), component_id<BellyScale>(),
+                    component_id(Shared<MuscleTemplate>{}), component_id(FieldWidth<NodalDisplacement>{}),
+                    component_id<BellyReport>(), component_id(TagValue<ScratchFloats>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("lines of action", &follow_lines); },
           .check_key = &check_key,
           .check_rows = &check_rows};
 }
 
 Module fade_module() {
-  return {
-      .name = "fade",
-      .parts = {component_part<Fade>(), key_part(FieldWidth<FadeStart>{}), key_part(FieldWidth<ShownDisplacement>{})},
-      .systems = [](ScheduleBuilder& systems) { systems.add("fade", &fade).after("finite shape"); },
-      .after = {{"faded muscles", [](const Frame& frame) {
-                   end_fades(frame.world, frame.tick.dt_s, frame.workspace.get<MuscleWork>());
-                 }}}};
+  return {.name = "fade",
+          .parts = {component_id<Fade>(), component_id(FieldWidth<FadeStart>{}),
+                    component_id(FieldWidth<ShownDisplacement>{})},
+          .systems = [](ScheduleBuilder& systems) { systems.add("fade", &fade).after("finite shape"); },
+          .after = {{"faded muscles", [](const Frame& frame) {
+                       end_fades(frame.world, frame.tick.dt_s, frame.workspace.get<MuscleWork>());
+                     }}}};
 }
 
 std::vector<Module> muscle_modules() {
@@ -164,7 +164,7 @@ MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const Leg
                    const SharedBelly& belly) {
   MuscleKind kind;
   kind.muscle = muscle;
-  kind.method = {choice.method, choice.reduced};
+  kind.method = {choice.method, choice.modal};
   kind.far_end = far_end_of(choice);
   kind.inertia = feels_frame(choice);
   kind.line_motion = choice.line_motion;
@@ -180,31 +180,31 @@ MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const Leg
   return kind;
 }
 
-std::vector<KeyPart> muscle_parts(const MuscleKind& kind) {
-  std::vector<KeyPart> parts = {component_part<MuscleOwner>(),
-                                component_part<LegScale>(),
-                                component_part<LineOfAction>(),
-                                component_part<EndDrive>(),
-                                key_part(TagValue<FarEnd>{static_cast<std::uint64_t>(kind.far_end)}),
-                                key_part(TagValue<Muscle>{static_cast<std::uint64_t>(kind.muscle)}),
-                                key_part(kind.choice),
-                                key_part(kind.lines)};
+std::vector<ComponentId> muscle_parts(const MuscleKind& kind) {
+  std::vector<ComponentId> parts = {component_id<MuscleOwner>(),
+                                    component_id<LegScale>(),
+                                    component_id<LineOfAction>(),
+                                    component_id<EndDrive>(),
+                                    component_id(TagValue<FarEnd>{static_cast<std::uint64_t>(kind.far_end)}),
+                                    component_id(TagValue<Muscle>{static_cast<std::uint64_t>(kind.muscle)}),
+                                    component_id(kind.choice),
+                                    component_id(kind.lines)};
   if (const DeformationMethod* const method = deformation_method(kind.method.method)) {
-    parts.push_back(component_part<BellyScale>());
+    parts.push_back(component_id<BellyScale>());
     method->parts(kind, parts);
   }
   if (kind.shape.resource != nullptr) {
     const auto width = static_cast<std::uint32_t>(nodal_width(kind.shape->mesh.cells));
-    parts.push_back(key_part(kind.shape));
-    parts.push_back(key_part(FieldWidth<NodalDisplacement>{width}));
-    if (kind.method.method != Method::reduced || kind.method.reduced.reported) {
-      parts.push_back(component_part<BellyReport>());
+    parts.push_back(component_id(kind.shape));
+    parts.push_back(component_id(FieldWidth<NodalDisplacement>{width}));
+    if (kind.method.method != Method::modal || kind.method.modal.reported) {
+      parts.push_back(component_id<BellyReport>());
     }
     if (kind.fading) {
-      parts.push_back(component_part<Fade>());
-      parts.push_back(key_part(FieldWidth<FadeStart>{2 * width}));
+      parts.push_back(component_id<Fade>());
+      parts.push_back(component_id(FieldWidth<FadeStart>{2 * width}));
     }
-    if (kind.fading || shows_apart(kind)) parts.push_back(key_part(FieldWidth<ShownDisplacement>{width}));
+    if (kind.fading || shows_apart(kind)) parts.push_back(component_id(FieldWidth<ShownDisplacement>{width}));
   }
   for (const MuscleEffect& effect : muscle_effects()) {
     if (effect.wanted(kind)) effect.parts(kind, parts);
@@ -212,7 +212,7 @@ std::vector<KeyPart> muscle_parts(const MuscleKind& kind) {
   return parts;
 }
 
-std::optional<MuscleKind> muscle_kind(const TableKey& key, const World& world) {
+std::optional<MuscleKind> muscle_kind(const Archetype& key, const World& world) {
   const auto kind = recognised(key, world);
   if (!kind || !fits_together(*kind) || !same_parts(muscle_parts(*kind), key)) return std::nullopt;
   return kind;
@@ -233,7 +233,7 @@ std::span<const std::uint64_t> muscle_part_ids() {
   static const std::vector<std::uint64_t> ids = [] {
     std::vector<std::uint64_t> all;
     for (const Module& module : muscle_modules()) {
-      for (const KeyPart& part : module.parts) all.push_back(part.id);
+      for (const ComponentId& part : module.parts) all.push_back(part.id);
     }
     std::ranges::sort(all);
     return all;

@@ -25,10 +25,10 @@ std::vector<Module> muscle_modules();
 MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const LegMuscles& choice,
                    const SharedBelly& belly);
 /// The parts of a muscle of that kind, in no order.
-std::vector<KeyPart> muscle_parts(const MuscleKind& kind);
+std::vector<ComponentId> muscle_parts(const MuscleKind& kind);
 /// The kind of muscle that has these parts; nothing where they are no muscle's or do not fit each other. Resources are
 /// those of `world`.
-std::optional<MuscleKind> muscle_kind(const TableKey& key, const World& world);
+std::optional<MuscleKind> muscle_kind(const Archetype& key, const World& world);
 /// The same of an entity; nothing for a stale handle too.
 std::optional<MuscleKind> muscle_kind(const World& world, Entity muscle);
 /// How a muscle is simulated; Method::none for a stale handle and for what is no muscle.

@@ -13,7 +13,7 @@ struct MuscleSize {
   BellyScale<float> scale{};
   LegScale<float> leg_scale{};
   float rest_length_m = 0;
-  std::array<MemberPlan, most_row_members> member{};
+  std::array<MemberPlan, max_row_members> member{};
 };
 inline MuscleSize size_of(const MusclePlan& plan) {
   return {plan.scale, plan.leg_scale, static_cast<float>(plan.rest_length_m), plan.member};

@@ -7,13 +7,13 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr LegPost::Leg nobodys_leg{
+constexpr PublishedLeg::Leg nobodys_leg{
     {{0, 1, 0}, {0, 0.5F, 0}, {0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}}, {0, 0}};
 
 /// The legs of the owners of sixteen muscles; both legs of a person are mostly beside each other.
-void find_legs(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner, const LegPost::Leg** legs) {
+void find_legs(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner, const PublishedLeg::Leg** legs) {
   Entity last{};  // nobody, who has none
-  const LegPost* post = nullptr;
+  const PublishedLeg* post = nullptr;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const Entity person{owner.index[lane], owner.generation[lane]};
     if (person != last) post = posts.find(last = person);
@@ -25,7 +25,7 @@ void find_legs(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner
 
 LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner,
                                 Ahead<MuscleOwner> ahead) {
-  const LegPost::Leg* from[lane_count];
+  const PublishedLeg::Leg* from[lane_count];
   find_legs(posts, owner, from);
   LegFrames<Lanes<float>> leg;
   take_legs(from, leg);
@@ -36,7 +36,7 @@ LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lan
       posts.fetch({ahead.second->index[lane], ahead.second->generation[lane]});
   if (ahead.block == nullptr) return leg;
   find_legs(posts, *ahead.block, from);
-  for (const LegPost::Leg* const next : from) {
+  for (const PublishedLeg::Leg* const next : from) {
     __builtin_prefetch(next);
     __builtin_prefetch(reinterpret_cast<const char*>(next) + 64);
   }
@@ -44,7 +44,7 @@ LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lan
 }
 
 LegClock<Lanes<float>> clocks_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner) {
-  const LegPost::Leg* from[lane_count];
+  const PublishedLeg::Leg* from[lane_count];
   find_legs(posts, owner, from);
   LegClock<Lanes<float>> clocks;
   for (std::size_t lane = 0; lane < lane_count; ++lane) put_row(from[lane]->clock, clocks, lane);

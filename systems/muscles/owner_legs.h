@@ -7,7 +7,7 @@
 
 namespace mobil::inline v0_3 {
 
-using LegsOfOwners = LookupPublished<LegPost>;
+using LegsOfOwners = LookupPublished<PublishedLeg>;
 
 /// The legs of a block's owners; those of the block `ahead` are fetched meanwhile. A muscle whose person is gone has a
 /// leg that stands still at the origin.

@@ -14,14 +14,14 @@
 #include "engine/exact_math.h"
 #include "engine/snapshot.h"
 #include "systems/gait/fat_motion.h"
-#include "systems/people/by_table.h"
+#include "systems/people/group_by_table.h"
 
 namespace mobil::inline v0_3 {
 namespace {
 
 /// People have fat, awake or asleep.
-Result<void> check_fat_key(const TableKey& key, const World&) {
-  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+Result<void> check_fat_key(const Archetype& key, const World&) {
+  const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool awake = !has(type_id<FatWobble<float>>()) || has(type_id<BodySize<float>>());
   const bool asleep = !has(type_id<SleepsWithFat>()) || has(type_id<Asleep<float>>());
   if (awake && asleep) return {};
@@ -32,7 +32,7 @@ Result<void> check_fat_key(const TableKey& key, const World&) {
 
 Module fat_module() {
   return {.name = "fat",
-          .parts = {component_part<FatWobble>(), key_part(TagValue<SleepsWithFat>{})},
+          .parts = {component_id<FatWobble>(), component_id(TagValue<SleepsWithFat>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("fat", &fat_motion); },
           .check_key = &check_fat_key};
 }
@@ -43,15 +43,15 @@ Status set_fat_wobble(World& world, const Jobs& jobs, std::span<const Entity> pe
     if (!is_person(world, person)) return Status::stale_entity;
     if (has_fat(world, person) != on) changes.push_back(person);
   }
-  World::Attempt attempt(world, jobs);
-  by_table(world, changes, [&](std::span<const Entity> together) {
+  World::Transaction transaction(world, jobs);
+  group_by_table(world, changes, [&](std::span<const Entity> together) {
     const bool asleep = is_asleep(world, together.front());
     const PartValue part =
-        asleep ? part_value(TagValue<SleepsWithFat>{1}) : PartValue{component_part<FatWobble>(), nullptr};
+        asleep ? part_value(TagValue<SleepsWithFat>{1}) : PartValue{component_id<FatWobble>(), nullptr};
     const std::array owned = {part.part.id};
-    world.remake_many(together, std::span(&part, on ? 1 : 0), owned, jobs);
+    world.change_archetype(together, std::span(&part, on ? 1 : 0), owned, jobs);
   });
-  attempt.keep();
+  transaction.commit();
   return Status::ok;
 }
 

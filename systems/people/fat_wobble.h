@@ -7,7 +7,7 @@
 #include <mobil/engine/module.h>
 #include <mobil/engine/status.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 
 namespace mobil::inline v0_3 {
 

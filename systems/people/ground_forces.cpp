@@ -7,10 +7,10 @@
 #include <mobil/components/activation.h>
 #include <mobil/components/sleep.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "systems/forces/forces.h"
 #include "systems/gait/body_motion.h"
-#include "systems/people/by_table.h"
+#include "systems/people/group_by_table.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -28,7 +28,7 @@ struct Beginning {
     BodySize<Lanes<float>> size;
     read(size);
     if (posed) {
-      PosedPast<Lanes<float>> past{};
+      PoseHistory<Lanes<float>> past{};
       Pose<Lanes<float>> pose;
       Feet<Lanes<float>> feet;
       read(pose);
@@ -60,17 +60,17 @@ void begin_forces(World& world, const Jobs& jobs, std::span<const Entity> people
       at.work_out(world, people.subspan(b * lane_count, std::min(lane_count, people.size() - b * lane_count)), posed,
                   b);
   });
-  const std::array<PartValue, 3> parts = {{posed ? PartValue{component_part<PosedPast>(), nullptr}
-                                                 : PartValue{component_part<BodyMotion>(), at.motion.data()},
-                                           {component_part<GroundReaction>(), at.ground.data()},
-                                           {component_part<JointMoments>(), at.moments.data()}}};
-  world.remake_many(people, parts, {}, jobs);
+  const std::array<PartValue, 3> parts = {{posed ? PartValue{component_id<PoseHistory>(), nullptr}
+                                                 : PartValue{component_id<BodyMotion>(), at.motion.data()},
+                                           {component_id<GroundReaction>(), at.ground.data()},
+                                           {component_id<JointMoments>(), at.moments.data()}}};
+  world.change_archetype(people, parts, {}, jobs);
 }
 
 /// What goes with forces, and what needs them: their ids, sorted.
 std::span<const std::uint64_t> force_part_ids() {
   static const auto ids = [] {
-    std::array all = {type_id<PosedPast<float>>(),    type_id<BodyMotion<float>>(), type_id<GroundReaction<float>>(),
+    std::array all = {type_id<PoseHistory<float>>(),  type_id<BodyMotion<float>>(), type_id<GroundReaction<float>>(),
                       type_id<JointMoments<float>>(), type_id<LegDesign<float>>(),  type_id<MomentReserve<float>>(),
                       type_id<AskedForces>()};
     std::ranges::sort(all);
@@ -98,7 +98,7 @@ void take_near(const Pose<Lanes<float>>& from, const Vec3<Lanes<float>>& origin_
 }  // namespace
 
 void press_posed(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose, const Feet<Lanes<float>>& feet,
-                 PosedPast<Lanes<float>>& past, float tick_s, GroundReaction<Lanes<float>>& ground,
+                 PoseHistory<Lanes<float>>& past, float tick_s, GroundReaction<Lanes<float>>& ground,
                  JointMoments<Lanes<float>>& moments) {
   Lanes<std::uint32_t> all, one_known, both_known;
   Lanes<float> floor_m;
@@ -147,19 +147,19 @@ Status set_forces(World& world, const Jobs& jobs, std::span<const Entity> people
     if (!is_person(world, person)) return Status::stale_entity;
     if (has_forces(world, person) != on) changes.push_back(person);
   }
-  World::Attempt attempt(world, jobs);
-  by_table(world, changes, [&](std::span<const Entity> together) {
+  World::Transaction transaction(world, jobs);
+  group_by_table(world, changes, [&](std::span<const Entity> together) {
     if (on)
       begin_forces(world, jobs, together);
     else
-      world.remake_many(together, {}, force_part_ids(), jobs);
+      world.change_archetype(together, {}, force_part_ids(), jobs);
   });
-  attempt.keep();
+  transaction.commit();
   return Status::ok;
 }
 
-void forget_past(World& world, Entity person) {
-  if (world.has<PosedPast>(person)) world.set(person, PosedPast<float>{});
+void clear_pose_history(World& world, Entity person) {
+  if (world.has<PoseHistory>(person)) world.set(person, PoseHistory<float>{});
 }
 
 }  // namespace mobil::inline v0_3

@@ -17,12 +17,12 @@ bool has_forces(const World& world, Entity person);
 /// answer Status::stale_entity, and where memory runs out nothing has changed.
 Status set_forces(World& world, const Jobs& jobs, std::span<const Entity> people, bool on);
 /// A posed person who has them has jumped: how the pose moves is known from the third tick on.
-void forget_past(World& world, Entity person);
+void clear_pose_history(World& world, Entity person);
 
 /// Of people whose host animates them, at the instant of the last tick's pose: where the poses before and after it are
 /// known, too, with what they accelerate, else as if at rest. The ground is level and as high as the lower sole.
 void press_posed(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose, const Feet<Lanes<float>>& feet,
-                 PosedPast<Lanes<float>>& past, float tick_s, GroundReaction<Lanes<float>>& ground,
+                 PoseHistory<Lanes<float>>& past, float tick_s, GroundReaction<Lanes<float>>& ground,
                  JointMoments<Lanes<float>>& moments);
 
 }  // namespace mobil::inline v0_3

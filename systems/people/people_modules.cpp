@@ -12,13 +12,13 @@
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
 #include <mobil/forces.h>
-#include <mobil/systems/limits/limit_watch.h>
+#include <mobil/systems/limits/limit_monitor.h>
 #include "engine/snapshot.h"
 #include "systems/activation/excitation.h"
 #include "systems/forces/forces.h"
+#include "systems/gait/body_motion.h"
 #include "systems/gait/footing.h"
 #include "systems/gait/gait.h"
-#include "systems/gait/body_motion.h"
 #include "systems/gait/kinematics.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/people/ground_forces.h"
@@ -65,20 +65,20 @@ void press_walkers(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<fl
   joint_forces(size, motion, plan, state, footing.block, ground, moments);
 }
 
-void publish_legs(const Pose<Lanes<float>>& pose, Ahead<Pose> next, Published<LegPost> posts) {
+void publish_legs(const Pose<Lanes<float>>& pose, Ahead<Pose> next, Published<PublishedLeg> posts) {
   post_legs(pose, next.block, posts.row);
 }
 
 void publish_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                    const GaitState<Lanes<float>>& state, Published<LegPost> posts) {
+                    const GaitState<Lanes<float>>& state, Published<PublishedLeg> posts) {
   set_clocks(size, plan, state, posts.row);
 }
 
 /// A skeleton has all of its parts, and a walker all of those that gait works on; of the pose's all or, of who is
 /// compact, none.
-Result<void> check_walker_key(const TableKey& key, const World&) {
+Result<void> check_walker_key(const Archetype& key, const World&) {
   const auto count = [&](std::initializer_list<std::uint64_t> ids) {
-    return std::count_if(ids.begin(), ids.end(), [&](std::uint64_t id) { return find_part(key, id) != nullptr; });
+    return std::count_if(ids.begin(), ids.end(), [&](std::uint64_t id) { return find_component(key, id) != nullptr; });
   };
   const auto body = count({type_id<BodySize<float>>(), type_id<Physique<float>>()});
   const auto pose = count(
@@ -92,10 +92,10 @@ Result<void> check_walker_key(const TableKey& key, const World&) {
 }
 
 /// Forces have all of their parts, and those of walkers or of posed people.
-Result<void> check_forces_key(const TableKey& key, const World&) {
-  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+Result<void> check_forces_key(const Archetype& key, const World&) {
+  const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool walks = has(type_id<Gait<float>>()), forces = has(type_id<GroundReaction<float>>());
-  const bool motion = has(type_id<BodyMotion<float>>()), past = has(type_id<PosedPast<float>>());
+  const bool motion = has(type_id<BodyMotion<float>>()), past = has(type_id<PoseHistory<float>>());
   if (forces == has(type_id<JointMoments<float>>()) && motion == (forces && walks) && past == (forces && !walks))
     return {};
   return damaged("the forces of a person");
@@ -129,14 +129,14 @@ Result<void> check_walker_rows(const SavedWorld& saved, std::uint32_t table) {
 Module walking_module() {
   return {.name = "walking",
           .version = 4,
-          .parts = {component_part<Gait>(), component_part<StepPlan>(), component_part<GaitState>()},
+          .parts = {component_id<Gait>(), component_id<StepPlan>(), component_id<GaitState>()},
           .systems = [](ScheduleBuilder& systems) {
             systems.add("gait", &advance_walkers)
                 .add_packed("replan", &lanes_to_plan, &plan_next_step)
                 .after("gait")
                 .add("turn", &turn_walkers)
                 .after("replan")
-                .add("walk limits", &count_beyond_limits)
+                .add("walk limits", &count_limit_violations)
                 .after("turn")
                 .add("footing", &follow_feet)
                 .after("turn")
@@ -147,8 +147,8 @@ Module walking_module() {
 
 Module forces_module() {
   return {.name = "forces",
-          .parts = {component_part<BodyMotion>(), component_part<GroundReaction>(), component_part<JointMoments>(),
-                    component_part<PosedPast>()},
+          .parts = {component_id<BodyMotion>(), component_id<GroundReaction>(), component_id<JointMoments>(),
+                    component_id<PoseHistory>()},
           .systems =
               [](ScheduleBuilder& systems) {
                 systems.add("motion", &move_walkers)
@@ -162,9 +162,9 @@ Module forces_module() {
 Module skeleton_module() {
   return {.name = "skeleton",
           .version = 2,
-          .parts = {component_part<BodySize>(), component_part<Physique>(), component_part<LimbLengths>(),
-                    component_part<Pose>(), component_part<JointAngles>(), component_part<Feet>(),
-                    component_part<CentreOfMass>(), key_part(Publishes<LegPost>{})},
+          .parts = {component_id<BodySize>(), component_id<Physique>(), component_id<LimbLengths>(),
+                    component_id<Pose>(), component_id<JointAngles>(), component_id<Feet>(),
+                    component_id<CentreOfMass>(), component_id(Publishes<PublishedLeg>{})},
           .systems =
               [](ScheduleBuilder& systems) {
                 systems.add("leg frames", &publish_legs)

@@ -1,4 +1,4 @@
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 
 #include <fmt/format.h>
 
@@ -213,7 +213,7 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   world.set(person, gait);
   auto footing = world.get<Footing>(person);
   bool poses_anew = footing.has_value();  // on other ground, or with shoulders straight
-  if (auto course = world.get<Course>(person)) {
+  if (auto course = world.get<AvoidanceState>(person)) {
     poses_anew = poses_anew || course->turn_rad != 0;
     course->turn_rad = course->turn_rad_s = course->turn_to_rad = 0;
     world.set(person, *course);
@@ -253,7 +253,7 @@ void shift_people(World& world, float x_m, float z_m) {
   each(world, [&](Feet<Lanes<float>>& feet) {
     for (auto* const points : {feet.heel_m, feet.toe_m, feet.tip_m}) shift(points[0]), shift(points[1]);
   });
-  each(world, [&](PosedPast<Lanes<float>>& past) {
+  each(world, [&](PoseHistory<Lanes<float>>& past) {
     for (auto& pose : past.pose) {
       for (auto& at : pose.position_m) shift(at);
     }

@@ -1,8 +1,8 @@
 #include <mobil/systems/people/person_state.h>
 
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/sleepers.h>
-#include "systems/people/whole.h"
+#include "systems/people/compact_pose.h"
 
 namespace mobil::inline v0_3 {
 

@@ -8,7 +8,7 @@
 #include <mobil/components/avoidance.h>
 #include <mobil/each.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "engine/state_hash.h"
 #include "systems/gait/asleep.h"
 
@@ -29,7 +29,8 @@ bool read_times(const World& world, Entity person, StepPlan<float>& plan) {
   const std::uint32_t column = place.table->column(type_id<StepPlan<float>>());
   if (column == Table::no_column) return false;
   using Plan = StepPlan<float>;
-  constexpr std::size_t from = offsetof(Plan, from), to = offsetof(Plan, to), strike = offsetof(Strike<float>, shape);
+  constexpr std::size_t from = offsetof(Plan, from), to = offsetof(Plan, to),
+                        strike = offsetof(HeelStrike<float>, shape);
   for (const auto& [first, bytes] : {std::pair{std::size_t{0}, from}, std::pair{from, strike}, std::pair{to, strike}})
     place.table->read(place.row, column + static_cast<std::uint32_t>(first / 4), static_cast<std::uint32_t>(bytes / 4),
                       reinterpret_cast<std::byte*>(&plan) + first);
@@ -49,10 +50,10 @@ void shift(SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, flo
 
 /// Who is asleep does not turn their shoulders back, and is to wake with them as they are drawn then.
 void face_their_way(World& world, std::span<const Entity> people) {
-  const auto avoids = [](Table& table) { return static_cast<bool>(TableColumn<Course>(table)); };
+  const auto avoids = [](Table& table) { return static_cast<bool>(TableColumn<AvoidanceState>(table)); };
   if (std::ranges::none_of(world.tables(), avoids)) return;
   for (const Entity person : people) {
-    auto course = world.get<Course>(person);
+    auto course = world.get<AvoidanceState>(person);
     if (!course) continue;
     course->turn_rad = course->turn_rad_s = course->turn_to_rad = 0;
     world.set(person, *course);
@@ -146,7 +147,7 @@ void find_steady(const World& world, std::span<const Entity> people, const Sleep
 }
 
 void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const> sleepers,
-                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, FallingAsleep& work) {
+                  std::span<const ComponentId> more, std::span<const std::uint64_t> owned, FallingAsleep& work) {
   if (sleepers.empty()) return;
   const std::size_t blocks = (sleepers.size() + lane_count - 1) / lane_count;
   const bool packed = sleepers.front()->style.has_value();
@@ -160,11 +161,11 @@ void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const
     put_row(one.asleep, work.asleep[b], l);
     packed ? put_row(*one.style, work.style[b], l) : put_row(one.own_style, work.own_style[b], l);
   }
-  work.parts.assign({{component_part<Asleep>(), work.asleep.data()},
-                     packed ? PartValue{component_part<SleepingStyle>(), work.style.data()}
-                            : PartValue{component_part<OwnStyle>(), work.own_style.data()}});
-  for (const KeyPart& part : more) work.parts.push_back({part, nullptr});
-  world.remake_many(work.people, work.parts, owned, jobs);
+  work.parts.assign({{component_id<Asleep>(), work.asleep.data()},
+                     packed ? PartValue{component_id<SleepingStyle>(), work.style.data()}
+                            : PartValue{component_id<OwnStyle>(), work.own_style.data()}});
+  for (const ComponentId& part : more) work.parts.push_back({part, nullptr});
+  world.change_archetype(work.people, work.parts, owned, jobs);
   face_their_way(world, work.people);
 }
 
@@ -205,7 +206,7 @@ void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> 
                   l);
       }
     });
-    world.remake_many(people, std::array{PartValue{component_part<Unsettled>(), since.data()}}, {}, jobs);
+    world.change_archetype(people, std::array{PartValue{component_id<Unsettled>(), since.data()}}, {}, jobs);
   }
   in_parallel(jobs, asked.size(), [&](std::size_t begin, std::size_t end) {
     for (; begin < end; ++begin) {
@@ -244,7 +245,7 @@ void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, Unsett
         if (until[l] != 0 && until[l] <= time.tick) work.push_back(table.entities(b)[l]);
       }
     }
-    world.remake_many(work, {}, part, jobs);
+    world.change_archetype(work, {}, part, jobs);
   }
 }
 

@@ -13,7 +13,7 @@
 #include <mobil/components/pose.h>
 #include <mobil/rows.h>
 #include <mobil/systems/limits/style_limits.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "systems/gait/gait.h"
 #include "systems/gait/kinematics.h"
 #include "systems/people/pose_measures.h"
@@ -74,14 +74,14 @@ struct FirstInstants {
     centre_of_mass(size[b], pose[b], centre[b]);
   }
 
-  std::vector<PartValue> parts(std::span<const KeyPart> more) const {
+  std::vector<PartValue> parts(std::span<const ComponentId> more) const {
     std::vector<PartValue> all = {
-        {component_part<BodySize>(), size.get()},       {component_part<Physique>(), physique.get()},
-        {component_part<Gait>(), gait.get()},           {component_part<StepPlan>(), plan.get()},
-        {component_part<GaitState>(), state.get()},     {component_part<Pose>(), pose.get()},
-        {component_part<JointAngles>(), angles.get()},  {component_part<Feet>(), feet.get()},
-        {component_part<CentreOfMass>(), centre.get()}, part_value(Publishes<LegPost>{})};
-    for (const KeyPart& part : more) all.push_back({part, nullptr});
+        {component_id<BodySize>(), size.get()},       {component_id<Physique>(), physique.get()},
+        {component_id<Gait>(), gait.get()},           {component_id<StepPlan>(), plan.get()},
+        {component_id<GaitState>(), state.get()},     {component_id<Pose>(), pose.get()},
+        {component_id<JointAngles>(), angles.get()},  {component_id<Feet>(), feet.get()},
+        {component_id<CentreOfMass>(), centre.get()}, part_value(Publishes<PublishedLeg>{})};
+    for (const ComponentId& part : more) all.push_back({part, nullptr});
     return all;
   }
 
@@ -112,7 +112,7 @@ tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const Spawn
   });
   const std::size_t i = wrong;
   if (i < people.size()) return tl::unexpected(NotMade{i, check(people[i], size[i], gait[i], i, each).error()});
-  StyleWork work;
+  StyleLimitWork work;
   keep_walk_limits(jobs, size, gait, work);
   return {};
 }
@@ -137,14 +137,14 @@ Result<Entity> spawn_posed(World& world, const BodyRequest& request) {
   centre_of_mass(broadcast(size), broadcast(pose), centre);
   if (!has_own_limbs(request)) {
     return world.create(size, physique(request), pose, joint_angles(pose), sole_points(size.height_m, pose),
-                        first_lane(centre), Publishes<LegPost>{});
+                        first_lane(centre), Publishes<PublishedLeg>{});
   }
   move_mass_along_limbs(broadcast(size), broadcast(request.limbs), broadcast(pose), centre);
   return world.create(size, physique(request), request.limbs, pose, joint_angles(pose),
-                      sole_points(size.height_m, pose), first_lane(centre), Publishes<LegPost>{});
+                      sole_points(size.height_m, pose), first_lane(centre), Publishes<PublishedLeg>{});
 }
 
-void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleWork& work) {
+void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleLimitWork& work) {
   const auto before = asked_body(world, person);
   if (before && !same_walk(before->gait, gait)) keep_walk_limits(jobs, {&before->size, 1}, {&gait, 1}, work);
 }

@@ -28,7 +28,8 @@ constexpr std::array<std::size_t, 3> form_floats = {7, 12, 8};
 
 /// As a tick does it after the pose.
 void turn_as_avoided(const Table& table, std::size_t block, Pose<Lanes<float>>& pose) {
-  if (const TableColumn<Course> courses(table); courses) turn_shoulders(courses.at(table, block).turn_rad, pose);
+  if (const TableColumn<AvoidanceState> courses(table); courses)
+    turn_shoulders(courses.at(table, block).turn_rad, pose);
 }
 
 /// A block of walkers where they will be; their shoulders as they are.

@@ -9,7 +9,7 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "systems/gait/kinematics.h"
 #include "systems/people/pose_measures.h"
 #include "systems/poses/pose_axes.h"
@@ -124,8 +124,8 @@ Result<std::vector<Vec>> rest_joints(const SkeletonBones& bones, std::span<const
   }
   const auto at = [&](std::int32_t bone) { return joint[static_cast<std::size_t>(bone)]; };
   for (const SkeletonBones::Limbs& l : bones.limbs) {
-    constexpr double least_m = 0.01;
-    if (length(at(l.shank) - at(l.thigh)) < least_m || length(at(l.foot) - at(l.shank)) < least_m)
+    constexpr double min_m = 0.01;
+    if (length(at(l.shank) - at(l.thigh)) < min_m || length(at(l.foot) - at(l.shank)) < min_m)
       return fail("retarget: a leg has no length at rest; are the units right?");
   }
   return joint;

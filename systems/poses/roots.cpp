@@ -12,7 +12,7 @@
 #include <mobil/each.h>
 #include <mobil/engine/access.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
 #include "systems/gait/root_place.h"
 #include "systems/poses/walk_ahead.h"

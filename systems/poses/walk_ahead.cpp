@@ -13,8 +13,8 @@ WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>
   if (uneven_) footing_ = *footing;
   // What rounding leaves of a frame that ends with a tick; clocks count in units of it, of which there would be too
   // many.
-  constexpr float least_s = 1e-6F;
-  if (!(ahead_s > least_s)) return;
+  constexpr float min_s = 1e-6F;
+  if (!(ahead_s > min_s)) return;
   advance_gait(plan, state_, ahead_s);
   if (const std::uint32_t lanes = lanes_to_plan(plan, gait, state_, ahead_s); lanes != 0) {
     StepPlan<Lanes<float>> solved = next_ = plan;

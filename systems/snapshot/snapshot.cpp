@@ -41,8 +41,8 @@ bool has_state(const Module& module, const World& world) {
   if (changed) return true;
   for (const Table& table : world.tables()) {
     if (table.row_count() == 0) continue;
-    for (const KeyPart& part : module.parts) {
-      if (find_part(table.key(), part.id) != nullptr) return true;
+    for (const ComponentId& part : module.parts) {
+      if (find_component(table.key(), part.id) != nullptr) return true;
     }
   }
   return false;
@@ -59,7 +59,7 @@ SavedModule pack(const Module& module) {
 void learn_unnamed(const SnapshotScene& scene, SnapshotWork& work) {
   const auto& tables = scene.world.tables();
   for (; work.tables_seen < tables.size(); ++work.tables_seen) {
-    for (const KeyPart& part : tables[work.tables_seen].key()) {
+    for (const ComponentId& part : tables[work.tables_seen].key()) {
       if (module_of(scene.modules, part.id) != nullptr) continue;
       auto at = std::ranges::find(work.unnamed, part.id, [](const UnnamedPart& one) { return one.part.id; });
       if (at == work.unnamed.end()) at = work.unnamed.insert(at, {part, {}});
@@ -89,19 +89,19 @@ FrontHeader count(const SnapshotScene& scene, SnapshotWork& work) {
   used.assign(scene.world.resource_count(), 0);
   for (const Table& table : scene.world.tables()) {
     if (table.row_count() == 0) continue;
-    for (const KeyPart& part : table.key()) {
+    for (const ComponentId& part : table.key()) {
       if (part.kind == PartKind::shared) used[part.value] = 1;
     }
   }
   header.resources = static_cast<std::uint32_t>(std::count(used.begin(), used.end(), 1));
   learn_unnamed(scene, work);
-  each_unnamed(scene, work, [&](const KeyPart&) { ++header.parts; });
+  each_unnamed(scene, work, [&](const ComponentId&) { ++header.parts; });
   return header;
 }
 
 /// As the table's module says. It captures a span alone, so that a std::function of it takes no memory.
 auto left_out_by(std::span<const Module> modules) {
-  return [modules](const TableKey& key) -> std::uint64_t {
+  return [modules](const Archetype& key) -> std::uint64_t {
     for (const Module& module : modules) {
       if (!module.follows) continue;
       if (const std::uint64_t part = module.follows(key); part != 0) return part;
@@ -153,7 +153,7 @@ Result<SavedFront> read_front(std::span<const std::byte> bytes) {
 Result<void> check_parts(const SavedFront& front, const SavedWorld& saved, const RestoreScene& scene) {
   for (std::size_t i = 0; i < front.parts.size(); ++i) {
     const SavedPartName part = front.parts[i];
-    const auto has = [&](const Table& table) { return find_part(table.key(), part.id) != nullptr; };
+    const auto has = [&](const Table& table) { return find_component(table.key(), part.id) != nullptr; };
     if (module_of(scene.modules, part.id) != nullptr || std::ranges::any_of(scene.world.tables(), has)) continue;
     bool needed = false;
     for (std::uint32_t t = 0; t < saved.tables.size(); ++t) needed = needed || saved.part(t, part.id).has_value();
@@ -257,8 +257,8 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
   for (std::size_t i = 0; i < front->resources.size(); ++i) {
     const SavedResource saved = front->resources[i];
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    const std::size_t most_nodes = spent.count() < limits.seconds ? limits.mesh_nodes : 0;
-    const auto number = work.resources.number_of(saved, most_nodes, scene.world, scene.library, scene.modules);
+    const std::size_t max_nodes = spent.count() < limits.seconds ? limits.mesh_nodes : 0;
+    const auto number = work.resources.number_of(saved, max_nodes, scene.world, scene.library, scene.modules);
     if (!number) return tl::unexpected(number.error());
     work.shared.push_back({resource_type(saved.recipe), saved.number, *number});
   }
@@ -267,11 +267,11 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
     const RestoreScene& scene;
     const ResourceList& resources;
     double tick_s;
-    std::size_t most_steps;
+    std::size_t max_steps;
   } known{scene, work.resources, std::ldexp(static_cast<double>(header.tick_units), -50), limits.steps};
-  const auto check = [&known](const TableKey& key) -> Result<void> {
+  const auto check = [&known](const Archetype& key) -> Result<void> {
     if (auto ok = check_key(key, known.scene.world, known.resources, known.scene.modules); !ok) return ok;
-    return check_steps(key, known.scene.world, known.tick_s, known.most_steps);
+    return check_steps(key, known.scene.world, known.tick_s, known.max_steps);
   };
   if (auto ok = work.world.prepare(scene.world, *world, work.parts, work.shared, left_out_by(scene.modules), check);
       !ok)
@@ -313,7 +313,7 @@ Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime
           " off all that have it");
     writer.put(SavedResource{recipe, fingerprint, number, 0});
   }
-  each_unnamed(scene, work, [&](const KeyPart& part) {
+  each_unnamed(scene, work, [&](const ComponentId& part) {
     SavedPartName saved{part.id, {}};
     part.name.copy(saved.name, sizeof(saved.name));
     writer.put(saved);

@@ -38,7 +38,7 @@ struct SnapshotTime {
 
 /// A part that no module names, and the tables (their numbers) that have it.
 struct UnnamedPart {
-  KeyPart part;
+  ComponentId part;
   std::vector<std::size_t> tables;
 };
 
@@ -48,7 +48,7 @@ struct SnapshotWork {
   WorldSnapshot world;
   std::vector<std::uint8_t> used;  // resources, by number
   std::vector<SharedNumber> shared;
-  std::vector<KeyPart> parts;  // of all modules
+  std::vector<ComponentId> parts;  // of all modules
   std::vector<UnnamedPart> unnamed;
   std::size_t tables_seen = 0;
 };

@@ -24,7 +24,7 @@ std::vector<bool> float_words(const SavedWorld& world, std::uint32_t table, std:
   const SavedTable of = world.tables[table];
   std::vector<bool> found(of.words, false);
   for (const Module& module : modules) {
-    for (const KeyPart& part : module.parts) {
+    for (const ComponentId& part : module.parts) {
       const std::uint32_t first = world.column(table, part.id);
       if (first == Table::no_column) continue;
       const std::uint64_t words = part.kind == PartKind::field ? world.part(table, part.id)->value : part.value;
@@ -68,7 +68,7 @@ Result<void> check_modules(const Records<SavedModule>& all_saved, const SavedWor
   for (std::uint32_t t = 0; t < world.tables.size(); ++t) {
     for (const Module& module : modules) {
       bool has = false;
-      for (const KeyPart& known : module.parts) {
+      for (const ComponentId& known : module.parts) {
         const auto part = world.part(t, known.id);
         has = has || part;
         if (part && (part->kind != static_cast<std::uint32_t>(known.kind) ||
@@ -109,14 +109,14 @@ Result<void> check_numbers(const SavedWorld& world, std::span<const Module> modu
   return {};
 }
 
-Result<void> check_key(const TableKey& key, const World& world, const ResourceList& resources,
+Result<void> check_key(const Archetype& key, const World& world, const ResourceList& resources,
                        std::span<const Module> modules) {
   const auto recipe = [&](std::uint64_t id) -> const Recipe* {
-    const KeyPart* const part = find_part(key, id);
+    const ComponentId* const part = find_component(key, id);
     return part == nullptr ? nullptr : &resources.known()[part->value].recipe;
   };
-  const KeyPart* const muscle = find_part(key, type_id<Muscle>());
-  for (const KeyPart& part : key) {
+  const ComponentId* const muscle = find_component(key, type_id<Muscle>());
+  for (const ComponentId& part : key) {
     if (part.kind != PartKind::shared) continue;
     const Recipe& of = resources.known()[part.value].recipe;
     if (of.kind == ResourceKind::named || of.kind == ResourceKind::choice) continue;
@@ -133,10 +133,10 @@ Result<void> check_key(const TableKey& key, const World& world, const ResourceLi
   return {};
 }
 
-Result<void> check_steps(const TableKey& key, const World& world, double tick_s, std::size_t most) {
+Result<void> check_steps(const Archetype& key, const World& world, double tick_s, std::size_t most) {
   const auto kind = muscle_kind(key, world);
   double steps = kind ? kind->steps : 0;
-  const KeyPart* const part = find_part(key, type_id<LegMuscles>());
+  const ComponentId* const part = find_component(key, type_id<LegMuscles>());
   const auto* const choice = part == nullptr ? nullptr : static_cast<const LegMuscles*>(world.resource(part->value));
   if (choice != nullptr && choice->muscles.any()) {
     if (!check_choice(*choice, tick_s)) return damaged("a choice of muscles");

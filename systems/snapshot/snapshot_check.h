@@ -17,9 +17,9 @@ Result<void> check_modules(const Records<SavedModule>& saved, const SavedWorld& 
 /// Every number of every row is finite. With the simulation's jobs.
 Result<void> check_numbers(const SavedWorld& world, std::span<const Module> modules, const Jobs& jobs);
 /// A table's shared resources are those of one muscle; and what its modules make sure of.
-Result<void> check_key(const TableKey& key, const World& world, const ResourceList& resources,
+Result<void> check_key(const Archetype& key, const World& world, const ResourceList& resources,
                        std::span<const Module> modules);
 /// A muscle takes at most so many steps in a tick: as its table says, and as a choice says that later muscles follow.
-Result<void> check_steps(const TableKey& key, const World& world, double tick_s, std::size_t most);
+Result<void> check_steps(const Archetype& key, const World& world, double tick_s, std::size_t most);
 
 }  // namespace mobil::inline v0_3

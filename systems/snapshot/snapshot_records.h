@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "systems/bellies/choice_words.h"
+#include "systems/bellies/leg_muscles_io.h"
 
 namespace mobil::inline v0_3 {
 
@@ -34,14 +34,14 @@ struct SavedGlobal {
 enum class ResourceKind : std::uint32_t { unknown, choice, shape, lines, solver, basis, finite, named };
 
 /// What a shared resource is made from, in one form: what it does not depend on is as in a LegMuscles{}. Of a choice of
-/// muscles `choice` is the resource itself; its `muscle` is most_muscles: any.
+/// muscles `choice` is the resource itself; its `muscle` is max_muscles: any.
 struct Recipe {
   ResourceKind kind;
   std::uint32_t muscle;
-  ChoiceWords choice;
+  LegMusclesWords choice;
   std::uint64_t dt, across, along;             // of a solver: doubles; of a basis across / along and their product;
                                                // of a named one: hashes of the module's name and its own, its part
-  std::uint32_t method, mass, vectors, spare;  // of a solver; of a basis
+  std::uint32_t method, mass, modes, spare;    // of a solver; of a basis
 
   friend bool operator==(const Recipe& a, const Recipe& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
 };

@@ -61,7 +61,7 @@ std::uint64_t fingerprint(const MuscleTemplate& shape) {
   const FiniteTissue& tissue = shape.finite.tissue;
   if (shape.finite.element.empty()) return print.hash();
   for (const double number : {tissue.shear_pa, tissue.bulk_over_shear, tissue.active_pa, tissue.passive_pa,
-                              tissue.rest_over_optimal, tissue.force_slope, tissue.least_share, tissue.slack_tone}) {
+                              tissue.rest_over_optimal, tissue.force_slope, tissue.min_share, tissue.slack_tone}) {
     print.add(number);
   }
   for (const FiniteKernelElement& e : shape.finite.element) {
@@ -96,9 +96,9 @@ std::uint64_t fingerprint(const BellySolver& solver, const Cells& cells) {
   return print.hash();
 }
 
-std::uint64_t fingerprint(const ReducedBasis& basis) {
+std::uint64_t fingerprint(const ModalBasis& basis) {
   Fingerprint print;
-  for (const double value : {1.0 * basis.vectors, 1.0 * basis.inputs, basis.foundation_1_s2}) print.add(value);
+  for (const double value : {1.0 * basis.modes, 1.0 * basis.inputs, basis.foundation_1_s2}) print.add(value);
   each_number(basis, [&](double value) { print.add(value); });
   each_array(basis, !basis.turned.vector.empty(), [&](const auto& values, std::size_t) { print.add(values); });
   return print.hash();
@@ -135,14 +135,14 @@ Recipe recipe_of(ResourceKind kind, Muscle muscle, const LegMuscles& choice) {
   Recipe recipe{};
   recipe.kind = kind;
   recipe.muscle = static_cast<std::uint32_t>(muscle);
-  recipe.choice = choice_words(choice);
+  recipe.choice = leg_muscles_words(choice);
   return recipe;
 }
 Recipe shape_recipe(ResourceKind kind, const BellyTemplate& made) {
   LegMuscles alike = driven(made.choice, made.muscle);
   alike.stiffness_damping_s = made.choice.stiffness_damping_s;
   const Method method = made.choice.method;  // whose critical step it tells
-  alike.method = method == Method::icd || method == Method::finite ? method : Method::ecd;
+  alike.method = method == Method::implicit_central || method == Method::finite ? method : Method::explicit_central;
   return recipe_of(kind, made.muscle, alike);
 }
 
@@ -173,7 +173,7 @@ bool sound(double size) {
 
 /// Whether a choice's bases have the usual mesh, as those do that say nothing of bases.
 bool has_usual_basis(const LegMuscles& choice) {
-  return choice.reduced.cells == ReducedChoice{}.cells;
+  return choice.modal.cells == ModalOptions{}.cells;
 }
 
 /// Of the mesh that it takes to make this, or what a choice leads to later.
@@ -182,8 +182,7 @@ std::size_t nodes_of(const Recipe& recipe) {
   if (!choice) return 0;
   const bool with_basis =
       recipe.kind == ResourceKind::basis || (recipe.kind == ResourceKind::choice && !has_usual_basis(*choice));
-  return with_basis ? std::max(node_count(choice->cells), node_count(choice->reduced.cells))
-                    : node_count(choice->cells);
+  return with_basis ? std::max(node_count(choice->cells), node_count(choice->modal.cells)) : node_count(choice->cells);
 }
 
 }  // namespace
@@ -201,7 +200,7 @@ std::uint64_t resource_type(const Recipe& recipe) {
     case ResourceKind::solver:
       return type_id<BellySolver>();
     case ResourceKind::basis:
-      return type_id<ReducedBasis>();
+      return type_id<ModalBasis>();
     case ResourceKind::finite:
       return type_id<FiniteShape>();
     default:
@@ -216,7 +215,7 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
     for (const auto& made : library.choices_) {
       if (made.get() != resource) continue;
       known = {recipe_of(ResourceKind::choice, Muscle{}, *made), hash_of(*made)};
-      known.recipe.muscle = most_muscles;
+      known.recipe.muscle = max_muscles;
     }
     for (const auto& made : library.templates_) {
       if (made->shape.get() == resource) {
@@ -232,19 +231,19 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
       const BellySolver& solver = *made.solver;
       known = {shape_recipe(ResourceKind::solver, *made.shape), fingerprint(solver, made.shape->choice.cells)};
       known.recipe.method = static_cast<std::uint32_t>(solver.method);
-      known.recipe.mass = static_cast<std::uint32_t>(solver.method == Method::caa ? solver.mass : Mass::lumped);
+      known.recipe.mass = static_cast<std::uint32_t>(solver.method == Method::newmark ? solver.mass : Mass::lumped);
       known.recipe.dt = std::bit_cast<std::uint64_t>(solver.dt_s);
       known.recipe.across = std::bit_cast<std::uint64_t>(solver.across);
       known.recipe.along = std::bit_cast<std::uint64_t>(solver.along);
     }
     for (const auto& made : library.bases_) {
-      const ReducedBasis* basis = made.whole.get() == resource ? made.whole.get() : nullptr;
+      const ModalBasis* basis = made.whole.get() == resource ? made.whole.get() : nullptr;
       for (const auto& cut : made.cut) basis = cut.get() == resource ? cut.get() : basis;
       if (basis == nullptr) continue;
       LegMuscles alike = basis_choice(made.choice, made.muscle);
-      alike.reduced.vectors = basis->vectors;
+      alike.modal.modes = basis->modes;
       known = {recipe_of(ResourceKind::basis, made.muscle, alike), fingerprint(*basis)};
-      known.recipe.vectors = basis->vectors;
+      known.recipe.modes = basis->modes;
       known.recipe.across = std::bit_cast<std::uint64_t>(made.middle_ratio);
       known.recipe.along = std::bit_cast<std::uint64_t>(made.middle_product);
     }
@@ -257,7 +256,7 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
   }
 }
 
-Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, std::size_t most_nodes, World& world,
+Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, std::size_t max_nodes, World& world,
                                               BellyLibrary& library, std::span<const Module> modules) {
   const auto is = [&](std::size_t i) {
     return known_[i].fingerprint == saved.fingerprint && known_[i].recipe == saved.recipe;
@@ -275,11 +274,11 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, std::s
   if (saved.recipe.kind == ResourceKind::named)
     return fail(
         "the snapshot shares a named resource that no module here has; give it the modules that it was made with");
-  if (const std::size_t nodes = nodes_of(saved.recipe); nodes > most_nodes && !is_there(saved.recipe, library)) {
+  if (const std::size_t nodes = nodes_of(saved.recipe); nodes > max_nodes && !is_there(saved.recipe, library)) {
     return fail(
         fmt::format("the snapshot needs a mesh of {} nodes that this simulation has not prepared, and at most {} may"
                     " be made; prepare or load it before, or raise RestoreLimits",
-                    nodes, most_nodes));
+                    nodes, max_nodes));
   }
   if (auto made = make(saved.recipe, world, library); !made)
     return fail("the snapshot needs a muscle's mesh, solver, basis or shape that cannot be made again: " +
@@ -297,7 +296,7 @@ bool ResourceList::is_there(const Recipe& recipe, BellyLibrary& library) {
   const auto choice = choice_of(recipe.choice);
   if (choice && recipe.kind == ResourceKind::choice) {
     const auto has_mesh = [&](const auto& made) { return same_tissue(made->choice, *choice); };
-    const auto has_basis = [&](const auto& made) { return made.choice.reduced.cells == choice->reduced.cells; };
+    const auto has_basis = [&](const auto& made) { return made.choice.modal.cells == choice->modal.cells; };
     return std::ranges::any_of(library.templates_, has_mesh) &&
            (has_usual_basis(*choice) || std::ranges::any_of(library.bases_, has_basis));
   }

@@ -32,7 +32,7 @@ class ResourceList {
 
   /// The number of that resource in this world, found or made again and shared. Errors: a
   /// recipe that the library refuses, or of a mesh with more nodes than that; numbers that come out otherwise.
-  Result<std::uint64_t> number_of(const SavedResource& saved, std::size_t most_nodes, World& world,
+  Result<std::uint64_t> number_of(const SavedResource& saved, std::size_t max_nodes, World& world,
                                   BellyLibrary& library, std::span<const Module> modules);
 
  private:

@@ -12,7 +12,7 @@
 #include <mobil/rows.h>
 #include "systems/lines/elongations.h"
 #include "systems/muscles/muscle_parts.h"
-#include "systems/people/whole.h"
+#include "systems/people/compact_pose.h"
 #include "systems/states/compact_codes.h"
 
 namespace mobil::inline v0_3 {
@@ -22,35 +22,35 @@ constexpr std::uint8_t not_compact = 0xFF;
 
 /// What a muscle of that table is in a compact row; not_compact where it cannot be in one.
 std::uint8_t code_of(const MuscleKind& kind) {
-  const ReducedChoice& reduced = kind.method.reduced;
+  const ModalOptions& modal = kind.method.modal;
   const bool plain = !kind.inertia && !kind.line_motion && kind.activation == ExcitationSource::none && !kind.fading &&
                      kind.far_end == FarEnd::held && kind.choice->drive == Drive::displacement;
   if (!plain) return not_compact;
   if (kind.method.method == Method::none) return compact_none;
-  if (kind.method.method != Method::reduced || reduced.control_points) return not_compact;
-  if (!reduced.moving) {
-    return reduced.vectors == ReducedChoice{}.vectors ? static_cast<std::uint8_t>(compact_static) : not_compact;
+  if (kind.method.method != Method::modal || modal.control_points) return not_compact;
+  if (!modal.moving) {
+    return modal.modes == ModalOptions{}.modes ? static_cast<std::uint8_t>(compact_static) : not_compact;
   }
-  return reduced.vectors < compact_static ? static_cast<std::uint8_t>(reduced.vectors) : not_compact;
+  return modal.modes < compact_static ? static_cast<std::uint8_t>(modal.modes) : not_compact;
 }
 
-MuscleMethod method_of(std::uint32_t code, const ReducedChoice& mesh) {
+MuscleMethod method_of(std::uint32_t code, const ModalOptions& mesh) {
   if (code == compact_none) return {Method::none, {}};
-  ReducedChoice reduced = mesh;
-  reduced.moving = code != compact_static;
-  if (reduced.moving) reduced.vectors = code;
-  return {Method::reduced, reduced};
+  ModalOptions modal = mesh;
+  modal.moving = code != compact_static;
+  if (modal.moving) modal.modes = code;
+  return {Method::modal, modal};
 }
 
 /// What is kept of a choice: all but the methods, which the codes are.
-LegMuscles kept_of(const LegMuscles& tissue, const std::optional<ReducedChoice>& mesh, MuscleSet muscles) {
+LegMuscles kept_of(const LegMuscles& tissue, const std::optional<ModalOptions>& mesh, MuscleSet muscles) {
   LegMuscles kept = tissue;
   kept.muscles = muscles;
   kept.method = Method::none;
-  kept.reduced = {.control_points = false, .reported = false};
+  kept.modal = {.control_points = false, .reported = false};
   if (!mesh) return kept;
-  kept.reduced.corrected = mesh->corrected;
-  kept.reduced.cells = mesh->cells;
+  kept.modal.corrected = mesh->corrected;
+  kept.modal.cells = mesh->cells;
   return kept;
 }
 
@@ -61,18 +61,18 @@ const CompactWork::Known& known_of(const World& world, std::uint32_t table, Comp
   if (known.looked) return known;
   known.looked = true;
   known.code = not_compact;
-  const TableKey& key = world.tables()[table].key();
+  const Archetype& key = world.tables()[table].key();
   const auto kind = muscle_kind(key, world);
   // A host's own part would be lost.
   if (!kind || key.size() != muscle_parts(*kind).size()) return known;
   known.code = code_of(*kind);
   known.number = static_cast<std::uint8_t>(kind->muscle);
   known.tissue = kind->choice.resource;
-  known.mesh = kind->method.reduced;
+  known.mesh = kind->method.modal;
   return known;
 }
 
-bool same_mesh(const ReducedChoice& a, const ReducedChoice& b) {
+bool same_mesh(const ModalOptions& a, const ModalOptions& b) {
   return a.corrected == b.corrected && a.cells == b.cells;
 }
 
@@ -86,7 +86,7 @@ void look_at(const MuscleScene& scene, Entity person, CompactWork& work) {
   const std::size_t first = work.muscles.size();
   bool fits = true;
   const LegMuscles* tissue = nullptr;
-  std::optional<ReducedChoice> mesh;
+  std::optional<ModalOptions> mesh;
   MuscleSet set;
   world.each_member(person, [&](Entity member) {
     if (!world.has<MuscleOwner>(member)) return;
@@ -104,7 +104,7 @@ void look_at(const MuscleScene& scene, Entity person, CompactWork& work) {
   const auto own = std::span(work.muscles).subspan(first);
   const auto order = [](const CompactWork::Muscle& m) { return std::pair(m.number, m.side); };
   std::ranges::sort(own, {}, order);
-  fits = fits && own.size() == 2 * set.count() && set.count() <= most_compact;
+  fits = fits && own.size() == 2 * set.count() && set.count() <= max_compact;
   std::uint64_t all = 0;
   for (std::size_t i = 0; fits && i < own.size(); i += 2) {
     fits = own[i].code == own[i + 1].code;
@@ -137,22 +137,22 @@ void gather_compact(const World& world, std::span<const CompactWork::Person> peo
       put(work.motion, width.motion, 1, scale.shank);
       put(work.motion, width.motion, 2, scale.across);
       if (!moves(right.code)) continue;
-      const std::uint32_t vectors = right.code;
+      const std::uint32_t modes = right.code;
       for (std::uint32_t side = 0; side < 2; ++side) {
         const Entity muscle = work.muscles[person.first + m + side].entity;
-        work.row.resize(std::size_t{2} * vectors);
-        world.get_field<ReducedState>(muscle, work.row);
-        const std::uint32_t first = at.state + side * (1 + 2 * vectors);
+        work.row.resize(std::size_t{2} * modes);
+        world.get_field<ModalState>(muscle, work.row);
+        const std::uint32_t first = at.state + side * (1 + 2 * modes);
         put(work.state, width.state, first, world.get<EndDrive>(muscle)->to);
-        for (std::uint32_t w = 0; w < 2 * vectors; ++w) put(work.state, width.state, first + 1 + w, work.row[w]);
+        for (std::uint32_t w = 0; w < 2 * modes; ++w) put(work.state, width.state, first + 1 + w, work.row[w]);
       }
       const MuscleLines& lines = lines_of(static_cast<Muscle>(right.number));
       const double rest = double{world.get<LineOfAction>(right.entity)->rest_length_m};
       put(work.motion, width.motion, at.motion, static_cast<float>(rest - constant_length_m(lines, scale)));
-      work.row.resize(std::size_t{3} * vectors);
-      world.get_field<ReducedMotion>(right.entity, work.row);
-      for (std::uint32_t w = 0; w < 3 * vectors; ++w) put(work.motion, width.motion, at.motion + 1 + w, work.row[w]);
-      at.skip(vectors);
+      work.row.resize(std::size_t{3} * modes);
+      world.get_field<ModalMotion>(right.entity, work.row);
+      for (std::uint32_t w = 0; w < 3 * modes; ++w) put(work.motion, width.motion, at.motion + 1 + w, work.row[w]);
+      at.skip(modes);
     }
   }
 }
@@ -167,8 +167,8 @@ void compact_alike(const MuscleScene& scene, std::span<const CompactWork::Person
     const CompactLayout width = compact_width(people.front().codes);
     if (width.state > 0) {
       gather_compact(world, people, width, work);
-      parts.push_back({key_part(FieldWidth<CompactState>{width.state}), work.state.data()});
-      parts.push_back({key_part(FieldWidth<CompactMotion>{width.motion}), work.motion.data()});
+      parts.push_back({component_id(FieldWidth<CompactState>{width.state}), work.state.data()});
+      parts.push_back({component_id(FieldWidth<CompactMotion>{width.motion}), work.motion.data()});
     }
     parts.push_back(part_value(TagValue<CompactMuscles>{people.front().codes}));
     parts.push_back(part_value(choice));
@@ -179,7 +179,7 @@ void compact_alike(const MuscleScene& scene, std::span<const CompactWork::Person
   std::ranges::sort(owned);
   work.entities.clear();
   for (const CompactWork::Person& person : people) work.entities.push_back(person.entity);
-  world.remake_many(work.entities, parts, owned, scene.jobs);
+  world.change_archetype(work.entities, parts, owned, scene.jobs);
 }
 
 /// What somebody compact was, before they are whole again.
@@ -207,7 +207,7 @@ Result<void> begin_alike(const MuscleScene& scene, std::span<const Entity> peopl
   World& world = scene.world;
   const std::uint32_t width = compact_width(kept.codes).state;
   std::uint32_t begun = 0;  // places
-  std::array<std::uint8_t, most_compact> numbers{};
+  std::array<std::uint8_t, max_compact> numbers{};
   std::size_t count = 0;
   for (std::size_t m = 0; m < kept.choice->muscles.size(); ++m)
     if (kept.choice->muscles[m]) numbers[count++] = static_cast<std::uint8_t>(m);
@@ -215,9 +215,9 @@ Result<void> begin_alike(const MuscleScene& scene, std::span<const Entity> peopl
     if ((begun >> first & 1U) != 0) continue;
     const std::uint32_t code = code_at(kept.codes, first);
     LegMuscles choice = *kept.choice;
-    const MuscleMethod method = method_of(code, kept.choice->reduced);
+    const MuscleMethod method = method_of(code, kept.choice->modal);
     choice.method = method.method;
-    choice.reduced = method.reduced;
+    choice.modal = method.modal;
     choice.muscles.reset();
     for (std::size_t place = first; place < count; ++place) {
       if (code_at(kept.codes, place) != code) continue;
@@ -235,11 +235,11 @@ Result<void> begin_alike(const MuscleScene& scene, std::span<const Entity> peopl
       std::size_t place = 0;
       for (; numbers[place] != *number; ++place)
         if (const std::uint32_t code = code_at(kept.codes, place); moves(code)) at.skip(code);
-      const std::uint32_t vectors = code_at(kept.codes, place);
-      if (!moves(vectors)) return;
-      const float* const own = &states[i * width + at.state + owner->side * (1 + 2 * vectors)];
+      const std::uint32_t modes = code_at(kept.codes, place);
+      if (!moves(modes)) return;
+      const float* const own = &states[i * width + at.state + owner->side * (1 + 2 * modes)];
       world.set(member, EndDrive<float>{own[0], own[0]});
-      world.set_field<ReducedState>(member, std::span(own + 1, std::size_t{2} * vectors));
+      world.set_field<ModalState>(member, std::span(own + 1, std::size_t{2} * modes));
     });
   }
   return {};
@@ -261,13 +261,13 @@ std::size_t compact_people(const MuscleScene& scene, std::span<const Entity> peo
   std::ranges::stable_sort(work.people, {}, order);
   // Muscles go when everybody is compact: to become so takes memory, and can be undone.
   work.rows.clear();
-  World::Attempt attempt(scene.world, scene.jobs);
+  World::Transaction transaction(scene.world, scene.jobs);
   for (auto first = work.people.begin(); first != work.people.end();) {
     const auto end = std::find_if(first, work.people.end(), [&](const auto& p) { return order(p) != order(*first); });
     compact_alike(scene, {first, end}, work);
     first = end;
   }
-  attempt.keep();
+  transaction.commit();
   scene.world.destroy_many(work.rows, scene.jobs);
   if (!work.people.empty()) scene.work.recent = {};
   return compact + work.people.size();
@@ -292,7 +292,7 @@ Result<void> expand_people(const MuscleScene& scene, std::span<const Entity> peo
     for (std::size_t i = 0; i < count && width > 0; ++i)
       world.get_field<CompactState>(some[i], std::span(work.state_rows).subspan(i * width, width));
     constexpr auto all = compact_part_ids();
-    make_whole(world, scene.jobs, some, std::span(all).first(kept.begun ? all.size() : 0), work.whole);
+    make_full(world, scene.jobs, some, std::span(all).first(kept.begun ? all.size() : 0), work.whole);
     if (!kept.begun) continue;
     if (auto done = begin_alike(scene, some, kept, work.state_rows); !done) return done;
   }
@@ -307,7 +307,7 @@ MuscleMethod compact_method(const World& world, Entity person, Muscle muscle) {
     return {Method::none, {}};
   std::size_t place = 0;
   for (std::size_t m = 0; m < number; ++m) place += choice->muscles[m] ? 1 : 0;
-  return method_of(code_at(*codes, place), choice->reduced);
+  return method_of(code_at(*codes, place), choice->modal);
 }
 
 }  // namespace mobil::inline v0_3

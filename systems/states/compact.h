@@ -12,7 +12,7 @@
 #include <mobil/engine/error.h>
 #include <mobil/engine/world.h>
 #include "systems/muscles/leg_muscles.h"
-#include "systems/people/whole.h"
+#include "systems/people/compact_pose.h"
 
 namespace mobil::inline v0_3 {
 
@@ -35,7 +35,7 @@ struct CompactWork {
     bool looked = false;
     std::uint8_t code = 0, number = 0;
     const LegMuscles* tissue = nullptr;
-    ReducedChoice mesh{};
+    ModalOptions mesh{};
   };
   std::vector<Known> known;
   std::vector<Muscle> muscles;
@@ -43,11 +43,11 @@ struct CompactWork {
   std::vector<Entity> entities, rows;
   std::vector<Lanes<float>> state, motion;
   std::vector<float> row, state_rows;
-  WholeWork whole;
+  FullPoseWork whole;
 };
 
 /// Of walkers named once each those become compact who may, and whose muscles, if any, are all drawn by displacement,
-/// without effects, without control points, and move along 1 to 30 vectors of one mesh, or are static or not simulated
+/// without effects, without control points, and move along 1 to 30 modes of one mesh, or are static or not simulated
 /// at all; nobody with forces or who fades. Returns how many of these are compact now.
 std::size_t compact_people(const MuscleScene& scene, std::span<const Entity> people, CompactWork& work);
 /// Compact people, named once each, are whole again, their muscles as far as they had come. Errors: what muscles are

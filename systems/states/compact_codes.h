@@ -9,7 +9,7 @@
 
 namespace mobil::inline v0_3 {
 
-inline constexpr std::uint32_t code_bits = 5, most_compact = 64 / code_bits;
+inline constexpr std::uint32_t code_bits = 5, max_compact = 64 / code_bits;
 
 inline std::uint32_t code_at(std::uint64_t codes, std::size_t place) {
   return static_cast<std::uint32_t>(codes >> (code_bits * place)) & 31U;
@@ -22,15 +22,15 @@ inline bool moves(std::uint32_t code) {
 /// Where a person's fields have a muscle: words before it.
 struct CompactLayout {
   std::uint32_t state = 0, motion = sizeof(LegScale<float>) / sizeof(float);
-  void skip(std::uint32_t vectors) {
-    state += 2 * (1 + 2 * vectors);
-    motion += 1 + 3 * vectors;
+  void skip(std::uint32_t modes) {
+    state += 2 * (1 + 2 * modes);
+    motion += 1 + 3 * modes;
   }
 };
 /// How wide the fields are; where nothing moves there are none.
 inline CompactLayout compact_width(std::uint64_t codes) {
   CompactLayout all;
-  for (std::size_t place = 0; place < most_compact; ++place)
+  for (std::size_t place = 0; place < max_compact; ++place)
     if (const std::uint32_t code = code_at(codes, place); moves(code)) all.skip(code);
   return all;
 }

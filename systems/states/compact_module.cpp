@@ -12,7 +12,7 @@
 #include <mobil/schedule.h>
 #include "engine/fetch_ahead.h"
 #include "engine/snapshot.h"
-#include "systems/deformation/reduced.h"
+#include "systems/deformation/modal.h"
 #include "systems/deformation/restart.h"
 #include "systems/gait/knee_frames.h"
 #include "systems/lines/elongations.h"
@@ -35,12 +35,12 @@ void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPl
   const auto* const words = reinterpret_cast<const Lanes<float>*>(motion.data);
   const LegScale<Lanes<float>> scale = {words[0], words[1], words[2]};
   struct Moving {
-    std::uint32_t vectors;
+    std::uint32_t modes;
     CompactLayout at;
   };
-  std::array<Moving, most_compact> moving;
-  std::array<ElongatedLine, most_compact> lines;
-  std::array<Lanes<float>, most_compact> now;
+  std::array<Moving, max_compact> moving;
+  std::array<ElongatedLine, max_compact> lines;
+  std::array<Lanes<float>, max_compact> now;
   std::size_t count = 0, place = 0;
   CompactLayout at;
   for (std::size_t m = 0; m < choice->muscles.size(); ++m) {
@@ -60,26 +60,26 @@ void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPl
     for (std::size_t i = 0; i < count; ++i) {
       motions.fetch(motion_lines);
       states.fetch(state_lines);
-      const auto& [vectors, from] = moving[i];
-      float* const own = state.data + lane_count * (from.state + side * (1 + 2 * vectors));
+      const auto& [modes, from] = moving[i];
+      float* const own = state.data + lane_count * (from.state + side * (1 + 2 * modes));
       auto& before = *reinterpret_cast<Lanes<float>*>(own);
-      restarted.add(count_rows(swing_reduced(vectors, before, now[i], tick_s, own + lane_count,
-                                             motion.data + lane_count * (from.motion + 1)),
-                               rows));
+      restarted.add(count_rows(
+          swing_modal(modes, before, now[i], tick_s, own + lane_count, motion.data + lane_count * (from.motion + 1)),
+          rows));
       before = now[i];
     }
   }
 }
 
 /// Who is compact is a walker without a pose; fields are as wide as the codes say.
-Result<void> check_compact_key(const TableKey& key, const World& world) {
+Result<void> check_compact_key(const Archetype& key, const World& world) {
   const auto words = [&](std::uint64_t id) {
-    const KeyPart* const part = find_part(key, id);
+    const ComponentId* const part = find_component(key, id);
     return part == nullptr ? 0 : part->value;
   };
-  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
-  const KeyPart* const codes = find_part(key, type_id<CompactMuscles>());
-  const KeyPart* const choice = find_part(key, type_id<LegMuscles>());
+  const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
+  const ComponentId* const codes = find_component(key, type_id<CompactMuscles>());
+  const ComponentId* const choice = find_component(key, type_id<LegMuscles>());
   bool sound = codes != nullptr || (!has(type_id<CompactState>()) && !has(type_id<CompactMotion>()));
   if (codes != nullptr) {
     const CompactLayout width = compact_width(codes->value);
@@ -89,7 +89,7 @@ Result<void> check_compact_key(const TableKey& key, const World& world) {
   }
   if (sound && codes != nullptr) {
     const auto& set = static_cast<const LegMuscles*>(world.resource(choice->value))->muscles;
-    sound = set.count() <= most_compact && codes->value >> (code_bits * set.count()) == 0 &&
+    sound = set.count() <= max_compact && codes->value >> (code_bits * set.count()) == 0 &&
             (set >> muscles().size()).none();
   }
   if (sound) return {};
@@ -100,8 +100,8 @@ Result<void> check_compact_key(const TableKey& key, const World& world) {
 
 Module compact_module() {
   return {.name = "compact",
-          .parts = {key_part(FieldWidth<CompactState>{}), key_part(FieldWidth<CompactMotion>{}),
-                    key_part(TagValue<CompactMuscles>{})},
+          .parts = {component_id(FieldWidth<CompactState>{}), component_id(FieldWidth<CompactMotion>{}),
+                    component_id(TagValue<CompactMuscles>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("compact muscles", &move_compact); },
           .check_key = &check_compact_key};
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <mobil/muscle_table.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "systems/muscles/muscle_parts.h"
 #include "systems/states/person_states.h"
 
@@ -39,16 +39,16 @@ Result<void> change_full(const Frame& frame, std::span<const Entity> people, con
   if (is_one && !is_asleep(frame.world, people[0]) && !is_compact(frame.world, people[0]) &&
       !kept_choice(frame.world, people[0]))
     return change(0);
-  World::Attempt attempt(frame.world, frame.jobs);
-  if (auto done = make_muscles_whole(frame, people); !done) return done;
+  World::Transaction transaction(frame.world, frame.jobs);
+  if (auto done = make_muscles_full(frame, people); !done) return done;
   if (is_one) {
     auto done = change(0);
-    if (done) attempt.keep();
+    if (done) transaction.commit();
     return done;
   }
   for (std::size_t i = 0; i < people.size(); ++i)
     if (const Result<void> ok = check(i); !ok) return tl::unexpected(of_person(people, i, ok.error()));
-  attempt.keep();
+  transaction.commit();
   for (std::size_t i = 0; i < people.size(); ++i)
     if (const Result<void> done = change(i); !done) return tl::unexpected(of_person(people, i, done.error()));
   return {};
@@ -60,7 +60,7 @@ Result<void> check_method(const Frame& frame, Entity person, Muscle muscle, cons
     return fail(fmt::format("{}: no such muscle; set_muscles gives muscles", muscle_name(muscle)), Status::missing);
   choice->muscles = MuscleSet(1UL << static_cast<unsigned long>(muscle));
   choice->method = method.method;
-  choice->reduced = method.reduced;
+  choice->modal = method.modal;
   auto ok = check_leg_muscles(frame.world, *means_of(frame).library, means_of(frame).tick_s, person, *choice);
   if (ok) return ok;
   return fail(fmt::format("{}: {}", muscle_name(muscle), ok.error().message), ok.error().status);
@@ -70,7 +70,7 @@ Result<void> check_method(const Frame& frame, Entity person, Muscle muscle, cons
 
 /// Takes no memory for people who are full.
 static Result<void> remove_muscles(const Frame& frame, std::span<const Entity> people) {
-  if (auto done = make_muscles_whole(frame, people); !done) return done;
+  if (auto done = make_muscles_full(frame, people); !done) return done;
   for (const Entity person : people) {
     if (!has_muscles(frame.world, person)) continue;
     if (auto done = result_of("no muscles", remove_leg_muscles(frame.world, frame.jobs, person)); !done) return done;
@@ -84,8 +84,8 @@ Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, con
   if (!choice) return remove_muscles(frame, people);
   // Muscles that come can be undone. Those that change cannot: they follow once nobody can be refused.
   std::vector<std::size_t> have;
-  World::Attempt attempt(frame.world, frame.jobs);
-  if (auto done = make_muscles_whole(frame, people); !done) return done;
+  World::Transaction transaction(frame.world, frame.jobs);
+  if (auto done = make_muscles_full(frame, people); !done) return done;
   for (std::size_t i = 0; i < people.size(); ++i) {
     Result<void> ok;
     if (has_muscles(frame.world, people[i])) {
@@ -96,7 +96,7 @@ Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, con
     }
     if (!ok) return tl::unexpected(of_person(people, i, ok.error()));
   }
-  attempt.keep();
+  transaction.commit();
   for (const std::size_t i : have)
     if (const auto done = change_leg_muscles(scene_of(frame), people[i], *choice); !done)
       return tl::unexpected(of_person(people, i, done.error()));

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <mobil/components/lod.h>
-#include <mobil/systems/people/person.h>
-#include <mobil/systems/people/step_watch.h>
-#include <mobil/systems/states/tiers.h>
-#include "systems/people/by_table.h"
+#include <mobil/systems/people/person_requests.h>
+#include <mobil/systems/people/step_log.h>
+#include <mobil/systems/states/lod_state.h>
+#include "systems/people/compact_pose.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
-#include "systems/people/whole.h"
+#include "systems/people/group_by_table.h"
 #include "systems/states/warm_muscles.h"
 
 namespace mobil::inline v0_3 {
@@ -34,7 +34,7 @@ Result<void> begin_kept(const Frame& frame, Entity person) {
   const auto choice = kept_choice(frame.world, person);
   if (!choice) return {};
   if (auto done = begin_leg_muscles(scene_of(frame), {&person, 1}, *choice); !done) return done;
-  frame.world.remake_many({&person, 1}, {}, std::array{type_id<LegMuscles>()}, frame.jobs);
+  frame.world.change_archetype({&person, 1}, {}, std::array{type_id<LegMuscles>()}, frame.jobs);
   choose_from_now(frame.world, person);
   return {};
 }
@@ -53,7 +53,7 @@ MuscleScene scene_of(const Frame& frame) {
 Result<void> wake(const Frame& frame, std::span<const Entity> people, float within_m) {
   World& world = frame.world;
   auto& work = frame.workspace.get<SleepWork>();
-  World::Attempt attempt(world, frame.jobs);
+  World::Transaction transaction(world, frame.jobs);
   work.asleep.clear();
   work.managed.clear();
   for (const Entity one : people)
@@ -61,26 +61,26 @@ Result<void> wake(const Frame& frame, std::span<const Entity> people, float with
   drop_repeated(work.asleep);
   drop_repeated(work.managed);
   if (!work.managed.empty()) {
-    if (auto done = wake_managed(frame, work.managed, Woken::whole); !done) return done;
+    if (auto done = wake_managed(frame, work.managed, Woken::full_detail); !done) return done;
   }
   const auto warm_them = [&](std::span<const Entity> some, const LegMuscles& choice) {
     warm(frame, some, choice, within_m);
   };
   auto done = wake_people(scene_of(frame), work.asleep, {}, {}, work.owned, work, std::cref(warm_them));
-  if (done) attempt.keep();
+  if (done) transaction.commit();
   return done;
 }
 
 Result<void> wake_managed(const Frame& frame, std::span<const Entity> people, Woken as) {
   auto& work = frame.workspace.get<SleepWork>();
   auto done = wake_people(scene_of(frame), people, {WakingMuscles::later, as}, managed_parts(), work.owned, work);
-  Tiers<float> unseen{};
+  LodState<float> unseen{};
   unseen.view = static_cast<std::uint32_t>(View::out_of_reach);
   for (const Entity person : people) frame.world.set(person, unseen);
   return done;
 }
 
-std::size_t sleep_managed(const Frame& frame, std::span<const Entity> people, std::span<const KeyPart> keeps) {
+std::size_t sleep_managed(const Frame& frame, std::span<const Entity> people, std::span<const ComponentId> keeps) {
   auto& work = frame.workspace.get<SleepWork>();
   return *sleep_people(scene_of(frame), people, true, keeps, work.owned, work);
 }
@@ -91,7 +91,7 @@ Result<std::size_t> set_state(const Frame& frame, std::span<const Entity> people
   if (state == PersonState::posed)
     return fail("nobody becomes posed; spawn_posed makes people whose host animates the skeleton");
   if (state == PersonState::compact) compact(frame, people);
-  if (state == PersonState::full) done = make_whole(frame, people, within_m);
+  if (state == PersonState::full) done = make_full(frame, people, within_m);
   if (state == PersonState::asleep) {
     const auto first = [&] { return expand(frame, people); };
     done = sleep_people(scene_of(frame), people, false, {}, work.owned, work, first).map([](std::size_t) {});
@@ -105,7 +105,7 @@ Result<std::size_t> set_state(const Frame& frame, std::span<const Entity> people
 Result<void> enable(const Frame& frame, std::span<const Entity> people, Feature feature, bool on) {
   World& world = frame.world;
   if (feature == Feature::step_events) {
-    const Status status = watch_steps(world, frame.jobs, people, on);
+    const Status status = enable_step_events(world, frame.jobs, people, on);
     if (status == Status::missing) return fail("the host animates one of these people; watch walkers alone", status);
     return result_of("step events", status);
   }
@@ -116,10 +116,10 @@ Result<void> enable(const Frame& frame, std::span<const Entity> people, Feature 
     if (!is_person(world, person)) return fail("a person is not there (a stale handle)", Status::stale_entity);
     if (has_forces(world, person) != on) changes.push_back(person);
   }
-  World::Attempt attempt(world, frame.jobs);
-  if (auto done = make_whole(frame, changes); !done) return done;
+  World::Transaction transaction(world, frame.jobs);
+  if (auto done = make_full(frame, changes); !done) return done;
   auto done = result_of("forces", set_forces(world, frame.jobs, changes, on));
-  if (done) attempt.keep();
+  if (done) transaction.commit();
   return done;
 }
 
@@ -128,14 +128,14 @@ std::size_t compact(const Frame& frame, std::span<const Entity> people) {
 }
 
 Result<void> expand(const Frame& frame, std::span<const Entity> people) {
-  World::Attempt attempt(frame.world, frame.jobs);
+  World::Transaction transaction(frame.world, frame.jobs);
   auto done = expand_people(scene_of(frame), people, frame.workspace.get<CompactWork>());
-  if (done) attempt.keep();
+  if (done) transaction.commit();
   return done;
 }
 
-Result<void> make_whole(const Frame& frame, std::span<const Entity> people, float within_m) {
-  World::Attempt attempt(frame.world, frame.jobs);
+Result<void> make_full(const Frame& frame, std::span<const Entity> people, float within_m) {
+  World::Transaction transaction(frame.world, frame.jobs);
   if (auto done = wake(frame, people, within_m); !done) return done;
   std::vector<Entity>& compact = frame.workspace.get<SleepWork>().rows;
   compact.clear();
@@ -145,17 +145,17 @@ Result<void> make_whole(const Frame& frame, std::span<const Entity> people, floa
     drop_repeated(compact);
     if (auto done = expand(frame, compact); !done) return done;
   }
-  attempt.keep();
+  transaction.commit();
   return {};
 }
 
-Result<void> make_muscles_whole(const Frame& frame, std::span<const Entity> people) {
-  World::Attempt attempt(frame.world, frame.jobs);
-  if (auto done = make_whole(frame, people); !done) return done;
+Result<void> make_muscles_full(const Frame& frame, std::span<const Entity> people) {
+  World::Transaction transaction(frame.world, frame.jobs);
+  if (auto done = make_full(frame, people); !done) return done;
   for (const Entity person : people) {
     if (auto done = begin_kept(frame, person); !done) return done;
   }
-  attempt.keep();
+  transaction.commit();
   return {};
 }
 
@@ -165,14 +165,14 @@ Result<void> begin_muscles(const Frame& frame, std::span<const Entity> people, c
 }
 
 void choose_from_now(World& world, Entity person) {
-  if (world.has<Tiers>(person)) world.set(person, tiers_of(world, person));
+  if (world.has<LodState>(person)) world.set(person, lod_state_of(world, person));
 }
 
 Result<std::size_t> change_walks(const Frame& frame, std::span<const WalkChange> changes) {
   auto& work = frame.workspace.get<SleepWork>();
   std::vector<Entity>& people = work.rows;
   people.clear();
-  for (const WalkChange& change : changes) people.push_back(change.human);
+  for (const WalkChange& change : changes) people.push_back(change.person);
   if (!frame.world.alive_once(people))
     return fail("change_gait: a person is not there (a stale handle), or is named twice; name each once",
                 Status::stale_entity);

@@ -25,7 +25,7 @@ Result<void> wake(const Frame& frame, std::span<const Entity> people, float with
 Result<void> wake_managed(const Frame& frame, std::span<const Entity> people, Woken as);
 /// People who may do so fall asleep, managed by level of detail, and keep `keeps` of the library's parts. Named once
 /// each. Returns how many.
-std::size_t sleep_managed(const Frame& frame, std::span<const Entity> people, std::span<const KeyPart> keeps);
+std::size_t sleep_managed(const Frame& frame, std::span<const Entity> people, std::span<const ComponentId> keeps);
 /// As Simulation::set_state and enable, people being alive and named once each; messages without these names.
 Result<std::size_t> set_state(const Frame& frame, std::span<const Entity> people, PersonState state, float within_m);
 Result<void> enable(const Frame& frame, std::span<const Entity> people, Feature feature, bool on);
@@ -33,9 +33,9 @@ Result<void> enable(const Frame& frame, std::span<const Entity> people, Feature 
 std::size_t compact(const Frame& frame, std::span<const Entity> people);
 Result<void> expand(const Frame& frame, std::span<const Entity> people);
 /// Sleepers wake and compact people are full. Alive; a name may come twice. All, or nobody.
-Result<void> make_whole(const Frame& frame, std::span<const Entity> people, float within_m = 0.005F);
+Result<void> make_full(const Frame& frame, std::span<const Entity> people, float within_m = 0.005F);
 /// The same, and muscles that somebody is to have later begin.
-Result<void> make_muscles_whole(const Frame& frame, std::span<const Entity> people);
+Result<void> make_muscles_full(const Frame& frame, std::span<const Entity> people);
 
 /// The choices of muscles begin, within `within_m` of where they would be (Simulation::set_state), on people who are
 /// awake, whole and without muscles.

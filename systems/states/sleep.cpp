@@ -7,7 +7,7 @@
 
 #include <mobil/components/compact.h>
 #include <mobil/components/fat.h>
-#include <mobil/systems/people/step_watch.h>
+#include <mobil/systems/people/step_log.h>
 #include "engine/row_hash.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/fat_wobble.h"
@@ -82,7 +82,7 @@ void find_asked(const World& world, const Jobs& jobs, std::span<const WalkChange
   }
   must_wake.clear();
   for (std::size_t i = 0; i < changes.size(); ++i)
-    if (asked[i].gait && asked[i].must_wake) must_wake.push_back(changes[i].human);
+    if (asked[i].gait && asked[i].must_wake) must_wake.push_back(changes[i].person);
 }
 
 std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange> changes, const SleepTime& now,
@@ -94,9 +94,9 @@ std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange
     if (!asked.gait) {
       ++refused;
     } else if (asked.asleep && !asked.must_wake) {
-      work.asked_sleepers.push_back({changes[i].human, *asked.gait});
+      work.asked_sleepers.push_back({changes[i].person, *asked.gait});
     } else {
-      world.set(changes[i].human, *asked.gait);
+      world.set(changes[i].person, *asked.gait);
     }
   }
   ask_sleepers(world, jobs, work.asked_sleepers, now);
@@ -113,11 +113,11 @@ bool has_any_muscles(const World& world, Entity person) {
 }
 
 Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
-                                 std::span<const KeyPart> keeps, std::span<const std::uint64_t> owned, SleepWork& work,
-                                 const std::function<Result<void>()>& first) {
+                                 std::span<const ComponentId> keeps, std::span<const std::uint64_t> owned,
+                                 SleepWork& work, const std::function<Result<void>()>& first) {
   World& world = scene.world;
   // Who sleeps is made before muscles go: that takes memory, and what it has done can be undone.
-  World::Attempt attempt(world, scene.jobs);
+  World::Transaction transaction(world, scene.jobs);
   if (first) {
     if (auto done = first(); !done) return tl::unexpected(done.error());
   }
@@ -135,7 +135,7 @@ Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entit
     auto choice = choice_of(world, one.entity);
     if (!choice) choice = kept_choice(world, one.entity);
     SleepWork::Group group{&one, world.locate(one.entity)->table, one.style.has_value(), std::nullopt};
-    if (choice) group.choice = key_part(keep_choice(world, scene.library, *choice));
+    if (choice) group.choice = component_id(keep_choice(world, scene.library, *choice));
     work.groups.push_back(group);
   }
   const auto order = [](const SleepWork::Group& group) {
@@ -144,26 +144,26 @@ Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entit
   std::ranges::stable_sort(work.groups, {}, order);
   for (auto group = work.groups.begin(); group != work.groups.end();) {
     const auto end = std::find_if(group, work.groups.end(), [&](const auto& g) { return order(g) != order(*group); });
-    std::vector<KeyPart>& more = work.parts;
+    std::vector<ComponentId>& more = work.parts;
     more.clear();
     if (group->choice) more.push_back(*group->choice);
-    if (has_forces(world, group->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWithForces>{1}));
-    if (is_watched(world, group->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWatched>{1}));
-    if (has_fat(world, group->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWithFat>{1}));
-    for (const KeyPart& part : keeps)
+    if (has_forces(world, group->sleeper->entity)) more.push_back(component_id(TagValue<SleepsWithForces>{1}));
+    if (has_step_events(world, group->sleeper->entity)) more.push_back(component_id(TagValue<SleepsWithStepEvents>{1}));
+    if (has_fat(world, group->sleeper->entity)) more.push_back(component_id(TagValue<SleepsWithFat>{1}));
+    for (const ComponentId& part : keeps)
       if (!group->choice || part.id != group->choice->id) more.push_back(part);
     work.together.clear();
     for (; group != end; ++group) work.together.push_back(group->sleeper);
     put_to_sleep(world, scene.jobs, work.together, more, owned, work.falling);
   }
-  attempt.keep();
+  transaction.commit();
   world.destroy_many(work.rows, scene.jobs);
   scene.work.recent = {};
   return work.sleepers.size();
 }
 
 Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, const Waking& how,
-                         std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work,
+                         std::span<const ComponentId> more, std::span<const std::uint64_t> owned, SleepWork& work,
                          const MusclesBegun& then) {
   World& world = scene.world;
   if (work.all_but_choice.empty()) {
@@ -174,15 +174,15 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
   waking.clear();
   for (const Entity person : people)
     waking.push_back({person, world.shared<LegMuscles>(person), world.has<SleepsWithForces>(person),
-                      world.has<SleepsWatched>(person), world.has<SleepsWithFat>(person)});
+                      world.has<SleepsWithStepEvents>(person), world.has<SleepsWithFat>(person)});
   const bool later = how.muscles == WakingMuscles::later;
   for (const auto& [watched, fat] : {std::pair(false, false), {false, true}, {true, false}, {true, true}}) {
     work.alike.clear();
     work.parts.assign(more.begin(), more.end());
     for (const SleepWork::Sleeping& one : waking)
       if (one.watched == watched && one.fat == fat) work.alike.push_back(one.entity);
-    if (watched) work.parts.push_back(key_part(Publishes<StepEvents>{}));
-    if (fat) work.parts.push_back(component_part<FatWobble>());
+    if (watched) work.parts.push_back(component_id(Publishes<StepEvents>{}));
+    if (fat) work.parts.push_back(component_id<FatWobble>());
     wake_walkers(world, scene.jobs, work.alike, how.as, sleep_time(scene), work.parts,
                  later ? work.all_but_choice : owned, work.waking);
   }
@@ -191,18 +191,18 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
     if (one.forces) work.alike.push_back(one.entity);
   set_forces(world, scene.jobs, work.alike, true);
   // Each choice together.
-  std::vector<Entity> humans;
+  std::vector<Entity> alike;
   for (std::size_t first = 0; first < waking.size() && !later; ++first) {
     const LegMuscles* const choice = waking[first].choice;
     if (choice == nullptr) continue;
-    humans.clear();
+    alike.clear();
     for (std::size_t i = first; i < waking.size(); ++i) {
       if (waking[i].choice != choice) continue;
       waking[i].choice = nullptr;
-      humans.push_back(waking[i].entity);
+      alike.push_back(waking[i].entity);
     }
-    if (auto begun = begin_leg_muscles(scene, humans, *choice); !begun) return begun;
-    if (then) then(humans, *choice);
+    if (auto begun = begin_leg_muscles(scene, alike, *choice); !begun) return begun;
+    if (then) then(alike, *choice);
   }
   return {};
 }

@@ -36,7 +36,7 @@ struct SleepWork {
     const Sleeper* sleeper;
     std::uint32_t table;
     bool packed;
-    std::optional<KeyPart> choice;  // what muscles are to be
+    std::optional<ComponentId> choice;  // what muscles are to be
   };
 
   WakingWork waking;
@@ -53,13 +53,13 @@ struct SleepWork {
   std::vector<Entity> rows, restless, asleep, managed, alike;
   UnsettledTables unsettled;
   std::vector<std::uint64_t> owned;           // ids of the library's parts that no sleeper has, ascending
-  std::vector<KeyPart> parts;                 // of who wakes or falls asleep
+  std::vector<ComponentId> parts;             // of who wakes or falls asleep
   std::vector<std::uint64_t> all_but_choice;  // parts
   std::unique_ptr<WarmingRoom> warming;
   std::vector<AskedWalk> asked;
   std::vector<BodySize<float>> sizes;
   std::vector<Gait<float>> gaits;
-  StyleWork styles;
+  StyleLimitWork styles;
   std::vector<AskedSleeper> asked_sleepers;
   std::vector<Placing> ways;
 };
@@ -77,8 +77,8 @@ std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange
 /// sorted) they keep those of `keeps` alone. Returns how many fell asleep. Where memory runs out, nobody did, and what
 /// `first` has done is undone, too. Errors: those of `first`.
 Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
-                                 std::span<const KeyPart> keeps, std::span<const std::uint64_t> owned, SleepWork& work,
-                                 const std::function<Result<void>()>& first = {});
+                                 std::span<const ComponentId> keeps, std::span<const std::uint64_t> owned,
+                                 SleepWork& work, const std::function<Result<void>()>& first = {});
 /// Sleepers, named once each, wake where they are, with `more` parts (wake_walkers), and have their forces again.
 /// Muscles begin at rest where their person stands in the stride, or `later`: then what they are to be stays on the
 /// person's row (kept_choice). Errors: what muscles are refused for; those concerned are awake then, and have none.
@@ -86,11 +86,11 @@ Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entit
 enum class WakingMuscles : std::uint8_t { now, later };
 struct Waking {
   WakingMuscles muscles = WakingMuscles::now;
-  Woken as = Woken::whole;  // compact only with muscles later
+  Woken as = Woken::full_detail;  // compact only with muscles later
 };
 using MusclesBegun = std::function<void(std::span<const Entity> people, const LegMuscles& choice)>;
 Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, const Waking& waking,
-                         std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work,
+                         std::span<const ComponentId> more, std::span<const std::uint64_t> owned, SleepWork& work,
                          const MusclesBegun& then = {});
 /// What the muscles of a sleeper, or of somebody who woke without them, are to be; nothing where there are none to
 /// come, or they are there already.

@@ -5,7 +5,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/rows.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/sleepers.h>
 #include "engine/snapshot.h"
 #include "systems/gait/asleep.h"
@@ -48,8 +48,8 @@ void settle_own_styles(Asleep<Lanes<float>>& asleep, Unsettled<Lanes<float>>& si
 }
 
 /// A sleeper has one style, and is no walker.
-Result<void> check_sleeper_key(const TableKey& key, const World&) {
-  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+Result<void> check_sleeper_key(const Archetype& key, const World&) {
+  const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool asleep = has(type_id<Asleep<float>>());
   const bool packed = has(type_id<SleepingStyle<float>>()), own = has(type_id<OwnStyle<float>>());
   const bool others =
@@ -94,9 +94,9 @@ Result<void> check_sleepers(const SavedWorld& saved, std::uint32_t table) {
 
 Module sleep_module() {
   return {.name = "sleep",
-          .parts = {component_part<Asleep>(), component_part<SleepingStyle>(), component_part<OwnStyle>(),
-                    component_part<Unsettled>(), key_part(TagValue<SleepsWithForces>{}),
-                    key_part(TagValue<SleepsManaged>{})},
+          .parts = {component_id<Asleep>(), component_id<SleepingStyle>(), component_id<OwnStyle>(),
+                    component_id<Unsettled>(), component_id(TagValue<SleepsWithForces>{}),
+                    component_id(TagValue<SleepsManaged>{})},
           .systems =
               [](ScheduleBuilder& systems) {
                 systems.add_packed("sleepers' steps", &lanes_unsettled, &settle_sleepers)

@@ -12,7 +12,7 @@
 #include <mobil/components/pose.h>
 #include <mobil/engine/scratch.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/kinematics.h"
@@ -100,9 +100,11 @@ struct WokenRow {
         centre(row_of(of.centre, lane)) {}
 
   std::array<PartValue, 10> parts() const {
-    return {
-        part_value(size), part_value(physique), part_value(gait), part_value(plan),   part_value(state),
-        part_value(pose), part_value(angles),   part_value(feet), part_value(centre), part_value(Publishes<LegPost>{})};
+    return {part_value(size),   part_value(physique),
+            part_value(gait),   part_value(plan),
+            part_value(state),  part_value(pose),
+            part_value(angles), part_value(feet),
+            part_value(centre), part_value(Publishes<PublishedLeg>{})};
   }
 };
 
@@ -157,26 +159,26 @@ struct WakingWork::Blocks {
       }
     });
   }
-  void list_parts(std::span<const KeyPart> more, Woken as) {
-    parts = {{component_part<BodySize>(), size.data()},
-             {component_part<Physique>(), physique.data()},
-             {component_part<Gait>(), gait.data()},
-             {component_part<StepPlan>(), plan.data()},
-             {component_part<GaitState>(), state.data()}};
-    if (as == Woken::whole)
-      parts.insert(parts.end(), {{component_part<Pose>(), pose.data()},
-                                 {component_part<JointAngles>(), angles.data()},
-                                 {component_part<Feet>(), feet.data()},
-                                 {component_part<CentreOfMass>(), centre.data()},
-                                 part_value(Publishes<LegPost>{})});
-    for (const KeyPart& part : more) parts.push_back({part, nullptr});
+  void list_parts(std::span<const ComponentId> more, Woken as) {
+    parts = {{component_id<BodySize>(), size.data()},
+             {component_id<Physique>(), physique.data()},
+             {component_id<Gait>(), gait.data()},
+             {component_id<StepPlan>(), plan.data()},
+             {component_id<GaitState>(), state.data()}};
+    if (as == Woken::full_detail)
+      parts.insert(parts.end(), {{component_id<Pose>(), pose.data()},
+                                 {component_id<JointAngles>(), angles.data()},
+                                 {component_id<Feet>(), feet.data()},
+                                 {component_id<CentreOfMass>(), centre.data()},
+                                 part_value(Publishes<PublishedLeg>{})});
+    for (const ComponentId& part : more) parts.push_back({part, nullptr});
   }
 };
 WakingWork::WakingWork() = default;
 WakingWork::~WakingWork() = default;
 
 void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, Woken as, const SleepTime& time,
-                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work) {
+                  std::span<const ComponentId> more, std::span<const std::uint64_t> owned, WakingWork& work) {
   if (work.blocks == nullptr) work.blocks = std::make_unique<WakingWork::Blocks>();
   WakingWork::Blocks& blocks = *work.blocks;
   blocks.list_parts(more, as);
@@ -192,7 +194,7 @@ void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people
     left = left.subspan(count);
     blocks.fill(jobs, count, as, time.tick_s,
                 [&](WakingBlock& block, std::size_t i, std::size_t lane) { block.put(world, some[i], time, lane); });
-    world.remake_many(some, blocks.parts, owned, jobs);
+    world.change_archetype(some, blocks.parts, owned, jobs);
   }
 }
 
@@ -200,12 +202,13 @@ void create_steady(World& to, const Jobs& jobs, std::span<const Sleeper> walkers
                    std::span<Entity> entities, WakingWork& work) {
   if (work.blocks == nullptr) work.blocks = std::make_unique<WakingWork::Blocks>();
   WakingWork::Blocks& blocks = *work.blocks;
-  blocks.list_parts({}, Woken::whole);
+  blocks.list_parts({}, Woken::full_detail);
   while (!walkers.empty()) {
     const auto some = walkers.first(std::min(walkers.size(), WakingWork::Blocks::most * lane_count));
-    blocks.fill(jobs, some.size(), Woken::whole, then.tick_s, [&](WakingBlock& block, std::size_t i, std::size_t lane) {
-      block.put(some[i].asleep, some[i].own_style.style, std::nullopt, then, lane);
-    });
+    blocks.fill(jobs, some.size(), Woken::full_detail, then.tick_s,
+                [&](WakingBlock& block, std::size_t i, std::size_t lane) {
+                  block.put(some[i].asleep, some[i].own_style.style, std::nullopt, then, lane);
+                });
     to.create_many(blocks.parts, entities.first(some.size()), jobs);
     entities = entities.subspan(some.size());
     walkers = walkers.subspan(some.size());
@@ -231,7 +234,7 @@ Status read_asleep(const World& world, Entity person, const SleepTime& time, std
   }
   const auto block = std::make_unique<WakingBlock>();
   for (std::size_t l = 0; l < lane_count; ++l) block->put(world, person, time, l);
-  block->make(time.tick_s, Woken::whole);
+  block->make(time.tick_s, Woken::full_detail);
   const WokenRow woken(*block, 0);
   for (const PartValue& value : woken.parts()) {
     if (value.part.id != part || value.row == nullptr) continue;

@@ -7,7 +7,7 @@
 
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/sleepers.h>
 
 namespace mobil::inline v0_3 {
@@ -20,11 +20,11 @@ struct WakingWork {
   std::unique_ptr<Blocks> blocks;
 };
 /// As which they wake: with a pose, or without (mobil/components/compact.h).
-enum class Woken : std::uint8_t { whole, compact };
+enum class Woken : std::uint8_t { full_detail, compact };
 /// Sleepers become walkers where they are at that tick, with `more` parts: of zeros, where they did not keep them. Each
 /// is alive, asleep, and named once.
 void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, Woken as, const SleepTime& time,
-                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work);
+                  std::span<const ComponentId> more, std::span<const std::uint64_t> owned, WakingWork& work);
 
 /// The same steady walkers, as they were at that tick, as people of another world.
 void create_steady(World& to, const Jobs& jobs, std::span<const Sleeper> walkers, const SleepTime& then,

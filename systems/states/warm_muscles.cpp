@@ -17,7 +17,7 @@ void copy_muscle(const World& from, Entity source, World& to, Entity target) {
   const auto row = from.find(source);
   const auto into = to.find(target);
   std::vector<std::uint32_t> words;
-  for (const KeyPart& part : into.table->key()) {
+  for (const ComponentId& part : into.table->key()) {
     if (!has_column(part.kind) || part.id == type_id<MuscleOwner<float>>()) continue;
     const std::uint32_t column = row.table->column(part.id);
     const auto count = static_cast<std::uint32_t>(part.value);
@@ -40,7 +40,7 @@ std::uint32_t warm_ticks(float within_m, double tick_s) {
 
 WarmingRoom::WarmingRoom(std::span<const Module> modules, std::pmr::memory_resource* memory)
     : world_(memory), schedule_(*make_schedule(modules, memory)) {
-  world_.set_owner_part(component_part<MuscleOwner>());
+  world_.set_owner_part(component_id<MuscleOwner>());
 }
 
 void WarmingRoom::warm(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice,
@@ -72,8 +72,8 @@ void WarmingRoom::warm_people(const MuscleScene& scene, const LegMuscles& choice
   if (begin_leg_muscles(room, people_, choice)) {
     for (std::uint32_t tick = then; tick < now; ++tick) schedule_.run(world_, {tick_s, tick}, scene.jobs);
     for (std::size_t i = 0; i < steady_.size(); ++i) {
-      const std::vector<OwnMuscle> warm = muscles_of(world_, people_[i]);
-      const std::vector<OwnMuscle> cold = muscles_of(scene.world, steady_[i].entity);
+      const std::vector<MuscleRef> warm = muscles_of(world_, people_[i]);
+      const std::vector<MuscleRef> cold = muscles_of(scene.world, steady_[i].entity);
       for (std::size_t m = 0; m < std::min(warm.size(), cold.size()); ++m) {
         for (const Side side : {Side::right, Side::left})
           copy_muscle(world_, warm[m].entity[side], scene.world, cold[m].entity[side]);

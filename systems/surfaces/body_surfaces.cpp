@@ -12,7 +12,7 @@
 #include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_surfaces.h"
 #include "assets/surfaces/coarser_surface.h"
-#include "assets/surfaces/muscle_cage.h"
+#include "assets/surfaces/muscle_lattice.h"
 #include "assets/surfaces/surface_mesh.h"
 
 namespace mobil::inline v0_3 {
@@ -65,11 +65,11 @@ Result<std::size_t> Binding::driver_of(Muscle muscle) {
   if (known != made.driver.end()) return static_cast<std::size_t>(known - made.driver.begin());
   const auto rest = rest_mesh(body, muscle, choice.cells);
   if (!rest) return tl::unexpected(rest.error());
-  const auto& node = rest->cage.node;
+  const auto& node = rest->lattice.node;
   BodySurfaces::Driver driver{
       muscle, make_muscle_plan(body, muscle)->scale, static_cast<std::uint32_t>(node.size()), {}};
   for (const auto& n : node) driver.along.push_back(static_cast<float>(n.z / node.back().z));
-  made.most_nodes = std::max(made.most_nodes, node.size());
+  made.max_nodes = std::max(made.max_nodes, node.size());
   made.driver.push_back(std::move(driver));
   return made.driver.size() - 1;
 }
@@ -97,7 +97,7 @@ Result<void> Binding::add(const DrivenSurface& muscle) {
   }
   auto packed = pack_surface(muscle.surface, body, made.driver[*driver].nodes, texture.along);
   if (!packed) return tl::unexpected(packed.error());
-  made.most_places = std::max(made.most_places, packed->places());
+  made.max_places = std::max(made.max_places, packed->places());
   const SurfaceMesh& mesh = muscle.surface.mesh;
   const std::string name = mesh.name.ends_with("_right") ? mesh.name.substr(0, mesh.name.size() - 6) : mesh.name;
   const bool on_shank = muscle_row(muscle.driver).drawn.along == LegBone::shank;
@@ -117,15 +117,15 @@ Result<void> Binding::add(const DrivenSurface& muscle) {
 Result<RestMesh> rest_mesh(const Body& body, Muscle muscle, const Cells& cells) {
   const auto plan = make_muscle_plan(body, muscle);
   if (!plan) return tl::unexpected(plan.error());
-  auto cage = bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
-  if (!cage) return tl::unexpected(cage.error());
-  for (auto& node : cage->node) {
+  auto lattice = bend_block(cells, muscle_lattice(muscle), reference_belly_m(muscle), belly_grading);
+  if (!lattice) return tl::unexpected(lattice.error());
+  for (auto& node : lattice->node) {
     node.x *= static_cast<double>(plan->scale.across);
     node.y *= static_cast<double>(plan->scale.across);
     node.z *= static_cast<double>(plan->scale.along);
   }
   const RestFrame frame{geometry::to_float(plan->start_m), geometry::to_float(plan->rotation)};
-  return RestMesh{std::move(*cage), frame, passage_per_height * static_cast<double>(body.request.height_m)};
+  return RestMesh{std::move(*lattice), frame, passage_per_height * static_cast<double>(body.request.height_m)};
 }
 
 Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choice) {
@@ -146,7 +146,7 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
     } else {
       const auto mesh = rest_mesh(body, *driver, choice.cells);
       if (!mesh) return tl::unexpected(mesh.error());
-      bind_muscle(muscle.surface, mesh->cage, mesh->frame, muscle.attachments, mesh->least_passage_m);
+      bind_muscle(muscle.surface, mesh->lattice, mesh->frame, muscle.attachments, mesh->min_passage_m);
     }
     drawn.muscles.push_back({*driver, std::move(muscle.surface)});
   }

@@ -59,9 +59,9 @@ HWY_INLINE CoverV rounded_max(const CoverV& a, const CoverV& b, float w) {
 
 void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<const Vec3<float>> muscles,
            float* lift_m) {
-  constexpr float round_m = 0.004F, thin_m = 0.004F, least_m = 0.0005F;
+  constexpr float round_m = 0.004F, thin_m = 0.004F, min_m = 0.0005F;
   // More in the hollow of a bend, where points of the grid lie close together and heights change much between them.
-  constexpr float least_m_by_bend = 0.0008F;
+  constexpr float min_m_by_bend = 0.0008F;
   RingGrid reach;
   find_reach(rings, muscles, reach);
   const CoverV scale = splat(lengths);
@@ -76,7 +76,7 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
       const auto there = hn::Gt(most, hn::Zero(tag));
       over.part[p] = hn::IfThenElseZero(there, hn::Sub(rounded_max(skin, hn::Add(most, layer), round_m), skin));
       const CoverV hollow = hn::Max(hn::Zero(tag), hn::Mul(splat(rings.curved[i]), inner.part[p]));
-      const CoverV over_muscle = mul_add(hollow, splat(least_m_by_bend), splat(least_m));
+      const CoverV over_muscle = mul_add(hollow, splat(min_m_by_bend), splat(min_m));
       const CoverV thin = mul_add(splat(0.5F), hn::Min(layer, splat(thin_m)), over_muscle);
       least.part[p] = hn::IfThenElse(there, hn::Sub(hn::Add(thin, most), skin), hn::Neg(skin));
     }

@@ -17,7 +17,7 @@ Vec3<float> to_unit(const Vec3<float>& v) {
 
 }  // namespace
 
-void follow_skin(const OwnSkin& own, std::span<const Vec3<float>> skin_position,
+void follow_skin(const CustomSkin& own, std::span<const Vec3<float>> skin_position,
                  std::span<const Vec3<float>> skin_normal, std::span<Vec3<float>> position,
                  std::span<Vec3<float>> normal) {
   for (std::size_t v = 0; v < own.vertex.size(); ++v) {

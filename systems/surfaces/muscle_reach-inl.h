@@ -172,7 +172,7 @@ HWY_INLINE CoverV turn_of(const CoverV& x, const CoverV& z) {
 /// one's, to what, m.
 struct RaisedCells {
   alignas(64) std::int32_t cell[cover_batch];
-  alignas(64) float least_m[4 * cover_batch];
+  alignas(64) float min_m[4 * cover_batch];
 };
 
 /// Those beside a point count for less, so that nothing jumps as they pass. What is not on the grid, not near the leg,
@@ -180,7 +180,7 @@ struct RaisedCells {
 HWY_NOINLINE inline void find_cells(const OnLeg& at, float out_side, std::size_t count, RaisedCells& raised) {
   constexpr CoverTag tag;
   constexpr CoverIntTag whole;
-  constexpr float beside_m = 0.004F, most_m = 1;
+  constexpr float beside_m = 0.004F, max_m = 1;
   constexpr auto first_s = static_cast<float>(first_leg_s), last_s = static_cast<float>(last_leg_s);
   constexpr float stations = (leg_stations - 1) / (last_s - first_s);
   for (std::size_t first = 0; first < count; first += cover_lanes) {
@@ -189,7 +189,7 @@ HWY_NOINLINE inline void find_cells(const OnLeg& at, float out_side, std::size_t
     const CoverV radius = hn::Sqrt(mul_add(front, front, hn::Mul(out, out)));
     const CoverV along = hn::Mul(hn::Sub(hn::Load(tag, at.s + first), splat(first_s)), splat(stations));
     const CoverMask there = hn::And(hn::And(hn::Ge(along, hn::Zero(tag)), hn::Le(along, splat(leg_stations - 1))),
-                                    hn::Le(radius, splat(most_m)));
+                                    hn::Le(radius, splat(max_m)));
     const CoverV row = hn::IfThenElseZero(there, along), reaches = hn::IfThenElseZero(there, radius);
     const CoverV round = hn::IfThenElseZero(there, hn::Mul(turn_of(out, front), splat(leg_angles)));
     const auto i = hn::ConvertTo(whole, row);
@@ -199,7 +199,7 @@ HWY_NOINLINE inline void find_cells(const OnLeg& at, float out_side, std::size_t
     const auto counted = [&](const CoverV& a, const CoverV& b)
                              HWY_ATTR { return neg_mul_add(splat(beside_m), mul_add(a, a, hn::Mul(b, b)), reaches); };
     hn::StoreInterleaved4(counted(u, v), counted(u, v1), counted(u1, v), counted(u1, v1), tag,
-                          raised.least_m + 4 * first);
+                          raised.min_m + 4 * first);
     hn::Store(hn::Add(hn::Mul(i, hn::Set(whole, std::int32_t{leg_angles})), place_in_ring(j)), whole,
               raised.cell + first);
   }
@@ -249,7 +249,7 @@ HWY_NOINLINE inline void find_reach(const LegRings& rings, std::span<const Vec3<
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t v = n + k * part;
         float* const cell = &cells[4 * static_cast<std::size_t>(raised.cell[v])];
-        hn::Store(hn::Max(hn::Load(four, cell), hn::Load(four, raised.least_m + 4 * v)), four, cell);
+        hn::Store(hn::Max(hn::Load(four, cell), hn::Load(four, raised.min_m + 4 * v)), four, cell);
       }
     }
   }

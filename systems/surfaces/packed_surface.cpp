@@ -15,11 +15,11 @@ using namespace geometry;
 
 namespace {
 
-enum class Follows : std::uint8_t { cage, both, bones };
+enum class Follows : std::uint8_t { lattice, both, bones };
 
 Follows follows(const VertexBinding& b) {
-  if (b.cage == 0) return Follows::bones;
-  return b.cage == 1 && b.origin == 0 && b.insertion == 0 ? Follows::cage : Follows::both;
+  if (b.lattice == 0) return Follows::bones;
+  return b.lattice == 1 && b.origin == 0 && b.insertion == 0 ? Follows::lattice : Follows::both;
 }
 
 /// Vertices by what they follow and by hexahedron, in the order of their blocks.
@@ -30,7 +30,7 @@ Groups grouped(const MuscleSurface& surface) {
   for (std::uint32_t v = 0; v < surface.binding.size(); ++v) {
     const VertexBinding& b = surface.binding[v];
     std::array<std::uint16_t, 8> node{};
-    if (b.cage != 0) std::copy_n(b.node, 8, node.begin());
+    if (b.lattice != 0) std::copy_n(b.node, 8, node.begin());
     groups[{follows(b), node}].push_back(v);
   }
   return groups;
@@ -42,9 +42,9 @@ void set_lane(Vec3<Eight>& block, std::size_t lane, const Vec3<float>& value) {
   block.z.lane[lane] = value.z;
 }
 
-void set_lane(const MuscleSurface& surface, std::uint32_t v, std::size_t lane, CageBlock& block) {
+void set_lane(const MuscleSurface& surface, std::uint32_t v, std::size_t lane, LatticeBlock& block) {
   for (std::size_t i = 0; i < 8; ++i) block.node_weight[i].lane[lane] = surface.binding[v].node_weight[i];
-  set_lane(block.rest_in_cage, lane, surface.rest_in_cage[v]);
+  set_lane(block.rest_in_lattice, lane, surface.rest_in_lattice[v]);
 }
 
 void set_lane(const MuscleSurface& surface, std::uint32_t v, std::size_t lane, BoneBlock& block) {
@@ -52,7 +52,7 @@ void set_lane(const MuscleSurface& surface, std::uint32_t v, std::size_t lane, B
   set_lane(block.rest, lane, surface.mesh.position[v]);
   block.origin.lane[lane] = b.origin;
   block.insertion.lane[lane] = b.insertion;
-  block.cage.lane[lane] = b.cage;
+  block.lattice.lane[lane] = b.lattice;
 }
 
 /// Fills the blocks and says where each vertex lies.
@@ -62,17 +62,17 @@ std::vector<std::uint16_t> fill_blocks(const MuscleSurface& surface, PackedSurfa
   for (const auto& [key, vertices] : grouped(surface)) {
     const auto& [kind, node] = key;
     for (std::size_t first = 0; first < vertices.size(); first += block_vertices, ++blocks) {
-      CageBlock cage;
+      LatticeBlock lattice;
       BoneBlock bone;
       for (std::size_t lane = 0; lane < block_vertices; ++lane) {
         const std::uint32_t v = vertices[std::min(first + lane, vertices.size() - 1)];
-        if (kind != Follows::bones) set_lane(surface, v, lane, cage);
-        if (kind != Follows::cage) set_lane(surface, v, lane, bone);
+        if (kind != Follows::bones) set_lane(surface, v, lane, lattice);
+        if (kind != Follows::lattice) set_lane(surface, v, lane, bone);
         if (first + lane < vertices.size()) place[v] = static_cast<std::uint16_t>(blocks * block_vertices + lane);
       }
-      if (kind != Follows::bones) packed.cage.push_back(cage), packed.node.push_back(node);
-      if (kind != Follows::cage) packed.bone.push_back(bone);
-      if (kind == Follows::cage) ++packed.cage_only_blocks;
+      if (kind != Follows::bones) packed.lattice.push_back(lattice), packed.node.push_back(node);
+      if (kind != Follows::lattice) packed.bone.push_back(bone);
+      if (kind == Follows::lattice) ++packed.lattice_only_blocks;
     }
   }
   return place;
@@ -84,8 +84,8 @@ Result<void> check(const MuscleSurface& surface, std::uint32_t nodes) {
     return fail(fmt::format("{} of {} vertices are bound; bind the surface first", surface.binding.size(), vertices));
   for (std::size_t v = 0; v < vertices; ++v) {
     const VertexBinding& b = surface.binding[v];
-    if (b.cage == 0) continue;
-    if (v >= surface.rest_in_cage.size()) return fail(fmt::format("vertex {} has no place in the mesh", v));
+    if (b.lattice == 0) continue;
+    if (v >= surface.rest_in_lattice.size()) return fail(fmt::format("vertex {} has no place in the mesh", v));
     for (const std::uint16_t node : b.node) {
       if (node >= nodes) return fail(fmt::format("vertex {} is bound to node {} of a mesh of {}", v, node, nodes));
     }
@@ -108,9 +108,9 @@ Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& bod
   packed.rest = surface_rest(surface, body);
   packed.nodes = nodes;
   const auto place = fill_blocks(surface, packed);
-  if (packed.places() > most_places) {
+  if (packed.places() > max_places) {
     return fail(fmt::format("surface '{}': {} vertices take {} places of {}; simplify it", surface.mesh.name,
-                            place.size(), packed.places(), most_places));
+                            place.size(), packed.places(), max_places));
   }
   auto rings = named(surface.mesh, vertex_rings(surface.mesh.triangle, place));
   if (!rings) return tl::unexpected(rings.error());
@@ -125,8 +125,8 @@ Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& bod
 Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh, std::span<const AlongStencil> along) {
   RigidSurface rigid;
   rigid.vertices = mesh.position.size();
-  if (rigid.vertices > most_places)
-    return fail(fmt::format("surface '{}': more than {} vertices; simplify it", mesh.name, most_places));
+  if (rigid.vertices > max_places)
+    return fail(fmt::format("surface '{}': more than {} vertices; simplify it", mesh.name, max_places));
   std::vector<std::uint16_t> place(rigid.vertices);
   std::vector<float> position(4 * rigid.vertices), normal(3 * rigid.vertices);
   for (std::size_t v = 0; v < rigid.vertices; ++v) {

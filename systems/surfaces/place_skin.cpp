@@ -118,7 +118,7 @@ HWY_INLINE Carried carried(const SkinVertex& vertex, const FrameMap* maps, const
   if (vertex.weight[1] != 0) {
     const FourVector part = hn::Set(four, vertex.weight[0]);
     x = hn::Mul(part, x), y = hn::Mul(part, y), z = hn::Mul(part, z), from = hn::Mul(part, from);
-    for (std::size_t k = 1; k < SkinVertex::most_frames && vertex.weight[k] != 0; ++k) {
+    for (std::size_t k = 1; k < SkinVertex::max_frames && vertex.weight[k] != 0; ++k) {
       const FrameMap& other = maps[vertex.frame[k]];
       const FourVector more = hn::Set(four, vertex.weight[k]);
       x = mul_add(more, hn::Load(four, other.column[0]), x);

@@ -5,14 +5,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "systems/surfaces/eight-inl.h"
+#include "systems/surfaces/weights8-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 /// Σ wᵢ uᵢ of eight vertices; even and odd nodes apart, so that two sums grow at once.
-HWY_INLINE EightVec displaced(const CageBlock& block, const std::array<std::uint16_t, 8>& at, const float* node) {
+HWY_INLINE EightVec displaced(const LatticeBlock& block, const std::array<std::uint16_t, 8>& at, const float* node) {
   EightVec sum[2];
   for (std::size_t i = 0; i < 8; ++i) {
     const WideEight w = load(block.node_weight[i]);
@@ -27,9 +27,9 @@ HWY_INLINE EightVec displaced(const CageBlock& block, const std::array<std::uint
   return {add(sum[0].x, sum[1].x), add(sum[0].y, sum[1].y), add(sum[0].z, sum[1].z)};
 }
 
-HWY_INLINE EightVec in_cage(const CageBlock& block, const std::array<std::uint16_t, 8>& at, const float* node,
-                            const SkinMaps& maps) {
-  const EightVec u = displaced(block, at, node), q = load(block.rest_in_cage);
+HWY_INLINE EightVec in_lattice(const LatticeBlock& block, const std::array<std::uint16_t, 8>& at, const float* node,
+                               const SkinMaps& maps) {
+  const EightVec u = displaced(block, at, node), q = load(block.rest_in_lattice);
   const WideEight across = all(maps.belly.across), along = all(maps.belly.along);
   return apply<true>(maps.frame,
                      {multiply_add(across, q.x, u.x), multiply_add(across, q.y, u.y), multiply_add(along, q.z, u.z)});
@@ -52,14 +52,14 @@ void place_surface(const PackedSurface& surface, const SkinMaps& maps, const flo
     }
     places += 4 * block_vertices;
   };
-  const std::size_t alone = surface.cage_only_blocks, both = surface.cage.size() - alone;
-  for (std::size_t i = 0; i < alone; ++i) put(in_cage(surface.cage[i], surface.node[i], node, maps));
+  const std::size_t alone = surface.lattice_only_blocks, both = surface.lattice.size() - alone;
+  for (std::size_t i = 0; i < alone; ++i) put(in_lattice(surface.lattice[i], surface.node[i], node, maps));
   for (std::size_t i = 0; i < both; ++i) {
     const BoneBlock& block = surface.bone[i];
-    const EightVec p = in_cage(surface.cage[alone + i], surface.node[alone + i], node, maps);
+    const EightVec p = in_lattice(surface.lattice[alone + i], surface.node[alone + i], node, maps);
     const EightVec b = on_bones(block, maps);
-    const WideEight cage = load(block.cage);
-    put({multiply_add(cage, p.x, b.x), multiply_add(cage, p.y, b.y), multiply_add(cage, p.z, b.z)});
+    const WideEight lattice = load(block.lattice);
+    put({multiply_add(lattice, p.x, b.x), multiply_add(lattice, p.y, b.y), multiply_add(lattice, p.z, b.z)});
   }
   for (std::size_t i = both; i < surface.bone.size(); ++i) put(on_bones(surface.bone[i], maps));
 }

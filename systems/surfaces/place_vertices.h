@@ -6,7 +6,7 @@
 namespace mobil::inline v0_3 {
 
 /// Positions of a surface's vertices: with T the motion of a bone since rest,
-///   p = cage · frame(belly · rest_in_cage + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀).
+///   p = lattice · frame(belly · rest_in_lattice + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀).
 /// `node`: displacements uᵢ (m, in the muscle's frame), x y z of one node after the other, surface.nodes of them. A
 /// left muscle's surface is computed in the mirror image and reflected. `places`: x y z x of one place after the
 /// other, 4 · surface.places() floats, 16-byte aligned. The same bits on every instruction set.

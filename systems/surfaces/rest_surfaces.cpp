@@ -2,7 +2,7 @@
 
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 
 namespace mobil::inline v0_3 {
 

@@ -13,7 +13,7 @@
 #include <mobil/components/segments.h>
 #include <mobil/engine/geometry.h>
 #include "engine/fused-inl.h"
-#include "systems/surfaces/eight-inl.h"
+#include "systems/surfaces/weights8-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

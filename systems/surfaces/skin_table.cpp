@@ -11,7 +11,7 @@
 
 #include <mobil/components/segments.h>
 #include "engine/fused-inl.h"
-#include "systems/surfaces/eight-inl.h"
+#include "systems/surfaces/weights8-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
@@ -68,9 +68,9 @@ LegAngles leg_angles_of(const Pose<float>& pose, Side side) {
 }
 
 std::array<float, skin_terms> skin_term_values(const LegAngles& angles) {
-  const float h = std::clamp(angles.hip, least_leg_angles.hip, most_leg_angles.hip),
-              k = std::clamp(angles.knee, least_leg_angles.knee, most_leg_angles.knee),
-              a = std::clamp(angles.ankle, least_leg_angles.ankle, most_leg_angles.ankle);
+  const float h = std::clamp(angles.hip, min_leg_angles.hip, max_leg_angles.hip),
+              k = std::clamp(angles.knee, min_leg_angles.knee, max_leg_angles.knee),
+              a = std::clamp(angles.ankle, min_leg_angles.ankle, max_leg_angles.ankle);
   return {1, h, k, a, h * h, k * k, a * a, h * k, k * a, k * k * k, h * k * k, k * k * a};
 }
 

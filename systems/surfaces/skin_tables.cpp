@@ -13,7 +13,7 @@
 #include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/cover_muscles.h>
 #include "assets/body/bent_legs.h"
 #include "assets/reduction/dense.h"
@@ -39,7 +39,7 @@ LegAngles angles_of(int n) {
   const auto between = [n](float a, float b, int base) {
     return a + static_cast<float>(halton(n + 1, base)) * (b - a);
   };
-  const LegAngles &low = least_leg_angles, &high = most_leg_angles;
+  const LegAngles &low = min_leg_angles, &high = max_leg_angles;
   return {between(low.hip, high.hip, 2), between(low.knee, high.knee, 3), between(low.ankle, high.ankle, 5)};
 }
 
@@ -60,9 +60,9 @@ class Fit {
         right_(Matrix::Zero(skin_terms, leg_grid_points)) {}
 
   Result<void> add(const Simulation& simulation, Entity person, double weight) {
-    const Human human = *simulation.human(person);
+    const Person subject = *simulation.person(person);
     std::vector<SurfaceMuscle> muscles;
-    for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+    for (const PersonMuscle& own : subject.muscles) muscles.push_back({own.plan.muscle, own.entity});
     SurfaceRequest wanted{person, muscles, &bound_};
     wanted.positions.bytes = std::as_writable_bytes(std::span(drawn_));
     if (auto done = writer_.write(simulation.world(), {&wanted, 1}); !done) return done;
@@ -131,7 +131,7 @@ Result<std::unique_ptr<SkinTable>> make_skin_table(const BodyRequest& request) {
   const auto model = simulation.spawn_posed(request);
   if (!model) return tl::unexpected(model.error());
   if (auto done = simulation.set_muscles(*model, choice); !done) return tl::unexpected(done.error());
-  const Body body = simulation.human(*model)->body;
+  const Body body = simulation.person(*model)->body;
   auto bound = bind_surfaces(body, {.bones = false, .sides = {true, false}, .detail = can_be_coarser() ? 0.3F : 1.0F});
   if (!bound) return tl::unexpected(bound.error());
   auto skin = make_body_skin(body, SkinDetail::distant);

@@ -14,7 +14,7 @@ namespace {
 using namespace geometry;
 
 constexpr float near_m = 0.015F;  // at rest
-constexpr int rounds = 3, shifts = 2, sweeps = 2, most_restored = 4, bands_each = 12;
+constexpr int rounds = 3, shifts = 2, sweeps = 2, max_restored = 4, bands_each = 12;
 
 void link_neighbours(const BodySurfaces& surfaces, std::span<const Vec3<float>> position, SurfaceContacts& contacts) {
   std::vector<std::vector<std::uint32_t>> beside(surfaces.vertices);
@@ -153,7 +153,7 @@ class Apart {
   /// What was taken from each section goes back to it, outwards where it lies on no bone: neighbours make room in the
   /// next round; in the `last` one only where it touches nobody.
   void give_back(bool last) {
-    constexpr float most_m = 0.004F;
+    constexpr float max_m = 0.004F;
     const auto takes = [&](std::size_t v) {
       return contacts_.band[v] != SurfaceContacts::no_band && work_.touches[v] < (last ? touches_muscle : touches_bone);
     };
@@ -163,19 +163,19 @@ class Apart {
     for (std::size_t v = 0; v < position_.size(); ++v) {
       if (!takes(v)) continue;
       const std::uint16_t band = contacts_.band[v];
-      const float out = std::clamp(-work_.taken[band] / std::max(work_.free_area[band], 1e-9F), -most_m, most_m);
+      const float out = std::clamp(-work_.taken[band] / std::max(work_.free_area[band], 1e-9F), -max_m, max_m);
       position_[v] = position_[v] + out * normal_[v];
     }
     for (std::size_t b = 0; b < contacts_.bands; ++b) {
-      const float room = most_m * work_.free_area[b];
+      const float room = max_m * work_.free_area[b];
       work_.taken[b] -= std::clamp(work_.taken[b], -room, room);
     }
   }
 
-  /// What each muscle's volume is off still goes to where it touches less than `least_touch`, evenly but for tendons.
+  /// What each muscle's volume is off still goes to where it touches less than `min_touch`, evenly but for tendons.
   /// Returns whether one was off by more than a thousandth and had room.
-  bool restore_volumes(std::uint8_t least_touch) {
-    constexpr float most_m = 0.008F;  // of all rounds together
+  bool restore_volumes(std::uint8_t min_touch) {
+    constexpr float max_m = 0.008F;  // of all rounds together
     find_volumes(work_.now_volume);
     const std::size_t muscles = work_.volume.size();
     const auto lacking = [&](std::size_t m) {
@@ -187,7 +187,7 @@ class Apart {
     if (!off) return false;
     find_pushes();  // who touches by now
     find_areas();
-    find_weights(least_touch);
+    find_weights(min_touch);
     work_.free_area.assign(muscles, 0);
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (const std::uint16_t band = contacts_.band[v]; band != SurfaceContacts::no_band)
@@ -197,7 +197,7 @@ class Apart {
     for (std::size_t m = 0; m < muscles; ++m) {
       if (!(work_.free_area[m] > 0)) continue;
       work_.out[m] =
-          std::clamp(lacking(m) / work_.free_area[m], -most_m - work_.moved_out[m], most_m - work_.moved_out[m]);
+          std::clamp(lacking(m) / work_.free_area[m], -max_m - work_.moved_out[m], max_m - work_.moved_out[m]);
       work_.moved_out[m] += work_.out[m];
       moves = moves || work_.out[m] != 0;
     }
@@ -255,7 +255,7 @@ class Apart {
     }
   }
   /// 1 on a belly where it is widest and touches less, smaller beside what touches, little on tendons.
-  void find_weights(std::uint8_t least_touch) {
+  void find_weights(std::uint8_t min_touch) {
     work_.wide.assign(contacts_.bands, 0);
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (contacts_.band[v] != SurfaceContacts::no_band) work_.wide[contacts_.band[v]] += work_.area[v];
@@ -265,7 +265,7 @@ class Apart {
       for (float& wide : own) wide = (wide / widest) * (wide / widest);
     }
     const auto is_free = [&](std::size_t v) {
-      return contacts_.band[v] != SurfaceContacts::no_band && work_.touches[v] < least_touch;
+      return contacts_.band[v] != SurfaceContacts::no_band && work_.touches[v] < min_touch;
     };
     work_.weight.assign(position_.size(), 0);
     for (std::uint32_t v = 0; v < position_.size(); ++v) {
@@ -294,7 +294,7 @@ class Apart {
 
   /// From where the other surface was nearest, at rest or in the pass before, along its edges to where it is now.
   std::uint32_t nearest(std::uint32_t vertex, std::uint32_t other) const {
-    constexpr int most_steps = 12;
+    constexpr int max_steps = 12;
     const Vec3<float>& at = position_[vertex];
     const auto square = [&](std::uint32_t v) {
       const Vec3<float> off = at - position_[v];
@@ -302,7 +302,7 @@ class Apart {
     };
     std::uint32_t best = other;
     float least = square(best);
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
       const std::uint32_t from = best;
       for (std::uint32_t i = contacts_.first_neighbour[from]; i < contacts_.first_neighbour[from + 1]; ++i) {
         const std::uint32_t next = contacts_.neighbour[i];
@@ -320,8 +320,8 @@ class Apart {
     constexpr float near_by_m = 0.004F, deepest_m = 0.045F;
     const Vec3<float> off = position_[pair.vertex] - position_[other], &out = normal_[other];
     const float gap = dot(off, out), beside = dot(off, off) - gap * gap, depth = pair.rest_m - gap;
-    const float most_beside = contacts_.edge_m[other];  // farther it is beside the other's edge
-    if (beside > most_beside * most_beside || gap < -deepest_m) return;
+    const float max_beside = contacts_.edge_m[other];  // farther it is beside the other's edge
+    if (beside > max_beside * max_beside || gap < -deepest_m) return;
     const bool bone = contacts_.band[other] == SurfaceContacts::no_band;
     if (depth > -near_by_m) {
       for (const std::uint32_t v : {pair.vertex, other})
@@ -373,7 +373,7 @@ void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position
     apart.make_normals();
     if (round + 1 < rounds && apart.restore_volumes(touches_bone)) apart.make_normals();
   }
-  for (int i = 0; i < most_restored && apart.restore_volumes(touches_muscle); ++i) apart.make_normals();
+  for (int i = 0; i < max_restored && apart.restore_volumes(touches_muscle); ++i) apart.make_normals();
 }
 
 }  // namespace mobil::inline v0_3

@@ -208,8 +208,8 @@ Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceReq
     if (auto done = resolve(world, requests[r]); !done)
       return fail(fmt::format("surfaces of request {}: {}", r, done.error().message), done.error().status);
     pieces = std::max(pieces, requests[r].surfaces->piece.size());
-    nodes = std::max(nodes, requests[r].surfaces->most_nodes);
-    places = std::max(places, requests[r].surfaces->most_places);
+    nodes = std::max(nodes, requests[r].surfaces->max_nodes);
+    places = std::max(places, requests[r].surfaces->max_places);
   }
   scratch_.prepare(4 * places + 3 * nodes, jobs.threads);
   Work work{*this, requests};

@@ -16,7 +16,7 @@
 
 #include <mobil/systems/surfaces/write_vertices.h>
 #include "engine/fused-inl.h"
-#include "systems/surfaces/eight-inl.h"
+#include "systems/surfaces/weights8-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {

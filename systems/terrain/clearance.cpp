@@ -28,7 +28,7 @@ FootLift lift_of(std::span<const TooLow> points) {
       const float lacks = by_m - early * lift.early_m - late * lift.late_m;
       if (!(lacks > 0)) continue;
       const float per = lacks / (early * early + late * late);
-      lift = {std::min(lift.early_m + per * early, most_lift_m), std::min(lift.late_m + per * late, most_lift_m)};
+      lift = {std::min(lift.early_m + per * early, max_lift_m), std::min(lift.late_m + per * late, max_lift_m)};
     }
   }
   return lift;

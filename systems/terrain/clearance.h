@@ -14,14 +14,14 @@ struct FootLift {
 /// No ground is higher or lower.
 inline constexpr float highest_ground_m = 1e5F;
 /// No foot is lifted further.
-inline constexpr float most_lift_m = 0.4F;
+inline constexpr float max_lift_m = 0.4F;
 
 /// By how much a point of the foot is too low at a part of the swing's time, between 0 and 1.
 struct TooLow {
   float part, by_m;
 };
 
-/// A small lift after which nothing is too low, or hardly; each at most `most_lift_m`.
+/// A small lift after which nothing is too low, or hardly; each at most `max_lift_m`.
 FootLift lift_of(std::span<const TooLow> points);
 
 }  // namespace mobil::inline v0_3

@@ -58,18 +58,17 @@ FootLift lift_over(const GroundProfile& ground, const BodySize<float>& size, con
                    const GaitState<float>& state, const Footing<float>& footing) {
   Footing<float> under = footing;
   under.lift_early_m = under.lift_late_m = 0;
-  float most_out_m = 0;
+  float max_out_m = 0;
   for (std::size_t i = 0; i < GroundProfile::asked; ++i)
-    most_out_m =
-        std::max(most_out_m, ground.height_m[i + 1] -
-                                 std::lerp(ground.height_m.front(), ground.height_m.back(), GroundProfile::part(i)));
-  if (!(plan.landing > 0) || !(most_out_m > out_m)) return {};
-  const float most_m = std::min(most_out_m + hangs_m, most_lift_m);
+    max_out_m = std::max(max_out_m, ground.height_m[i + 1] - std::lerp(ground.height_m.front(), ground.height_m.back(),
+                                                                       GroundProfile::part(i)));
+  if (!(plan.landing > 0) || !(max_out_m > out_m)) return {};
+  const float max_m = std::min(max_out_m + hangs_m, max_lift_m);
   constexpr int rounds = 2;  // a foot that is lifted hangs otherwise
   for (int round = 0; round < rounds; ++round) {
     const FootLift more = more_lift(ground, foot_path(size, plan, state, under));
-    under.lift_early_m = std::min(under.lift_early_m + more.early_m, most_m);
-    under.lift_late_m = std::min(under.lift_late_m + more.late_m, most_m);
+    under.lift_early_m = std::min(under.lift_early_m + more.early_m, max_m);
+    under.lift_late_m = std::min(under.lift_late_m + more.late_m, max_m);
   }
   return {under.lift_early_m, under.lift_late_m};
 }

@@ -28,7 +28,7 @@ struct SoleGround {
 };
 
 /// No foothold is moved further, m.
-inline constexpr float most_moved_m = 0.2F;
+inline constexpr float max_moved_m = 0.2F;
 
 /// How far ahead the foot is put (below 0: back), and how high the plane is there that it stands on: that of the ground
 /// under the ankle, raised where heel or toes would be in the ground. `place`: of the ground under the ankle.

@@ -14,16 +14,16 @@
 #include <mobil/each.h>
 #include <mobil/engine/table_list.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
 #include "systems/gait/step_events.h"
 #include "systems/muscles/leg_muscles.h"
-#include "systems/people/by_table.h"
 #include "systems/people/fat_wobble.h"
+#include "systems/people/group_by_table.h"
 #include "systems/states/person_states.h"
 #include "systems/terrain/ground_profile.h"
-#include "systems/terrain/slowing.h"
 #include "systems/terrain/sole_fit.h"
+#include "systems/terrain/speed_scaling.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -55,7 +55,7 @@ bool make_usable(TerrainHeight& answer) {
 /// where all footholds are asked for; those of the next one; then those on the way to it.
 struct TerrainWork {
   struct Asking {
-    Entity human;
+    Entity person;
     std::uint32_t steps, stance_side;
     float line_x_m, line_z_m;
     float stance_x_m, stance_z_m, landing_x_m, landing_z_m;
@@ -77,13 +77,13 @@ struct TerrainWork {
 
   void collect(World& world);
   void collect_block(const Table& table, std::uint32_t block);
-  void ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
+  void ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity person,
                  std::span<const float> ahead_m);
   std::size_t put_answers(const Frame& frame);
   std::size_t put_answers(World& world, const Asking& one, bool slows_down);
-  static void stand_up(World& world, Entity human);
+  static void stand_up(World& world, Entity person);
   void find_changed(World& world);
-  Result<void> slow_down(const Frame& frame, std::span<const Entity> some, std::optional<float> steepness = {});
+  Result<void> scale_speed(const Frame& frame, std::span<const Entity> some, std::optional<float> steepness = {});
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
     TerrainHeight plane;
@@ -93,11 +93,11 @@ struct TerrainWork {
   std::size_t mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m);
 };
 
-void TerrainWork::ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
+void TerrainWork::ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity person,
                             std::span<const float> ahead_m) {
   const float x = at.x_m[which][lane], z = at.z_m[which][lane], heading = at.heading_rad[which][lane];
   const float s = exact::sin(heading), c = exact::cos(heading);
-  for (const float ahead : ahead_m) queries.push_back({x + ahead * s, z + ahead * c, human});
+  for (const float ahead : ahead_m) queries.push_back({x + ahead * s, z + ahead * c, person});
 }
 
 void TerrainWork::collect_block(const Table& table, std::uint32_t block) {
@@ -203,26 +203,26 @@ std::size_t TerrainWork::mend_answers(std::size_t first, std::size_t count, std:
 
 /// Moves a person whose pose is not on this ground onto it at once: one who was placed, woke or is newly managed. No
 /// inertia is felt.
-void TerrainWork::stand_up(World& world, Entity human) {
+void TerrainWork::stand_up(World& world, Entity person) {
   constexpr float more_than_a_step_m = 0.4F, fat_feels_m = 0.05F;
-  const auto feet = world.get<Feet>(human);
-  const auto state = world.get<GaitState>(human);
+  const auto feet = world.get<Feet>(person);
+  const auto state = world.get<GaitState>(person);
   if (!feet || !state) return;
   const std::size_t side = state->stance_side & 1U;
   const float lowest_m = std::min({feet->heel_m[side].y, feet->toe_m[side].y, feet->tip_m[side].y});
-  const float by_m = world.get<Footing>(human)->height_m[stance] - lowest_m;
-  if (std::fabs(by_m) > fat_feels_m) settle_fat(world, human);
+  const float by_m = world.get<Footing>(person)->height_m[stance] - lowest_m;
+  if (std::fabs(by_m) > fat_feels_m) settle_fat(world, person);
   if (!(std::fabs(by_m) > more_than_a_step_m)) return;
-  Pose<float> pose = *world.get<Pose>(human);
+  Pose<float> pose = *world.get<Pose>(person);
   for (auto& at : pose.position_m) at.y += by_m;
   Feet<float> moved = *feet;
   for (auto* const points : {moved.heel_m, moved.toe_m, moved.tip_m}) points[0].y += by_m, points[1].y += by_m;
-  CentreOfMass<float> centre = *world.get<CentreOfMass>(human);
+  CentreOfMass<float> centre = *world.get<CentreOfMass>(person);
   centre.position_m.y += by_m;
-  world.set(human, pose);
-  world.set(human, moved);
-  world.set(human, centre);
-  forget_motion(world, human);
+  world.set(person, pose);
+  world.set(person, moved);
+  world.set(person, centre);
+  forget_motion(world, person);
 }
 
 /// Returns how many answers were unusable.
@@ -242,7 +242,7 @@ std::size_t TerrainWork::put_answers(const Frame& frame) {
   queries.clear();
   if (options.slows_down) find_changed(frame.world);
   drop_repeated(people);
-  if (!people.empty()) (void)slow_down(frame, people);  // who cannot be asked now is asked again
+  if (!people.empty()) (void)scale_speed(frame, people);  // who cannot be asked now is asked again
   return unusable;
 }
 
@@ -252,7 +252,7 @@ void TerrainWork::find_changed(World& world) {
     const Table& table = *one;
     const TableColumn<Footing> footings(table);
     const TableColumn<Gait> gaits(table);
-    if (!gaits || TableColumn<Course>(table)) continue;
+    if (!gaits || TableColumn<AvoidanceState>(table)) continue;
     for (std::size_t b = 0; b < table.block_count(); ++b) {
       const auto& footing = footings.at(table, b);
       const auto& gait = gaits.at(table, b);
@@ -264,7 +264,8 @@ void TerrainWork::find_changed(World& world) {
 }
 
 /// Changes the speed of these walkers to what suits the steepness of their ground, or one of all (find_slowed).
-Result<void> TerrainWork::slow_down(const Frame& frame, std::span<const Entity> some, std::optional<float> steepness) {
+Result<void> TerrainWork::scale_speed(const Frame& frame, std::span<const Entity> some,
+                                      std::optional<float> steepness) {
   find_slowed(frame.world, frame.jobs, some, slowing, steepness);
   if (slowing.changes.empty()) return {};
   const auto done = change_walks(frame, slowing.changes);
@@ -276,7 +277,7 @@ Result<void> TerrainWork::slow_down(const Frame& frame, std::span<const Entity> 
 /// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
 /// are.
 std::size_t TerrainWork::put_answers(World& world, const Asking& one, bool slows_down) {
-  const auto [table, row] = world.find(one.human);
+  const auto [table, row] = world.find(one.person);
   if (table == nullptr || !TableColumn<Footing>(*table) || !TableColumn<GaitState>(*table) ||
       !TableColumn<StepPlan>(*table))
     return 0;
@@ -322,9 +323,9 @@ std::size_t TerrainWork::put_answers(World& world, const Asking& one, bool slows
   constexpr float steepest = 1, shortest_m = 0.2F;
   const float way_m = std::max(plan.length_before_m[l] + plan.step_length_m[l], shortest_m);
   const float steepness = (footing.height_m[landing][l] - footing.height_m[leaving][l]) / way_m;
-  if (slows_down || footing.slows_for[l] != 0 || footing.level_speed_m_s[l] > 0) people.push_back(one.human);
+  if (slows_down || footing.slows_for[l] != 0 || footing.level_speed_m_s[l] > 0) people.push_back(one.person);
   footing.slows_for[l] = slows_down ? std::clamp(steepness, -steepest, steepest) : 0;
-  if (all) stand_up(world, one.human);
+  if (all) stand_up(world, one.person);
 
   const float part = GroundProfile::part(0);
   const TerrainQuery& on = queries[on_way];
@@ -352,8 +353,8 @@ namespace {
 /// Those of them who are managed, or who are not, each once.
 std::vector<Entity> those(const World& world, std::span<const Entity> people, bool managed) {
   std::vector<Entity> some;
-  for (const Entity human : people)
-    if (world.has<Footing>(human) == managed) some.push_back(human);
+  for (const Entity person : people)
+    if (world.has<Footing>(person) == managed) some.push_back(person);
   drop_repeated(some);
   return some;
 }
@@ -363,36 +364,37 @@ std::vector<Entity> those(const World& world, std::span<const Entity> people, bo
 Result<void> Terrain::manage(std::span<const Entity> people) {
   World& world = frame_.world;
   const Jobs& jobs = frame_.jobs;
-  for (const Entity human : people) {
-    if (!is_person(world, human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
-    if (!is_asleep(world, human) && !world.has<Gait>(human))
+  for (const Entity person : people) {
+    if (!is_person(world, person)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
+    if (!is_asleep(world, person) && !world.has<Gait>(person))
       return fail("Terrain: this person's host animates the skeleton; pose them on the ground", Status::missing);
   }
   const std::vector<Entity> changes = those(world, people, false);
-  World::Attempt attempt(world, jobs);
-  if (auto done = make_whole(frame_, changes); !done) return done;
-  by_table(world, changes, [&](std::span<const Entity> together) {
-    world.remake_many(together, std::array{PartValue{component_part<Footing>(), nullptr}}, {}, jobs);
+  World::Transaction transaction(world, jobs);
+  if (auto done = make_full(frame_, changes); !done) return done;
+  group_by_table(world, changes, [&](std::span<const Entity> together) {
+    world.change_archetype(together, std::array{PartValue{component_id<Footing>(), nullptr}}, {}, jobs);
   });
-  attempt.keep();
+  transaction.commit();
   return {};
 }
 
 Result<void> Terrain::release(std::span<const Entity> people) {
   World& world = frame_.world;
   const Jobs& jobs = frame_.jobs;
-  for (const Entity human : people) {
-    if (!world.alive(human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
-    if (!world.has<Footing>(human)) return fail("Terrain: a person is not managed", Status::missing);
+  for (const Entity person : people) {
+    if (!world.alive(person)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
+    if (!world.has<Footing>(person)) return fail("Terrain: a person is not managed", Status::missing);
   }
   constexpr std::array part = {type_id<Footing<float>>()};
   const std::vector<Entity> changes = those(world, people, true);
   // Who is slowed goes back to the walk on level ground: first, so that where memory runs out they are slowed again.
-  if (auto done = work().slow_down(frame_, changes, 0); !done) return done;
-  World::Attempt attempt(world, jobs);
-  by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
-  attempt.keep();
-  for (const Entity human : changes) settle_fat(world, human);  // they go down to the plane at once
+  if (auto done = work().scale_speed(frame_, changes, 0); !done) return done;
+  World::Transaction transaction(world, jobs);
+  group_by_table(world, changes,
+                 [&](std::span<const Entity> together) { world.change_archetype(together, {}, part, jobs); });
+  transaction.commit();
+  for (const Entity person : changes) settle_fat(world, person);  // they go down to the plane at once
   return {};
 }
 
@@ -408,12 +410,12 @@ const TerrainReport& Terrain::report() const {
   return work().report;
 }
 
-std::span<const TerrainQuery> Terrain::ask() {
+std::span<const TerrainQuery> Terrain::query() {
   work().collect(frame_.world);
   return work().queries;
 }
 
-Result<std::size_t> Terrain::answer(std::span<const TerrainHeight> heights) {
+Result<std::size_t> Terrain::resolve(std::span<const TerrainHeight> heights) {
   TerrainWork& of = work();
   if (heights.size() != of.queries.size())
     return fail(

@@ -28,7 +28,7 @@ TEST(Excitation, LanesAreWhatDoublePrecisionSays) {
         clock.cycle[l] = static_cast<float>((block * 16 + static_cast<int>(l)) % 97) / 97.0F;
         clock.speed[l] = static_cast<float>((block * 7 + static_cast<int>(l)) % 40) / 40.0F;
       }
-      std::array<Lanes<float>, most_row_members> lanes;
+      std::array<Lanes<float>, max_row_members> lanes;
       excite(row, clock, lanes.data());
       for (std::size_t i = 0; i < row.members; ++i) {
         for (std::size_t l = 0; l < lane_count; ++l) {

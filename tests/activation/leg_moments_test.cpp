@@ -31,20 +31,20 @@ const std::vector<Instant>& stride() {
     Simulation simulation;
     const auto walker = test::pulling_walker(simulation, 1.39F);
     if (!walker) return instants;
-    const Entity human = *walker;
+    const Entity person = *walker;
     for (int tick = 0; tick < 300; ++tick) {
       simulation.tick();
-      const Feet<float> feet = *simulation.get<Feet>(human);
+      const Feet<float> feet = *simulation.get<Feet>(person);
       if (tick < 180 || (!instants.empty() && feet.phase[Side::right] < instants.back().cycle)) {
         if (tick > 260) break;
         instants.clear();
         if (tick < 180) continue;
       }
       Instant now{feet.phase[Side::right]};
-      const JointMoments<float> moments = *simulation.get<JointMoments>(human);
+      const JointMoments<float> moments = *simulation.get<JointMoments>(person);
       now.walk_knee_nm = moments.knee_nm[Side::right];
       now.walk_ankle_nm = moments.ankle_nm[Side::right];
-      for (const OwnMuscle& own : simulation.muscles(human)) {
+      for (const MuscleRef& own : simulation.muscles(person)) {
         const Entity muscle = own.entity[Side::right];
         const auto pull = *simulation.get<Musculotendon>(muscle);
         const auto arms = *simulation.get<LineMotion>(muscle);

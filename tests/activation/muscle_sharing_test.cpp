@@ -175,17 +175,17 @@ Stride walk(float speed_m_s) {
   Simulation simulation;
   const auto walker = test::pulling_walker(simulation, speed_m_s);
   if (!walker) return stride;
-  const Entity human = *walker;
+  const Entity person = *walker;
   std::map<std::string_view, double> before;
   float last_phase = 1;
   int strikes = 0;
   for (int tick = 0; tick < 600 && strikes < 3; ++tick) {
     simulation.tick();
-    const float phase = (*simulation.get<Feet>(human)).phase[Side::right];
+    const float phase = (*simulation.get<Feet>(person)).phase[Side::right];
     strikes += phase < last_phase ? 1 : 0;
     last_phase = phase;
     std::vector<SharingMember> leg;
-    for (const OwnMuscle& own : simulation.muscles(human)) {
+    for (const MuscleRef& own : simulation.muscles(person)) {
       const Entity entity = own.entity[Side::right];
       const auto tendon = *simulation.get<Musculotendon>(entity);
       const auto arms = *simulation.get<LineMotion>(entity);
@@ -201,13 +201,13 @@ Stride walk(float speed_m_s) {
                      {-arms.hip_flexion_arm_m, -arms.knee_flexion_arm_m, -arms.ankle_dorsiflexion_arm_m}});
     }
     if (strikes != 2) continue;
-    const auto moments = *simulation.get<JointMoments>(human);
+    const auto moments = *simulation.get<JointMoments>(person);
     const Vector3d asked(moments.hip_nm[Side::right], moments.knee_nm[Side::right], moments.ankle_nm[Side::right]);
     const auto shared = share_moments(leg, asked, missing_at_the_hip);
     stride.moment_nm.push_back(asked);
     stride.reserve_nm.push_back(shared.reserve_nm);
     std::size_t i = 0;
-    for (const OwnMuscle& own : simulation.muscles(human)) {
+    for (const MuscleRef& own : simulation.muscles(person)) {
       Curve& curve = stride.muscle[muscle_name(own.muscle)];
       curve.asked.push_back(shared.activation[i++]);
       curve.excited.push_back((*simulation.get<Activation>(own.entity[Side::right])).activation);

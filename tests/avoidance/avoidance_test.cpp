@@ -1,4 +1,4 @@
-// Walkers who keep out of each other's way: what is promised of claims, and what crowds do.
+// Walkers who keep out of each other's way: what is promised of reservations, and what crowds do.
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -12,7 +12,7 @@
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
 #include "engine/row_hash.h"
-#include "systems/avoidance/claims.h"
+#include "systems/avoidance/reservations.h"
 #include "systems/avoidance/trials.h"
 #include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"
@@ -33,17 +33,17 @@ void tick_to_strike(Simulation& simulation, Entity one) {
   while (simulation.get<GaitState>(one)->steps == steps) simulation.tick();
 }
 
-const Claim& claim_of(ClaimBook& book, Simulation& simulation) {
+const Reservation& reservation_of(ReservationBook& book, Simulation& simulation) {
   book.refresh(world_of(simulation), {}, simulation.ticks(), tick_s, 0.128F);
-  return book.claim(0);
+  return book.reservation(0);
 }
 
 /// The same of somebody who avoids others for that alone.
-Claim claim_while_avoiding(Avoiders& all, ClaimBook& book, Entity one) {
+Reservation reservation_while_avoiding(Avoiders& all, ReservationBook& book, Entity one) {
   EXPECT_TRUE(all.avoidance.manage(one));
-  const Claim claim = claim_of(book, all.simulation);
+  const Reservation reservation = reservation_of(book, all.simulation);
   EXPECT_TRUE(all.avoidance.release(one));
-  return claim;
+  return reservation;
 }
 
 /// How far roots are from a way at its instants.
@@ -59,8 +59,8 @@ double astray_m(Simulation& simulation, Entity one, std::uint32_t first, const f
   return most;
 }
 
-/// A claim is where the walker will be who is asked to stop at the next strike and to go straight on until then.
-RC_GTEST_PROP(Claim, IsWhereWhoStopsWillBe, ()) {
+/// A reservation is where the walker will be who is asked to stop at the next strike and to go straight on until then.
+RC_GTEST_PROP(Reservation, IsWhereWhoStopsWillBe, ()) {
   const float speed = static_cast<float>(*rc::gen::inRange(30, 220)) * 0.01F;
   const float turn = static_cast<float>(*rc::gen::inRange(-180, 180)) * pi / 180;
   Avoiders all;
@@ -70,27 +70,27 @@ RC_GTEST_PROP(Claim, IsWhereWhoStopsWillBe, ()) {
   RC_ASSERT(simulation.turn_to(one, turn).has_value());
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(0, 200)));
   tick_to_strike(simulation, one);
-  ClaimBook book;
-  const Claim claim = claim_while_avoiding(all, book, one);
+  ReservationBook book;
+  const Reservation reservation = reservation_while_avoiding(all, book, one);
   const auto state = *simulation.get<GaitState>(one);
   RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
   RC_ASSERT(simulation.turn_to(one, state.heading_rad + state.turn_rad).has_value());
   // Who needs several steps to stop is asked for a heading in between, which nobody knows beforehand to the bit.
   const double most = speed <= 1.3F ? 0.002 : 0.12;
-  RC_ASSERT(astray_m(simulation, one, claim.first, claim.x_m.data(), claim.z_m.data()) < most);
+  RC_ASSERT(astray_m(simulation, one, reservation.first, reservation.x_m.data(), reservation.z_m.data()) < most);
 }
 
-/// So a world that was restored, which makes its claims anew under way, goes on as one that was not.
-RC_GTEST_PROP(Claim, IsTheSameWheneverItIsMade, ()) {
+/// So a world that was restored, which makes its reservations anew under way, goes on as one that was not.
+RC_GTEST_PROP(Reservation, IsTheSameWheneverItIsMade, ()) {
   Avoiders all;
   Simulation& simulation = all.simulation;
   const Entity one = all.come(static_cast<float>(*rc::gen::inRange(40, 130)) * 0.01F, 3.0F, -2.0F, 0.4F);
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(30, 150)));
   tick_to_strike(simulation, one);
-  ClaimBook at_strike, later;
-  const Claim first = claim_of(at_strike, simulation);
+  ReservationBook at_strike, later;
+  const Reservation first = reservation_of(at_strike, simulation);
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(1, 24)));
-  const Claim& second = claim_of(later, simulation);
+  const Reservation& second = reservation_of(later, simulation);
   const std::size_t since = second.first - first.first;
   for (std::size_t s = 0; s + since < way_samples; ++s) {
     RC_ASSERT(second.x_m[s] == first.x_m[s + since]);
@@ -98,7 +98,7 @@ RC_GTEST_PROP(Claim, IsTheSameWheneverItIsMade, ()) {
   }
 }
 
-/// Every step that may be chosen leads where it was said to: the claim made of it then has the same places.
+/// Every step that may be chosen leads where it was said to: the reservation made of it then has the same places.
 RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   const bool stands = *rc::gen::inRange(0, 3) == 0;
   const float speed = stands ? 0.0F : static_cast<float>(*rc::gen::inRange(40, 150)) * 0.01F;
@@ -109,14 +109,14 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   RC_ASSERT(simulation.turn_to(one, static_cast<float>(*rc::gen::inRange(-150, 150)) * pi / 180).has_value());
   if (stands) RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(stands ? 500 : 0, stands ? 560 : 160)));
-  ClaimBook book;
-  while (claim_while_avoiding(all, book, one), book.strikers().empty()) simulation.tick();
-  StrikePlace<Lanes<float>> footing;
+  ReservationBook book;
+  while (reservation_while_avoiding(all, book, one), book.strikers().empty()) simulation.tick();
+  HeelStrikePlace<Lanes<float>> footing;
   next_footing(broadcast(*simulation.get<BodySize>(one)), broadcast(*simulation.get<StepPlan>(one)),
                broadcast(*simulation.get<GaitState>(one)), footing);
   RC_PRE(row_of(footing, 0).speed_m_s > 0 || row_of(footing, 0).length_before_m == 0);
   RC_ASSERT(all.avoidance.manage(one).has_value());
-  Course<float> course = *simulation.get<Course>(one);
+  AvoidanceState<float> course = *simulation.get<AvoidanceState>(one);
   RC_ASSERT(all.avoidance.release(one).has_value());
   course.heading_rad += 0.3F;
   course.speed_m_s = 1.3F;
@@ -139,11 +139,11 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   }
   const std::uint32_t first = book.instant();
   simulation.tick();
-  const Claim claim = claim_while_avoiding(all, book, one);
-  RC_ASSERT(claim.first >= first && claim.first <= first + 1);
-  for (std::size_t s = claim.first - first; s < way_samples; ++s) {
-    const double off = std::hypot(double{ways.x_m[s][l]} - double{claim.x_m[s + first - claim.first]},
-                                  double{ways.z_m[s][l]} - double{claim.z_m[s + first - claim.first]});
+  const Reservation reservation = reservation_while_avoiding(all, book, one);
+  RC_ASSERT(reservation.first >= first && reservation.first <= first + 1);
+  for (std::size_t s = reservation.first - first; s < way_samples; ++s) {
+    const double off = std::hypot(double{ways.x_m[s][l]} - double{reservation.x_m[s + first - reservation.first]},
+                                  double{ways.z_m[s][l]} - double{reservation.z_m[s + first - reservation.first]});
     // On the way where hips are at the strike is known to three centimetres, at the end all is.
     RC_ASSERT(off < (s + 1 == way_samples ? 0.006 : 0.03));
   }
@@ -152,8 +152,8 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
 TEST(Avoidance, TwoWhoMeetPassWithoutStopping) {
   Avoiders all;
   const Entity a = all.come(1.3F, 0.0F, -8.0F), b = all.come(1.3F, 0.0F, 8.0F, pi);
-  const WalkWish wishes[] = {{a, 1.3F, 0}, {b, 1.3F, pi}};
-  ASSERT_TRUE(all.avoidance.want(wishes));
+  const DesiredVelocity wishes[] = {{a, 1.3F, 0}, {b, 1.3F, pi}};
+  ASSERT_TRUE(all.avoidance.set_desired_velocity(wishes));
   double least = 10;
   for (int k = 0; k < 900; ++k) {
     all.run();
@@ -174,7 +174,9 @@ TEST(Avoidance, NobodyWalksIntoAnybodyInAFullRoom) {
     room.tick();
     ASSERT_TRUE(room.simulation.roots(room.who, room.roots));
     for (std::size_t i = 0; i < room.people; ++i) {
-      const auto radius = [&](std::size_t p) { return double{room.simulation.get<Course>(room.who[p])->radius_m}; };
+      const auto radius = [&](std::size_t p) {
+        return double{room.simulation.get<AvoidanceState>(room.who[p])->radius_m};
+      };
       if (k > 0) walked += std::hypot(room.roots[i].x_m - before[i].x_m, room.roots[i].z_m - before[i].z_m);
       const double wall = room.side_m / 2 - std::max(std::abs(room.roots[i].x_m), std::abs(room.roots[i].z_m));
       if (k % 5 != 0) continue;
@@ -220,30 +222,30 @@ TEST(Avoidance, ASteadyCrowdTakesNoMemory) {
 TEST(Avoidance, WhoAvoidsNobodyIsAvoidedAndSoAreDiscs) {
   Avoiders all;
   const Entity a = all.come(1.2F, 0.0F, -6.0F), b = walker(all.simulation, 1.2F, 0.1F, 6, pi);
-  double least = 10, least_disc = 10;
+  double least = 10, min_disc = 10;
   for (int k = 0; k < 900; ++k) {
     const Disc pillar = {{-0.1F, 4}, 0.3F};
     ASSERT_TRUE(all.avoidance.set_discs({&pillar, 1}));
     all.run();
     least = std::min(least, all.apart_m(a, b));
-    least_disc = std::min(least_disc, std::hypot(all.root(a).x_m + 0.1, all.root(a).z_m - 4));
+    min_disc = std::min(min_disc, std::hypot(all.root(a).x_m + 0.1, all.root(a).z_m - 4));
   }
   EXPECT_GT(least, 0.40);
-  EXPECT_GT(least_disc, 0.51);
+  EXPECT_GT(min_disc, 0.51);
   EXPECT_GT(all.root(a).z_m, 5);
 }
 
 TEST(Avoidance, WhoIsPutIntoACrowdGetsOutOfIt) {
   Avoiders all;
-  std::vector<WalkWish> wishes;
+  std::vector<DesiredVelocity> wishes;
   for (int i = 0; i < 5; ++i) {
     const auto number = static_cast<float>(i);
     wishes.push_back({all.come(0, 0.2F * number, 0.15F * static_cast<float>(i % 2)), 1, 2 * pi * number / 5});
   }
-  ASSERT_TRUE(all.avoidance.want(wishes));
+  ASSERT_TRUE(all.avoidance.set_desired_velocity(wishes));
   all.run(1200);
-  for (const WalkWish& a : wishes)
-    for (const WalkWish& b : wishes) EXPECT_TRUE(a.human == b.human || all.apart_m(a.human, b.human) > 1);
+  for (const DesiredVelocity& a : wishes)
+    for (const DesiredVelocity& b : wishes) EXPECT_TRUE(a.person == b.person || all.apart_m(a.person, b.person) > 1);
 }
 
 TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
@@ -254,20 +256,21 @@ TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
   all.run(300);
   ASSERT_EQ(simulation.set_state({&one, 1}, PersonState::asleep).value(), 1U);
   all.run(120);
-  EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.2F, 1e-6F);
-  EXPECT_FALSE(avoidance.want(std::array{WalkWish{one, 30, 0}})) << "nobody of that height walks so";
-  ASSERT_TRUE(avoidance.want(std::array{WalkWish{one, 1.3F, 0}}));
+  EXPECT_NEAR(simulation.get<AvoidanceState>(one)->speed_m_s, 1.2F, 1e-6F);
+  EXPECT_FALSE(avoidance.set_desired_velocity(std::array{DesiredVelocity{one, 30, 0}}))
+      << "nobody of that height walks so";
+  ASSERT_TRUE(avoidance.set_desired_velocity(std::array{DesiredVelocity{one, 1.3F, 0}}));
   ASSERT_TRUE(simulation.set_state({&one, 1}, PersonState::full));
-  EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.3F, 1e-6F);
+  EXPECT_NEAR(simulation.get<AvoidanceState>(one)->speed_m_s, 1.3F, 1e-6F);
   ASSERT_TRUE(avoidance.release(one));
-  EXPECT_FALSE(simulation.get<Course>(one));
+  EXPECT_FALSE(simulation.get<AvoidanceState>(one));
   const double before = root_of(simulation, one).z_m;
   simulation.tick(60);
   EXPECT_NEAR(root_of(simulation, one).z_m - before, 1.2, 0.1);
 }
 
 /// Two tall walkers who speed up towards each other and strike in the same ticks, from any distance and anywhere
-/// between the cells that claims are sorted into: their ways are longer than claims are.
+/// between the cells that reservations are sorted into: their ways are longer than reservations are.
 TEST(Avoidance, WhoComesFastIsSeenFromFarOff) {
   for (std::uint64_t c = 0; c < 1500; ++c) {
     const auto draw = [&](std::uint64_t which) { return drawn(c, which); };
@@ -276,8 +279,10 @@ TEST(Avoidance, WhoComesFastIsSeenFromFarOff) {
     Avoiders all;
     const Entity a = all.come(speed, off, off - half, 0.0F, 1.9F),
                  b = all.come(speed, off - half * std::sin(heading), off + half, heading, 1.9F);
-    ASSERT_TRUE(all.avoidance.want(std::array{WalkWish{a, faster, 0}, WalkWish{b, faster, heading}}));
-    const float radii_m = all.simulation.get<Course>(a)->radius_m + all.simulation.get<Course>(b)->radius_m;
+    ASSERT_TRUE(all.avoidance.set_desired_velocity(
+        std::array{DesiredVelocity{a, faster, 0}, DesiredVelocity{b, faster, heading}}));
+    const float radii_m =
+        all.simulation.get<AvoidanceState>(a)->radius_m + all.simulation.get<AvoidanceState>(b)->radius_m;
     for (int k = 0; k < 150; ++k) {
       all.run();
       ASSERT_GT(all.apart_m(a, b), radii_m - 0.04F) << c;
@@ -302,7 +307,7 @@ TEST(Avoidance, WhoStandsTurnsAndWalksWhereTheyWant) {
     Avoiders all;
     const Entity one = all.come(0);
     const float heading = static_cast<float>(degrees) * pi / 180;
-    ASSERT_TRUE(all.avoidance.want({{WalkWish{one, 1.3F, heading}}}));
+    ASSERT_TRUE(all.avoidance.set_desired_velocity({{DesiredVelocity{one, 1.3F, heading}}}));
     all.run(6 * 60);
     const Root at = all.root(one);
     EXPECT_GT(at.x_m * std::sin(heading) + at.z_m * std::cos(heading), 2) << degrees;
@@ -318,7 +323,7 @@ TEST(Avoidance, WhoWasBoxedInTurnsAndWalksOnceTheWayIsOpen) {
     constexpr float a = 0.3F;
     ASSERT_TRUE(all.avoidance.set_walls(
         {{Wall{{-a, -a}, {a, -a}}, Wall{{a, -a}, {a, a}}, Wall{{a, a}, {-a, a}}, Wall{{-a, a}, {-a, -a}}}}));
-    ASSERT_TRUE(all.avoidance.want({{WalkWish{one, 1.3F, heading}}}));
+    ASSERT_TRUE(all.avoidance.set_desired_velocity({{DesiredVelocity{one, 1.3F, heading}}}));
     all.run(7 * 60);
     const Root from = all.root(one);
     ASSERT_TRUE(all.avoidance.set_walls({}));
@@ -338,7 +343,7 @@ TEST(Avoidance, WhoStandsTooNearACornerGetsRoundIt) {
     const Root at = all.root(one);
     const auto heading = static_cast<float>(std::atan2(0.45 - at.x_m, 0.4 - at.z_m));
     const bool past = at.x_m > 0.3;
-    ASSERT_TRUE(all.avoidance.want({{WalkWish{one, 1.2F, past ? 0 : heading}}}));
+    ASSERT_TRUE(all.avoidance.set_desired_velocity({{DesiredVelocity{one, 1.2F, past ? 0 : heading}}}));
     all.run();
   }
   EXPECT_GT(all.root(one).z_m, 3);
@@ -389,15 +394,15 @@ TEST(Avoidance, SaysWhatIsWrong) {
   const auto line = [](const Result<void>& result) { return result ? std::string() : result.error().message; };
   EXPECT_NE(line(avoidance.manage(posed)).find("discs"), std::string::npos);
   EXPECT_EQ(avoidance.manage(Entity{}).error().status, Status::stale_entity);
-  const WalkWish early = {one, 1, 0};
-  EXPECT_EQ(avoidance.want({&early, 1}).error().status, Status::missing);
+  const DesiredVelocity early = {one, 1, 0};
+  EXPECT_EQ(avoidance.set_desired_velocity({&early, 1}).error().status, Status::missing);
   EXPECT_FALSE(avoidance.release(one));
   ASSERT_TRUE(avoidance.manage(one));
-  const WalkWish fast[] = {{one, 1.2F, 1}, {one, 9, 0}};
-  EXPECT_NE(line(avoidance.want(fast)).find("speed"), std::string::npos);
-  EXPECT_EQ(simulation.get<Course>(one)->speed_m_s, 1.0F) << "all or none";
-  const WalkWish nowhere = {one, 1, std::nanf("")};
-  EXPECT_NE(line(avoidance.want({&nowhere, 1})).find("heading"), std::string::npos);
+  const DesiredVelocity fast[] = {{one, 1.2F, 1}, {one, 9, 0}};
+  EXPECT_NE(line(avoidance.set_desired_velocity(fast)).find("speed"), std::string::npos);
+  EXPECT_EQ(simulation.get<AvoidanceState>(one)->speed_m_s, 1.0F) << "all or none";
+  const DesiredVelocity nowhere = {one, 1, std::nanf("")};
+  EXPECT_NE(line(avoidance.set_desired_velocity({&nowhere, 1})).find("heading"), std::string::npos);
   const Wall wall = {{0, 0}, {std::nanf(""), 0}};
   EXPECT_NE(line(avoidance.set_walls({&wall, 1})).find("wall"), std::string::npos);
   const Disc disc = {{0, 0}, -1};

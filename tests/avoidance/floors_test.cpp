@@ -21,7 +21,7 @@ Meeting meet_at(float higher_m) {
   Avoiders all;
   const Entity low = all.come(1.3F, 0.0F, -6.0F), high = all.come(1.3F, 0.05F, 6.0F, pi);
   all.simulation.terrain().set_heights([=](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
-    for (std::size_t i = 0; i < at.size(); ++i) out[i].height_m = at[i].human == high ? higher_m : 0;
+    for (std::size_t i = 0; i < at.size(); ++i) out[i].height_m = at[i].person == high ? higher_m : 0;
   });
   EXPECT_TRUE(all.simulation.terrain().manage({&high, 1}));
   Meeting meeting;

@@ -23,14 +23,14 @@ TEST(Avoidance, TwoFlowsPartIntoLanes) {
   ASSERT_TRUE(crowd.avoidance.set_walls(walls));
   constexpr std::size_t many = 48;
   std::vector<Entity> all;
-  std::vector<WalkWish> wishes;
+  std::vector<DesiredVelocity> wishes;
   for (std::size_t i = 0; i < many; ++i) {
     const bool back = i % 2 == 1;
     const float x = 3.6F * (drawn(i, 1) - 0.5F), z = (back ? 1.0F : -1.0F) * (4 + 0.5F * static_cast<float>(i));
     all.push_back(crowd.come(1.3F, x, z, back ? pi : 0.0F));
     wishes.push_back({all.back(), 1.3F, back ? pi : 0});
   }
-  ASSERT_TRUE(crowd.avoidance.want(wishes));
+  ASSERT_TRUE(crowd.avoidance.set_desired_velocity(wishes));
   std::vector<Root> at(many);
   double right = 0, passing = 0;
   for (int tick = 0; tick < 60 * 40; ++tick) {
@@ -55,7 +55,7 @@ TEST(Avoidance, WhoStandsBesideAWallGoesAlongIt) {
     Avoiders all;
     ASSERT_TRUE(all.avoidance.set_walls({{Wall{{0.225F, -50}, {0.225F, 50}}}}));
     const Entity one = all.come(0, 0.0F, 0.0F, off);
-    ASSERT_TRUE(all.avoidance.want({{WalkWish{one, 1.2F, 0}}}));
+    ASSERT_TRUE(all.avoidance.set_desired_velocity({{DesiredVelocity{one, 1.2F, 0}}}));
     all.run(600);
     EXPECT_GT(all.root(one).z_m, 7) << "facing " << off;
     EXPECT_LT(all.root(one).x_m, 0.06);
@@ -103,10 +103,10 @@ TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
     way.push_back(flow.both_ways && i % 2 == 1 ? -1 : 1);
     who.push_back(crowd.come(0, at * std::sin(angle), at * std::cos(angle), angle + way.back() * pi / 2,
                              1.6F + 0.25F * drawn(i, 1)));
-    radius.push_back(simulation.get<Course>(who.back())->radius_m);
+    radius.push_back(simulation.get<AvoidanceState>(who.back())->radius_m);
   }
   std::vector<Root> at(many);
-  std::vector<WalkWish> wishes(many);
+  std::vector<DesiredVelocity> wishes(many);
   std::vector<double> walked(many), before(many);
   double overlap = 0;
   ASSERT_TRUE(simulation.roots(who, at));
@@ -121,7 +121,7 @@ TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
       if (tick <= 30 * seconds) walked[i] = 0;
     }
     if (tick % 6 == 0) {
-      ASSERT_TRUE(crowd.avoidance.want(wishes));
+      ASSERT_TRUE(crowd.avoidance.set_desired_velocity(wishes));
     }
     crowd.run();
     ASSERT_TRUE(simulation.roots(who, at));

@@ -43,7 +43,7 @@ struct Room {
         const bool there = std::hypot(x - roots[i].x_m, z - roots[i].z_m) < 0.7;
         wishes.push_back({who[i], there ? 0 : 1.1F + 0.4F * drawn(i, 5), heading});
       }
-      EXPECT_TRUE(avoidance.want(wishes));
+      EXPECT_TRUE(avoidance.set_desired_velocity(wishes));
     }
     simulation.tick();
     report = avoidance.report();
@@ -55,7 +55,7 @@ struct Room {
   Avoidance avoidance;
   std::vector<Entity> who;
   std::vector<Root> roots;
-  std::vector<WalkWish> wishes;
+  std::vector<DesiredVelocity> wishes;
   AvoidanceReport report;
 };
 

@@ -46,7 +46,7 @@ TEST(Shoulders, TurnAgainstThePelvisAndTheHeadLooksAhead) {
   const Entity one = walker(simulation, 1.2F, 3, -2, 0.7F);
   simulation.tick(40);
   const Pose<float> before = *simulation.get<Pose>(one);
-  for (const float by : {-most_shoulder_turn, -0.1F, 0.02F, 0.3F, most_shoulder_turn}) {
+  for (const float by : {-max_shoulder_turn, -0.1F, 0.02F, 0.3F, max_shoulder_turn}) {
     const Pose<float> after = turned(before, by);
     const auto made = [&](Segment s) {
       return yaw(product(after.rotation[index(s)], inverse(before.rotation[index(s)])));
@@ -76,7 +76,7 @@ TEST(Shoulders, NoJointOfTheColumnTurnsFurtherThanItCan) {
   Simulation simulation;
   const Entity one = walker(simulation, 0);
   simulation.tick();
-  const Pose<float> pose = turned(*simulation.get<Pose>(one), most_shoulder_turn);
+  const Pose<float> pose = turned(*simulation.get<Pose>(one), max_shoulder_turn);
   for (std::size_t i = 0; i < vertebra_limits.size(); ++i) {
     const std::size_t s = index(Segment::L5) + i, parent = index(segment_parent[s]);
     const float turn = yaw(product(inverse(pose.rotation[parent]), pose.rotation[s]));
@@ -86,7 +86,7 @@ TEST(Shoulders, NoJointOfTheColumnTurnsFurtherThanItCan) {
 
 TEST(Shoulders, EaseThereWhateverTheTick) {
   const auto after = [](float every_s, float seconds) {
-    Course<Lanes<float>> course{};
+    AvoidanceState<Lanes<float>> course{};
     course.turn_to_rad = in_every_lane<Lanes<float>>(0.6F);
     for (int k = 0; k < static_cast<int>(std::lround(seconds / every_s)); ++k) ease_shoulders(course, every_s);
     return course.turn_rad[5];
@@ -124,7 +124,7 @@ TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
     const double x = at[1].x_m - at[0].x_m, z = at[1].z_m - at[0].z_m, apart = std::hypot(x, z);
     double together = 0;
     for (int i = 0; i < 2; ++i) {
-      const Course<float> course = *simulation.get<Course>(who[i]);
+      const AvoidanceState<float> course = *simulation.get<AvoidanceState>(who[i]);
       most = std::max(most, std::fabs(course.turn_rad));
       const Section shoulders = {at[i].x_m, at[i].z_m, double{at[i].heading_rad} + double{course.turn_rad},
                                  double{course.shoulders_m}, 0.58 * double{course.shoulders_m}};
@@ -136,7 +136,7 @@ TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
   EXPECT_LT(root_of(simulation, who[1]).z_m, -4);
   EXPECT_GT(most, 0.4F);
   EXPECT_LT(overlap, 0.05);
-  for (const Entity one : who) EXPECT_EQ(simulation.get<Course>(one)->turn_rad, 0) << "and turned back";
+  for (const Entity one : who) EXPECT_EQ(simulation.get<AvoidanceState>(one)->turn_rad, 0) << "and turned back";
 }
 
 /// Breadths and depths of chests and hips, of the height: means of the 1986 women of ANSUR II (Gordon et al. 2014).
@@ -180,7 +180,7 @@ TEST(Shoulders, WhoKeepsThemClearTurnsNone) {
   for (const Entity one : who) ASSERT_TRUE(avoidance.manage(one));
   for (int k = 0; k < 600; ++k) {
     simulation.tick();
-    for (const Entity one : who) ASSERT_EQ(simulation.get<Course>(one)->turn_rad, 0);
+    for (const Entity one : who) ASSERT_EQ(simulation.get<AvoidanceState>(one)->turn_rad, 0);
   }
 }
 
@@ -190,7 +190,7 @@ struct NearPair : Avoiders {
     run(90);
     EXPECT_GT(std::fabs(turned_rad()), 0.4F);
   }
-  float turned_rad() const { return simulation.get<Course>(who[0])->turn_rad; }
+  float turned_rad() const { return simulation.get<AvoidanceState>(who[0])->turn_rad; }
   float chest_rad() const { return yaw(simulation.get<Pose>(who[0])->rotation[index(Segment::T1)]); }
 
   const Entity who[2] = {come(0), come(0, 0.36F)};

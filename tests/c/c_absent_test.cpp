@@ -9,7 +9,7 @@ namespace {
 using namespace c_test;
 
 mobil_muscles unseen_muscles() {
-  auto muscles = reduced_muscles();
+  auto muscles = modal_muscles();
   muscles.control_points = 0;
   return muscles;
 }
@@ -61,7 +61,7 @@ TEST(CAbsent, MusclesBecomeOthersAndMethodsAreSet) {
     ASSERT_EQ(mobil_get_method(all.sim, all.ids[i], MOBIL_HAMSTRINGS, &is), MOBIL_OK);
     EXPECT_EQ(is.method, MOBIL_NONE);
     ASSERT_EQ(mobil_get_method(all.sim, all.ids[i], MOBIL_QUADRICEPS, &is), MOBIL_OK);
-    EXPECT_EQ(is.method, MOBIL_REDUCED);
+    EXPECT_EQ(is.method, MOBIL_MODAL);
     ASSERT_EQ(mobil_get_method(again.sim, again.ids[i], MOBIL_HAMSTRINGS, &is), MOBIL_OK);
     EXPECT_EQ(is.method, MOBIL_STATIC);
   }
@@ -130,8 +130,8 @@ TEST(CAbsent, NobodyHasChangedWhereOneIsRefused) {
   refused(mobil_set_muscles(all.sim, all.ids.data(), 6, &wild));
   auto method = filled<mobil_method>(MOBIL_METHOD);
   refused(mobil_set_method(all.sim, all.ids.data(), 6, MOBIL_QUADRICEPS, &method));
-  method.vectors = 40;
-  method.method = MOBIL_REDUCED;
+  method.modes = 40;
+  method.method = MOBIL_MODAL;
   refused(mobil_set_method(all.sim, all.ids.data(), 6, MOBIL_HAMSTRINGS, &method));
   const float pull = 0.5F;
   refused(mobil_set_excitation(all.sim, all.ids.data(), 1, MOBIL_HAMSTRINGS, MOBIL_RIGHT, &pull, 0));

@@ -34,7 +34,7 @@ struct Shown {
   explicit Shown(const mobil_options& options) : sim(options) {
     muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
     muscles.muscles = members();
-    muscles.method = MOBIL_REDUCED;
+    muscles.method = MOBIL_MODAL;
     ids = spawn(sim, 1, &muscles);
     EXPECT_EQ(mobil_tick(sim, 40), MOBIL_OK);
     auto choice = filled<mobil_surface_choice>(MOBIL_SURFACE_CHOICE);
@@ -153,22 +153,22 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesWithTheBodys) {
     mesh.vertices = leg.position.size() / 3;
     mesh.indices = leg.index.data();
     mesh.index_count = leg.index.size();
-    mobil_own_skin* own = nullptr;
-    ASSERT_EQ(mobil_bind_own_skin(sim, id, &mesh, &own), MOBIL_OK) << sim.message();
-    const std::size_t vertices = mobil_own_skin_vertex_count(own);
+    mobil_custom_skin* own = nullptr;
+    ASSERT_EQ(mobil_bind_custom_skin(sim, id, &mesh, &own), MOBIL_OK) << sim.message();
+    const std::size_t vertices = mobil_custom_skin_vertex_count(own);
     EXPECT_GT(vertices, mesh.vertices);  // both legs
-    std::vector<unsigned int> index(mobil_own_skin_index_count(own));
-    ASSERT_EQ(mobil_own_skin_indices(own, index.data(), index.size()), MOBIL_OK);
-    EXPECT_EQ(mobil_own_skin_indices(own, index.data(), index.size() - 1), MOBIL_ROOM);
+    std::vector<unsigned int> index(mobil_custom_skin_index_count(own));
+    ASSERT_EQ(mobil_custom_skin_indices(own, index.data(), index.size()), MOBIL_OK);
+    EXPECT_EQ(mobil_custom_skin_indices(own, index.data(), index.size() - 1), MOBIL_ROOM);
     std::size_t rest = 0;
-    ASSERT_EQ(mobil_own_skin_rest(own, nullptr, 0, &rest), MOBIL_OK);
+    ASSERT_EQ(mobil_custom_skin_rest(own, nullptr, 0, &rest), MOBIL_OK);
     EXPECT_LT(rest, mobil_skin_index_count(MOBIL_MAN, MOBIL_NEAR));
     EXPECT_GT(rest, mobil_skin_index_count(MOBIL_MAN, MOBIL_NEAR) / 2);
     std::vector<float> out(6 * vertices);
     auto target = filled<mobil_skin_target>(MOBIL_SKIN_TARGET);
     target.id = id;
     aim(target, out, true);
-    ASSERT_EQ(mobil_write_own_skin(sim, own, &target, 0, 1), MOBIL_OK) << sim.message();
+    ASSERT_EQ(mobil_write_custom_skin(sim, own, &target, 0, 1), MOBIL_OK) << sim.message();
     // Where the body's skin is, which it was cut out of, but for what hangs over the cut.
     std::vector<float> body(3 * mobil_skin_vertex_count(MOBIL_MAN, MOBIL_NEAR));
     auto of_body = target;
@@ -194,27 +194,27 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesWithTheBodys) {
     written[turned ? 1 : 0] = out;
     target.normals = out.data();
     target.normal_bytes = target.position_bytes;
-    EXPECT_EQ(mobil_write_own_skin(sim, own, &target, 0, 1), MOBIL_REFUSED) << "normals over positions";
+    EXPECT_EQ(mobil_write_custom_skin(sim, own, &target, 0, 1), MOBIL_REFUSED) << "normals over positions";
     target.position_bytes = 12;
-    EXPECT_EQ(mobil_write_own_skin(sim, own, &target, 0, 1), MOBIL_REFUSED);
+    EXPECT_EQ(mobil_write_custom_skin(sim, own, &target, 0, 1), MOBIL_REFUSED);
     mesh.index_count = 4;
-    mobil_own_skin* none = own;
-    EXPECT_EQ(mobil_bind_own_skin(sim, id, &mesh, &none), MOBIL_REFUSED);
+    mobil_custom_skin* none = own;
+    EXPECT_EQ(mobil_bind_custom_skin(sim, id, &mesh, &none), MOBIL_REFUSED);
     EXPECT_EQ(none, nullptr);
     mesh.index_count = leg.index.size();
     std::vector<float> far = leg.position;
     far[1] = 1e30F;
     mesh.positions = far.data();
-    EXPECT_EQ(mobil_bind_own_skin(sim, id, &mesh, &none), MOBIL_REFUSED);
+    EXPECT_EQ(mobil_bind_custom_skin(sim, id, &mesh, &none), MOBIL_REFUSED);
     EXPECT_NE(sim.message().find("unit"), std::string::npos) << sim.message();
     mesh.positions = leg.position.data();
     std::vector<unsigned int> wrong = leg.index;
     wrong.back() = static_cast<unsigned int>(mesh.vertices);
     mesh.index_count = wrong.size();
     mesh.indices = wrong.data();
-    EXPECT_EQ(mobil_bind_own_skin(sim, id, &mesh, &none), MOBIL_REFUSED);
+    EXPECT_EQ(mobil_bind_custom_skin(sim, id, &mesh, &none), MOBIL_REFUSED);
     EXPECT_NE(sim.message().find("vertex"), std::string::npos) << sim.message();
-    mobil_drop_own_skin(own);
+    mobil_drop_custom_skin(own);
   }
   ASSERT_EQ(written[0].size(), written[1].size());
   for (std::size_t v = 0; v < written[0].size(); v += 6) {
@@ -259,15 +259,15 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesOverMuscles) {
   mesh.indices = leg.index.data();
   mesh.index_count = leg.index.size();
   mesh.surfaces = surfaces;
-  mobil_own_skin* own = nullptr;
-  ASSERT_EQ(mobil_bind_own_skin(sim, id, &mesh, &own), MOBIL_OK) << sim.message();
+  mobil_custom_skin* own = nullptr;
+  ASSERT_EQ(mobil_bind_custom_skin(sim, id, &mesh, &own), MOBIL_OK) << sim.message();
   mobil_drop_surfaces(surfaces);
-  std::vector<float> out(3 * mobil_own_skin_vertex_count(own));
+  std::vector<float> out(3 * mobil_custom_skin_vertex_count(own));
   auto target = filled<mobil_skin_target>(MOBIL_SKIN_TARGET);
   target.id = id;
   aim(target, out, false);
   const auto furthest_m = [&](std::size_t from, std::size_t to, float side) {
-    EXPECT_EQ(mobil_write_own_skin(sim, own, &target, 0, 1), MOBIL_OK) << sim.message();
+    EXPECT_EQ(mobil_write_custom_skin(sim, own, &target, 0, 1), MOBIL_OK) << sim.message();
     float furthest = 0;
     for (std::size_t v = from; v < to; v += 3) {
       if (out[v + 1] > 0.6F) continue;
@@ -287,7 +287,7 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesOverMuscles) {
   }
   EXPECT_LT(furthest_m(0, half, 1), 0.001F);
   EXPECT_LT(furthest_m(half, out.size(), -1), 0.004F) << "the left leg's muscles";
-  mobil_drop_own_skin(own);
+  mobil_drop_custom_skin(own);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // Names that go in 0.5 do as those that took their place.
 
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+
 #include <array>
 
 #include "tests/c/c_fixture.h"
@@ -10,7 +12,7 @@ using namespace c_test;
 
 TEST(CDeprecated, OldNamesDoTheirWork) {
   const Sim old, now;
-  const auto muscles = reduced_muscles();
+  const auto muscles = modal_muscles();
   auto options = filled<mobil_choosing>(MOBIL_CHOOSING);
   options.machine_factor = 1;
   auto scene = filled<mobil_scene>(MOBIL_SCENE);
@@ -29,13 +31,13 @@ TEST(CDeprecated, OldNamesDoTheirWork) {
        {mobil_lod_set_options(now, &options, &muscles), mobil_lod_set_scene(now, &scene),
         mobil_lod_manage(now, b.data(), 4, nullptr), mobil_avoidance_set_options(now, nullptr),
         mobil_avoidance_manage(now, b.data(), 8, 1), mobil_avoidance_set_walls(now, wall, 0, 1),
-        mobil_avoidance_set_discs(now, disc, 0, 1), mobil_terrain_set_slowing(now, 1),
+        mobil_avoidance_set_discs(now, disc, 0, 1), mobil_terrain_set_speed_scaling(now, 1),
         mobil_terrain_manage(now, &b[6], 2, 1), mobil_enable(now, &b[4], 2, MOBIL_FORCES, 1),
         mobil_enable(now, &b[4], 2, MOBIL_FAT, 1), mobil_enable(now, b.data(), 8, MOBIL_STEP_EVENTS, 1)})
     ASSERT_EQ(code, MOBIL_OK) << now.message();
   const std::array<float, 16> wishes = {1.2F, 0.5F, 1.2F, 0.5F, 1.2F, 0.5F, 1.2F, 0.5F};
   ASSERT_EQ(mobil_want(old, a.data(), 4, wishes.data(), 0), MOBIL_OK) << old.message();
-  ASSERT_EQ(mobil_avoidance_want(now, b.data(), 4, wishes.data(), 0), MOBIL_OK) << now.message();
+  ASSERT_EQ(mobil_avoidance_set_desired_velocity(now, b.data(), 4, wishes.data(), 0), MOBIL_OK) << now.message();
   std::size_t chose = 0, switched = 0;
   for (int tick = 0; tick < 60; ++tick) {
     auto chosen = filled<mobil_chosen>(MOBIL_CHOSEN);
@@ -48,8 +50,8 @@ TEST(CDeprecated, OldNamesDoTheirWork) {
     ASSERT_EQ(mobil_ask_ground(old, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
     const std::vector<float> level(4 * count);
     ASSERT_EQ(mobil_answer_ground(old, level.data(), 0, count, nullptr), MOBIL_OK);
-    ASSERT_EQ(mobil_terrain_ask(now, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
-    ASSERT_EQ(mobil_terrain_answer(now, level.data(), 0, count, nullptr), MOBIL_OK);
+    ASSERT_EQ(mobil_terrain_query(now, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
+    ASSERT_EQ(mobil_terrain_resolve(now, level.data(), 0, count, nullptr), MOBIL_OK);
     ASSERT_EQ(mobil_tick(old, 1), MOBIL_OK);
     ASSERT_EQ(mobil_tick(now, 1), MOBIL_OK);
   }

@@ -123,11 +123,11 @@ void aim(Target& target, std::vector<float>& out, bool normals) {
   target.normal_bytes = target.position_bytes - 12;
 }
 
-inline mobil_muscles reduced_muscles() {
+inline mobil_muscles modal_muscles() {
   auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
-  muscles.method = MOBIL_REDUCED;
+  muscles.method = MOBIL_MODAL;
   muscles.muscles = 1U << MOBIL_HAMSTRINGS | 1U << MOBIL_TRICEPS_SURAE;
-  muscles.vectors = 4;
+  muscles.modes = 4;
   return muscles;
 }
 

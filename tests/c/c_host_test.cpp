@@ -60,7 +60,7 @@ mobil_id walker(const Sim& sim, const Host& host) {
   person.heading_rad = 0.7F;
   mobil_id id{};
   auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
-  muscles.method = MOBIL_REDUCED;
+  muscles.method = MOBIL_MODAL;
   EXPECT_EQ(mobil_spawn(sim, &person, 0, 1, &muscles, &id), MOBIL_OK) << sim.message();
   EXPECT_EQ(mobil_enable(sim, &id, 1, MOBIL_FORCES, 1), MOBIL_OK);
   EXPECT_EQ(mobil_tick(sim, 50), MOBIL_OK);
@@ -220,7 +220,7 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
     auto options = filled<mobil_options>(MOBIL_OPTIONS);
     options.memory = {&memory, &Scarce::allocate, &Scarce::release};
     const Sim sim(options);
-    const auto muscles = reduced_muscles();
+    const auto muscles = modal_muscles();
     std::vector<mobil_id> ids(40);
     const auto people = some_people(ids.size());
     std::size_t refusals = 0;
@@ -308,7 +308,7 @@ struct Busy {
     if (!lod) return;
     auto choosing = filled<mobil_lod_options>(MOBIL_LOD_OPTIONS);
     choosing.machine_factor = 1;
-    const auto muscles = reduced_muscles();
+    const auto muscles = modal_muscles();
     auto scene = filled<mobil_scene>(MOBIL_SCENE);
     scene.muscles = muscles.muscles;
     scene.has_camera = 1;
@@ -383,7 +383,7 @@ TEST(CHost, ItsJobsDoTheWork) {
                   },
                   4};
   const Sim sim(options), plain;
-  const auto muscles = reduced_muscles();
+  const auto muscles = modal_muscles();
   spawn(sim, 100, &muscles);
   spawn(plain, 100, &muscles);
   ASSERT_EQ(mobil_tick(sim, 20), MOBIL_OK);

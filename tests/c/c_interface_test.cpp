@@ -24,11 +24,11 @@ std::vector<Entity> spawn_in(Simulation& simulation, std::vector<SpawnRequest> r
   return people;
 }
 
-LegMuscles reduced_choice() {
+LegMuscles modal_choice() {
   LegMuscles choice;
-  choice.method = Method::reduced;
+  choice.method = Method::modal;
   choice.muscles = MuscleSet(0b101);
-  choice.reduced.vectors = 4;
+  choice.modal.modes = 4;
   return choice;
 }
 
@@ -48,11 +48,11 @@ TEST(CInterface, UsualStructsMakeWhatTheUsualStructsOfCppMake) {
 
 TEST(CInterface, APlayThroughCHasTheBitsOfThatThroughCpp) {
   const Sim sim;
-  const auto muscles = reduced_muscles();
+  const auto muscles = modal_muscles();
   const auto ids = spawn(sim, 20, &muscles);
   Simulation simulation;
   auto requests = as_requests(some_people(20));
-  for (auto& request : requests) request.muscles = reduced_choice();
+  for (auto& request : requests) request.muscles = modal_choice();
   const auto people = spawn_in(simulation, requests);
   const auto both = [&](int ticks) {
     ASSERT_EQ(mobil_tick(sim, static_cast<unsigned>(ticks)), MOBIL_OK);
@@ -102,10 +102,10 @@ TEST(CInterface, APlayThroughCHasTheBitsOfThatThroughCpp) {
   std::size_t slept = 0, compacted = 0;
   ASSERT_EQ(mobil_set_state(sim, &ids[10], 4, MOBIL_ASLEEP, 0, &slept), MOBIL_OK);
   EXPECT_EQ(*simulation.set_state(std::span(people).subspan(10, 4), PersonState::asleep), slept);
-  auto unseen = reduced_muscles();
+  auto unseen = modal_muscles();
   unseen.control_points = 0;
-  auto choice = reduced_choice();
-  choice.reduced.control_points = false;
+  auto choice = modal_choice();
+  choice.modal.control_points = false;
   ASSERT_EQ(mobil_set_muscles(sim, &ids[14], 4, &unseen), MOBIL_OK) << sim.message();
   for (std::size_t i = 14; i < 18; ++i) ASSERT_TRUE(simulation.set_muscles(people[i], choice));
   both(30);
@@ -148,7 +148,7 @@ TEST(CInterface, LevelOfDetailIsThatOfCpp) {
   Simulation simulation;
   Lod lod = simulation.lod();
   ASSERT_TRUE(lod.set_options({.machine_factor = 1}));
-  SceneNeeds needs;
+  LodScene needs;
   needs.camera = Viewpoint{.position_m = {0, 1.7F, -6}};
   needs.compact_unseen = true;
   ASSERT_TRUE(lod.set_scene(needs));
@@ -182,7 +182,7 @@ TEST(CInterface, RowsAreTheComponents) {
   muscles.muscles = 1U << MOBIL_TRICEPS_SURAE;
   muscles.line_motion = 1;
   muscles.activation = MOBIL_BY_HOST;
-  muscles.method = MOBIL_REDUCED;
+  muscles.method = MOBIL_MODAL;
   const auto ids = spawn(sim, 3, &muscles);
   ASSERT_EQ(mobil_enable(sim, ids.data(), 3, MOBIL_FORCES, 1), MOBIL_OK);
   Simulation simulation;
@@ -191,7 +191,7 @@ TEST(CInterface, RowsAreTheComponents) {
   choice.muscles = MuscleSet(0b100);
   choice.line_motion = true;
   choice.activation = ExcitationSource::host;
-  choice.method = Method::reduced;
+  choice.method = Method::modal;
   for (auto& request : requests) request.muscles = choice;
   const auto people = spawn_in(simulation, requests);
   for (const Entity person : people) ASSERT_TRUE(simulation.enable(person, Feature::forces));
@@ -258,7 +258,7 @@ TEST(CInterface, RowsAreTheComponents) {
 
 TEST(CInterface, SnapshotsGoFromOneInterfaceToTheOther) {
   const Sim sim;
-  const auto muscles = reduced_muscles();
+  const auto muscles = modal_muscles();
   spawn(sim, 9, &muscles);
   ASSERT_EQ(mobil_tick(sim, 20), MOBIL_OK);
   std::vector<std::byte> bytes(mobil_snapshot_bytes(sim));
@@ -301,7 +301,7 @@ TEST(CInterface, SnapshotsGoFromOneInterfaceToTheOther) {
 
 TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
   const Sim sim;
-  const auto muscles = reduced_muscles();
+  const auto muscles = modal_muscles();
   auto ids = spawn(sim, 5, &muscles);
   ASSERT_EQ(mobil_tick(sim, 7), MOBIL_OK);
   auto posed = filled<mobil_person>(MOBIL_PERSON);
@@ -366,7 +366,7 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
     return mobil_set_poses(sim, dolls.data(), 2, poses.data(), 0, 0);
   });
   auto fixed = muscles;
-  fixed.method = MOBIL_ECD;
+  fixed.method = MOBIL_EXPLICIT_CENTRAL;
   fixed.dt_s = 0.009;
   refused("set_muscles", MOBIL_REFUSED, [&] { return mobil_set_muscles(sim, ids.data(), n, &fixed); });
   refused("set_muscles (stale)", MOBIL_STALE, [&] { return mobil_set_muscles(sim, with_gone.data(), n, nullptr); });
@@ -374,10 +374,10 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
   moments.activation = MOBIL_BY_MOMENTS;
   refused("set_muscles by moments", MOBIL_MISSING, [&] { return mobil_set_muscles(sim, ids.data(), n, &moments); });
   auto method = filled<mobil_method>(MOBIL_METHOD);
-  method.method = MOBIL_REDUCED;
-  method.vectors = 99;
+  method.method = MOBIL_MODAL;
+  method.modes = 99;
   refused("set_method", MOBIL_REFUSED, [&] { return mobil_set_method(sim, ids.data(), n, MOBIL_HAMSTRINGS, &method); });
-  method.vectors = 8;
+  method.modes = 8;
   refused("set_method of none", MOBIL_MISSING,
           [&] { return mobil_set_method(sim, with_posed.data(), n, MOBIL_HAMSTRINGS, &method); });
   refused("set_excitation", MOBIL_MISSING, [&] {

@@ -6,7 +6,7 @@
 
 #include <mobil/engine/world.h>
 #include <mobil/step_report.h>
-#include <mobil/systems/limits/limit_watch.h>
+#include <mobil/systems/limits/limit_monitor.h>
 #include "tests/c/c_fixture.h"
 
 namespace mobil::c_play_test {
@@ -191,25 +191,25 @@ TEST(CPlay, LimitsThatAreBrokenAreThoseOfCpp) {
     ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
     simulation.tick();
     std::string ours;
-    for (const BrokenLimit& limit : broken_limits(simulation.world(), same)) ours += described(limit) + '\n';
+    for (const LimitViolation& limit : limit_violations(simulation.world(), same)) ours += described(limit) + '\n';
     std::size_t length = 0;
-    ASSERT_EQ(mobil_broken_limits(sim, id, nullptr, 0, &length), MOBIL_OK);
+    ASSERT_EQ(mobil_limit_violations(sim, id, nullptr, 0, &length), MOBIL_OK);
     ASSERT_EQ(length, ours.size());
     std::vector<char> text(length + 1, 'x');
-    ASSERT_EQ(mobil_broken_limits(sim, id, text.data(), length, nullptr), MOBIL_ROOM);
+    ASSERT_EQ(mobil_limit_violations(sim, id, text.data(), length, nullptr), MOBIL_ROOM);
     EXPECT_EQ(text[0], 'x');
-    ASSERT_EQ(mobil_broken_limits(sim, id, text.data(), length + 1, nullptr), MOBIL_OK);
+    ASSERT_EQ(mobil_limit_violations(sim, id, text.data(), length + 1, nullptr), MOBIL_OK);
     EXPECT_EQ(text.data(), ours);
-    ASSERT_EQ(mobil_beyond_limits(sim, &people, &all), MOBIL_OK);
-    EXPECT_EQ(people, simulation.report().beyond_limits);
-    EXPECT_EQ(all, simulation.report().total_beyond_limits);
+    ASSERT_EQ(mobil_limit_violation_counts(sim, &people, &all), MOBIL_OK);
+    EXPECT_EQ(people, simulation.report().limit_violations);
+    EXPECT_EQ(all, simulation.report().total_limit_violations);
     broken += ours.empty() ? 0 : 1;
   }
   EXPECT_GT(broken, 0U);
   EXPECT_GT(all, 0U);
-  EXPECT_EQ(mobil_broken_limits(sim, id, nullptr, 0, nullptr), MOBIL_REFUSED);
-  EXPECT_EQ(mobil_beyond_limits(sim, nullptr, nullptr), MOBIL_OK);
-  EXPECT_EQ(mobil_broken_limits(sim, {99, 0}, nullptr, 0, &people), MOBIL_STALE);
+  EXPECT_EQ(mobil_limit_violations(sim, id, nullptr, 0, nullptr), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_limit_violation_counts(sim, nullptr, nullptr), MOBIL_OK);
+  EXPECT_EQ(mobil_limit_violations(sim, {99, 0}, nullptr, 0, &people), MOBIL_STALE);
 }
 
 TEST(CPlay, PhasesAreThoseOfTheReport) {

@@ -17,22 +17,23 @@ TEST(CSurroundings, TheWaysOfWhoAvoidOthersAreThoseOfCpp) {
   Twins twins;
   Avoidance avoidance = twins.simulation.avoidance();
   ASSERT_EQ(mobil_avoidance_manage(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
-  for (const Entity human : twins.entities) ASSERT_TRUE(avoidance.manage(human));
+  for (const Entity person : twins.entities) ASSERT_TRUE(avoidance.manage(person));
   EXPECT_EQ(bits_of(twins.sim, twins.ids[2]) & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_AVOIDS);
 
   // All of them to the middle, between two walls, past a pillar that comes along.
   std::vector<std::array<float, 2>> wishes(5);
-  std::vector<WalkWish> ours(5);
+  std::vector<DesiredVelocity> ours(5);
   for (std::size_t i = 0; i < 5; ++i) {
     wishes[i] = {1.2F, 0.5F * static_cast<float>(i) - 1};
     ours[i] = {twins.entities[i], wishes[i][0], wishes[i][1]};
   }
   const float walls[2][6] = {{-500, 100, 0, 900, 100, 0}, {-500, -600, 0, 900, -600, 30}};
   const float discs[1][7] = {{300, -200, 0, -50, 0, 0, 25}};
-  ASSERT_EQ(mobil_avoidance_want(twins.sim, twins.ids.data(), 5, wishes[0].data(), 0), MOBIL_OK) << twins.sim.message();
+  ASSERT_EQ(mobil_avoidance_set_desired_velocity(twins.sim, twins.ids.data(), 5, wishes[0].data(), 0), MOBIL_OK)
+      << twins.sim.message();
   ASSERT_EQ(mobil_avoidance_set_walls(twins.sim, walls[0], 0, 2), MOBIL_OK) << twins.sim.message();
   ASSERT_EQ(mobil_avoidance_set_discs(twins.sim, discs[0], 0, 1), MOBIL_OK) << twins.sim.message();
-  ASSERT_TRUE(avoidance.want(ours));
+  ASSERT_TRUE(avoidance.set_desired_velocity(ours));
   ASSERT_TRUE(avoidance.set_walls({{{{-1, -5}, {-1, 9}}, {{6, -5}, {6, 9}}}}));
   ASSERT_TRUE(avoidance.set_discs({{{{2, 3}, 0.25F, 0, -0.5F}}}));
   std::size_t chose = 0;
@@ -44,7 +45,7 @@ TEST(CSurroundings, TheWaysOfWhoAvoidOthersAreThoseOfCpp) {
     const AvoidanceReport& report = avoidance.report();
     ASSERT_EQ(did.people, 5U);
     ASSERT_EQ(did.chose, report.chose);
-    ASSERT_EQ(did.kept_claim, report.kept_claim);
+    ASSERT_EQ(did.kept_reservation, report.kept_reservation);
     chose += did.chose;
   }
   EXPECT_GT(chose, 30U);
@@ -79,29 +80,29 @@ void walk_on_the_hill(bool slows_down) {
   Terrain terrain = twins.simulation.terrain();
   terrain.set_heights(heights);
   terrain.set_options({.slows_down = slows_down});
-  ASSERT_EQ(mobil_terrain_set_slowing(twins.sim, slows_down ? 1 : 0), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_set_speed_scaling(twins.sim, slows_down ? 1 : 0), MOBIL_OK);
   ASSERT_EQ(mobil_terrain_manage(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
   ASSERT_TRUE(terrain.manage(twins.entities));
   EXPECT_EQ(bits_of(twins.sim, twins.ids[2]) & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_ON_GROUND);
   std::size_t all = 0;
   for (int t = 0; t < 200; ++t) {
     std::size_t count = 0, unusable = 1;
-    ASSERT_EQ(mobil_terrain_ask(twins.sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
+    ASSERT_EQ(mobil_terrain_query(twins.sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
     all += count;
     if (count > 0) {
       std::vector<std::array<float, 3>> places(count);
       std::vector<std::array<float, 4>> ground(count);
       std::vector<mobil_id> who(count);
-      EXPECT_EQ(mobil_terrain_ask(twins.sim, places[0].data(), 0, who.data(), count - 1, nullptr), MOBIL_ROOM);
-      ASSERT_EQ(mobil_terrain_ask(twins.sim, places[0].data(), 0, who.data(), count, nullptr), MOBIL_OK);
+      EXPECT_EQ(mobil_terrain_query(twins.sim, places[0].data(), 0, who.data(), count - 1, nullptr), MOBIL_ROOM);
+      ASSERT_EQ(mobil_terrain_query(twins.sim, places[0].data(), 0, who.data(), count, nullptr), MOBIL_OK);
       for (std::size_t i = 0; i < count; ++i) {
         EXPECT_LT(who[i].index, 5U);
         EXPECT_EQ(places[i][2], 0);
         const TerrainHeight at = hill(-places[i][1] / 100, places[i][0] / 100);
         ground[i] = {100 * at.height_m, -2 * at.rise_z, 2 * at.rise_x, 2};  // x ahead, y right, z up
       }
-      EXPECT_EQ(mobil_terrain_answer(twins.sim, ground[0].data(), 0, count - 1, nullptr), MOBIL_REFUSED);
-      ASSERT_EQ(mobil_terrain_answer(twins.sim, ground[0].data(), 0, count, &unusable), MOBIL_OK)
+      EXPECT_EQ(mobil_terrain_resolve(twins.sim, ground[0].data(), 0, count - 1, nullptr), MOBIL_REFUSED);
+      ASSERT_EQ(mobil_terrain_resolve(twins.sim, ground[0].data(), 0, count, &unusable), MOBIL_OK)
           << twins.sim.message();
       EXPECT_EQ(unusable, 0U);
     }
@@ -124,7 +125,7 @@ void walk_on_the_hill(bool slows_down) {
     slowed += walk.speed_m_s < 0.85F;  // nobody was asked for less than 0.9 m/s
   }
   EXPECT_EQ(slowed > 0, slows_down);
-  ASSERT_EQ(mobil_terrain_set_slowing(twins.sim, 0), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_set_speed_scaling(twins.sim, 0), MOBIL_OK);
 }
 
 TEST(CSurroundings, TheGroundIsThatOfCpp) {
@@ -209,7 +210,7 @@ TEST(CSurroundings, GroundThatIsNotThereStopsTime) {
   ASSERT_EQ(mobil_terrain_set_heights(sim, nullptr, nullptr), MOBIL_OK);
   std::size_t count = 0;
   ASSERT_EQ(mobil_tick(sim, 60), MOBIL_OK);
-  ASSERT_EQ(mobil_terrain_ask(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_query(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
   EXPECT_GT(count, 0U);  // nobody answered
 }
 
@@ -218,15 +219,15 @@ TEST(CSurroundings, GroundThatHangsOverOrIsNoNumberIsLevel) {
   const auto ids = spawn(sim, 1);
   ASSERT_EQ(mobil_terrain_manage(sim, ids.data(), 1, 1), MOBIL_OK);
   std::size_t count = 0, unusable = 0;
-  ASSERT_EQ(mobil_terrain_ask(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
+  ASSERT_EQ(mobil_terrain_query(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
   ASSERT_EQ(count, 33U);
   std::vector<std::array<float, 4>> ground(count);
   ground[3] = {0, 0, -1, 0};
   ground[7] = {NAN, 0, 1, 0};
   ground[9] = {0, 1, 0, 0};
-  ASSERT_EQ(mobil_terrain_answer(sim, ground[0].data(), 0, count, &unusable), MOBIL_OK) << sim.message();
+  ASSERT_EQ(mobil_terrain_resolve(sim, ground[0].data(), 0, count, &unusable), MOBIL_OK) << sim.message();
   EXPECT_EQ(unusable, 3U);
-  EXPECT_EQ(mobil_terrain_answer(sim, ground[0].data(), 0, count, &unusable), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_terrain_resolve(sim, ground[0].data(), 0, count, &unusable), MOBIL_REFUSED);
 }
 
 TEST(CSurroundings, AllOrNone) {
@@ -249,9 +250,9 @@ TEST(CSurroundings, AllOrNone) {
   ASSERT_EQ(mobil_avoidance_manage(sim, ids.data(), 2, 1), MOBIL_OK);
   const float wishes[2][2] = {{1, 0}, {NAN, 0}};
   const std::uint64_t avoiding = sim.hash();
-  EXPECT_EQ(mobil_avoidance_want(sim, ids.data(), 2, wishes[0], 0), MOBIL_REFUSED);
-  EXPECT_EQ(mobil_avoidance_want(sim, ids.data(), 2, wishes[0], 4), MOBIL_REFUSED);
-  EXPECT_EQ(mobil_avoidance_want(sim, ids.data(), 2, nullptr, 0), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_avoidance_set_desired_velocity(sim, ids.data(), 2, wishes[0], 0), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_avoidance_set_desired_velocity(sim, ids.data(), 2, wishes[0], 4), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_avoidance_set_desired_velocity(sim, ids.data(), 2, nullptr, 0), MOBIL_REFUSED);
   EXPECT_EQ(mobil_avoidance_manage(sim, ids.data(), 2, 1),
             MOBIL_OK);  // people who avoid others already keep their wish
   EXPECT_EQ(sim.hash(), avoiding);

@@ -60,7 +60,7 @@ class Walks(unittest.TestCase):
 
 class Worlds(unittest.TestCase):
     def test_states_come_back_to_the_bit_and_equal_worlds_have_equal_hashes(self):
-        muscles = mobil.muscles(method="reduced", vectors=4, muscles=["hamstrings", "soleus"])
+        muscles = mobil.muscles(method="modal", modes=4, muscles=["hamstrings", "soleus"])
         one, other = mobil.World(), mobil.World(threads=2)
         people = crowd(one, muscles=muscles)
         crowd(other, muscles=muscles)
@@ -120,7 +120,7 @@ class Worlds(unittest.TestCase):
             (mobil.MissingError, lambda: world.muscle_rows("line", people, "soleus")),
             (ValueError, lambda: world.muscle_rows("line", people, "biceps")),
             (ValueError, lambda: world.spawn(constitution="round")),
-            (TypeError, lambda: mobil.muscles(methods="ecd")),
+            (TypeError, lambda: mobil.muscles(methods="explicit_central")),
             (TypeError, lambda: world.joints(np.arange(3))),
             (ValueError, lambda: mobil.World(axes="sideways")),
             (mobil.RefusedError, lambda: mobil.World(tick_s=0)),
@@ -189,9 +189,9 @@ class Worlds(unittest.TestCase):
         far, broken = {"double_support_scale": 0.6}, []
         odd = world.spawn(height_m=1.627254, mass_kg=63.42218, speed_m_s=2.06351, style=far)
         for ticks, speed in ((38, 0), (23, 1.630582), (75, 2.06351), (104, 2)):
-            broken += [line for _ in range(ticks) for line in world.tick() or world.broken_limits(odd)]
+            broken += [line for _ in range(ticks) for line in world.tick() or world.limit_violations(odd)]
             world.change_walk(odd, speed_m_s=speed)
-        self.assertTrue(all("the limit is" in line for line in broken) and broken and world.beyond_limits == 0)
+        self.assertTrue(all("the limit is" in line for line in broken) and broken and world.people_beyond_limits == 0)
 
     def test_many_are_placed_or_nobody(self):
         world = mobil.World()
@@ -213,7 +213,7 @@ class Worlds(unittest.TestCase):
             avoidance.set_options(overlap_m=0.02)
             if avoids:
                 avoidance.manage(people)
-                avoidance.want(people, 1.3, [0, np.pi])
+                avoidance.set_desired_velocity(people, 1.3, [0, np.pi])
             avoidance.set_walls([[[-2, 0, -9], [-2, 0, 20]]])
             avoidance.set_discs([[0, 0, 12]], 0.3)
             apart = np.inf
@@ -257,7 +257,7 @@ class Worlds(unittest.TestCase):
             world = mobil.World()
             people = crowd(world, 1)
             world.terrain.set_heights(lambda at: (0.2 * at[:, 2], [0, 1, -0.2]))
-            world.terrain.set_slowing(slows_down)
+            world.terrain.set_speed_scaling(slows_down)
             world.terrain.manage(people)
             world.tick(240)
             return world.walk(people[0])["speed_m_s"]
@@ -346,7 +346,7 @@ class Worlds(unittest.TestCase):
         other.avoidance.set_options(overlap_m=0.02)
         other.avoidance.manage(others)
         other.terrain.set_heights(slope)
-        other.terrain.set_slowing()
+        other.terrain.set_speed_scaling()
         other.terrain.manage(others)
         for _ in range(90):
             with self.assertWarns(DeprecationWarning):
@@ -376,7 +376,7 @@ class Worlds(unittest.TestCase):
         world.lod.manage(people)
         world.tick(40)
         self.assertGreater(world.lod.report["looked_at"], 0)
-        self.assertIn(world.method(people[0], "quadriceps"), ("reduced", "ecd", "static"))
+        self.assertIn(world.method(people[0], "quadriceps"), ("modal", "explicit_central", "static"))
         why = world.lod.why(people[0], "quadriceps")
         self.assertGreater(why.cost_us, 0)
         self.assertTrue(why.why)
@@ -384,7 +384,7 @@ class Worlds(unittest.TestCase):
 
     def test_surfaces_are_as_tall_as_the_person(self):
         world = mobil.World()
-        people = world.spawn(2, height_m=1.7, mass_kg=65, muscles=mobil.muscles(method="reduced"))
+        people = world.spawn(2, height_m=1.7, mass_kg=65, muscles=mobil.muscles(method="modal"))
         surfaces = mobil.Surfaces(world, people[0], detail=0.3)
         vertices = surfaces.vertices(world, people)
         self.assertEqual(vertices.shape, (2, surfaces.vertex_count, 6))
@@ -418,7 +418,7 @@ class Worlds(unittest.TestCase):
         right_leg = (rest[:, 0] < -0.02) & (rest[:, 0] > -0.3) & (rest[:, 1] < 0.7)
         corners = standing.triangles[right_leg[standing.triangles].all(axis=1)]
         used, triangles = np.unique(corners, return_inverse=True)
-        own = mobil.OwnSkin(world, person, rest[used], triangles.reshape(-1, 3), detail="far")
+        own = mobil.CustomSkin(world, person, rest[used], triangles.reshape(-1, 3), detail="far")
         walkers = world.spawn(2)
         world.tick(30)
         vertices = own.vertices(world, walkers)
@@ -429,9 +429,9 @@ class Worlds(unittest.TestCase):
         self.assertLess(float(off.max()), 0.04)
         self.assertLess(len(own.rest), len(standing.triangles))
         with self.assertRaises(ValueError):
-            mobil.OwnSkin(world, person, rest[used].ravel(), triangles)
+            mobil.CustomSkin(world, person, rest[used].ravel(), triangles)
         with self.assertRaises(mobil.RefusedError):
-            mobil.OwnSkin(world, person, rest[:3], [[0, 1, 3]])
+            mobil.CustomSkin(world, person, rest[:3], [[0, 1, 3]])
 
     def test_muscles_are_kept_apart_on_request(self):
         world = mobil.World()
@@ -479,7 +479,7 @@ class Worlds(unittest.TestCase):
 class Arrays(unittest.TestCase):
     def test_people_of_more_than_one_dimension_are_refused_everywhere(self):
         world = mobil.World()
-        muscles = mobil.muscles(method="reduced", activation="host")
+        muscles = mobil.muscles(method="modal", activation="host")
         people = crowd(world, 6, muscles=muscles)
         posed = world.spawn(6, posed=True)
         world.tick()
@@ -510,7 +510,7 @@ class Arrays(unittest.TestCase):
                 lambda: world.lod.manage(grid),
                 lambda: world.despawn(grid),
                 lambda: avoidance.manage(grid),
-                lambda: avoidance.want(grid, 1.0, 0.0),
+                lambda: avoidance.set_desired_velocity(grid, 1.0, 0.0),
                 lambda: terrain.manage(grid),
                 lambda: surfaces.vertices(world, grid),
                 lambda: skin.vertices(world, grid),
@@ -555,7 +555,7 @@ class Arrays(unittest.TestCase):
 
     def test_what_is_too_short_for_a_call_is_refused_before_it(self):
         world = mobil.World()
-        people = crowd(world, 3, muscles=mobil.muscles(method="reduced", activation="host"))
+        people = crowd(world, 3, muscles=mobil.muscles(method="modal", activation="host"))
         posed = world.spawn(3, posed=True)
         world.tick()
         before = world.hash()

@@ -12,13 +12,13 @@ cd "$scratch"
 export TMPDIR=$scratch OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
 mpirun -n 2 true >out 2>&1 || { cat out; echo "mpirun cannot start processes here"; exit 77; }
-mpirun -n 1 "$mobil" crowd --humans 20 --effects none --seconds 0.1 >out 2>&1 || {
+mpirun -n 1 "$mobil" crowd --people 20 --effects none --seconds 0.1 >out 2>&1 || {
   grep -q 'built without MPI' out && { echo "this mobil was built without MPI"; exit 77; }
   cat out
   exit 1
 }
 
-crowd=(crowd --humans 1000 --shards 12 --effects none --churn 60 --seed 3)
+crowd=(crowd --people 1000 --shards 12 --effects none --churn 60 --seed 3)
 # hash_of: the last one that was printed
 hash_of() { grep '^state hash' | tail -n 1; }
 same() {  # same WHAT ONE OTHER
@@ -42,7 +42,7 @@ for ranks in 2 3; do
   same "$ranks ranks" "$alone" "$(mpirun -n $ranks "$mobil" "${crowd[@]}" --seconds 60 --balance-every 1s | hash_of)"
 done
 
-picture=(crowd --humans 40 --shards 4 --effects none --seconds 0.5 --capture)
+picture=(crowd --people 40 --shards 4 --effects none --seconds 0.5 --capture)
 "$mobil" "${picture[@]}" one.png >/dev/null
 mpirun -n 2 "$mobil" "${picture[@]}" two.png >/dev/null
 cmp one.png two.png
@@ -99,10 +99,10 @@ grep -q '^cluster: rank 1 has been silent for .* s, since about tick .*--resume 
 }
 
 # What cannot be is one line of the first rank, status 2.
-if mpirun -n 2 "$mobil" crowd --humans 20 --effects none --resume nowhere >out 2>&1; then exit 1; fi
+if mpirun -n 2 "$mobil" crowd --people 20 --effects none --resume nowhere >out 2>&1; then exit 1; fi
 [ "$(grep -c '^mobil crowd:' out)" = 1 ]
 grep -q 'nowhere: no snapshot is there' out
-if mpirun -n 2 "$mobil" crowd --humans 20 --effects none --shards 1 >out 2>&1; then exit 1; fi
+if mpirun -n 2 "$mobil" crowd --people 20 --effects none --shards 1 >out 2>&1; then exit 1; fi
 grep -q '1 shards are too few for 2 ranks' out
-if mpirun -n 2 "$mobil" crowd --humans many >out 2>&1; then exit 1; fi
+if mpirun -n 2 "$mobil" crowd --people many >out 2>&1; then exit 1; fi
 [ "$(grep -c '^mobil crowd:' out)" = 1 ]

@@ -13,10 +13,10 @@ int main() {
   const Eigen::MatrixXd a = Eigen::MatrixXd::Random(64, 64);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a + a.transpose());
   mobil::Simulation simulation;
-  const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
+  const auto person = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
   mobil::LegMuscles muscles;
-  muscles.method = mobil::Method::reduced;
-  const auto added = simulation.set_muscles(human.value(), muscles);
+  muscles.method = mobil::Method::modal;
+  const auto added = simulation.set_muscles(person.value(), muscles);
   for (int i = 0; i < 10; ++i) simulation.tick();
   std::printf("mobil %s: %s; the host's least eigenvalue is %.3f\n", MOBIL_VERSION,
               added ? "muscles" : added.error().message.c_str(), solver.eigenvalues()[0]);

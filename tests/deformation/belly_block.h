@@ -32,7 +32,7 @@ inline MuscleTemplate make(HexahedralMesh mesh, const MuscleOptions& options) {
 /// Of ECD, which solves nothing, its name alone.
 inline BellySolver make_solver(const MuscleTemplate& muscle, Method method, Mass mass, double dt_s, double across = 1,
                                double along = 1) {
-  if (method == Method::ecd) {
+  if (method == Method::explicit_central) {
     BellySolver none;
     none.method = method;
     return none;
@@ -138,7 +138,7 @@ struct Block {
     const BellyBlock block{
         muscle, scale, u.data()->lane, v.data()->lane, report, stiffness, drive.framed ? &drive.frame : nullptr};
     const FarFaceDrive end = drive.of(muscle.options.far_end);
-    if (solver.method == Method::ecd) return deform_explicit(block, end, substeps, length_s);
+    if (solver.method == Method::explicit_central) return deform_explicit(block, end, substeps, length_s);
     deform_implicit(block, solver, end, substeps, length_s, scratch.data()->lane);
   }
   Vector lane(const std::vector<Lanes<float>>& column, std::size_t l) const {
@@ -188,7 +188,7 @@ inline Distance distance_from_reference(Block& block, bool framed, int ticks, st
       error[l][0] += (block.lane(block.u, l) - u).squaredNorm();
       norm[l][0] += u.squaredNorm();
       ReferenceReport is = belly.report();
-      const bool across_a_step = method == Method::ecd || method == Method::icd;
+      const bool across_a_step = method == Method::explicit_central || method == Method::implicit_central;
       if (!elastic.empty()) is.strain_energy_j = 0.5 * (across_a_step ? before : u).dot(elastic[l] * u);
       const std::array expected = {is.reaction_n, is.elongation_m, is.kinetic_energy_j, is.strain_energy_j};
       const float got[4] = {block.report.reaction_n[l], block.report.elongation_m[l], block.report.kinetic_energy_j[l],

@@ -18,7 +18,7 @@ MuscleTemplate make(const Cells& cells, FarEnd end, double damping) {
 
 /// At rest, of sixteen sizes.
 Block stepped_explicitly(const MuscleTemplate& muscle) {
-  return {muscle, make_solver(muscle, Method::ecd, Mass::lumped, 0), 0.42, 0.35};
+  return {muscle, make_solver(muscle, Method::explicit_central, Mass::lumped, 0), 0.42, 0.35};
 }
 
 std::uint32_t substeps(const Block& block) {

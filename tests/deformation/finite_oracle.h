@@ -28,7 +28,7 @@ class FiniteOracle {
       const Hexahedron h = element_nodes(mesh.cells, e);
       const std::size_t layer = e / (mesh.cells[0] * mesh.cells[1]);
       const double root = 0.5 * (std::sqrt(areas[layer]) + std::sqrt(areas[layer + 1]));
-      elements_.push_back(element(h, std::min(most_crowding, widest / (root * root))));
+      elements_.push_back(element(h, std::min(max_crowding, widest / (root * root))));
     }
   }
 
@@ -157,11 +157,11 @@ class FiniteOracle {
   /// ∫ of fibre_tension's stress over the stretch, from 1.
   double held(double stretch) const {
     const auto to = [&](double s) {
-      const double floor_at = mean_stretch - (1 - tissue.least_share) / tissue.force_slope;
+      const double floor_at = mean_stretch - (1 - tissue.min_share) / tissue.force_slope;
       const double share = 1 + tissue.force_slope * (s - mean_stretch);
       const double active = s > floor_at ? share * share / (2 * tissue.force_slope)
-                                         : tissue.least_share * tissue.least_share / (2 * tissue.force_slope) +
-                                               tissue.least_share * (s - floor_at);
+                                         : tissue.min_share * tissue.min_share / (2 * tissue.force_slope) +
+                                               tissue.min_share * (s - floor_at);
       constexpr double steepness = 4, strain = 0.6;
       const double z = std::max(0.0, steepness * (tissue.rest_over_optimal * s - 1) / strain);
       const double slope = steepness * tissue.rest_over_optimal / strain;

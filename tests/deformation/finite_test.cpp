@@ -19,7 +19,7 @@
 #include "assets/finite/shape_tables.h"
 #include "assets/reduction/symmetric_eigen.h"
 #include "engine/eigen.h"
-#include "systems/deformation/reduced.h"
+#include "systems/deformation/modal.h"
 #include "tests/deformation/finite_oracle.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/fem/spindle.h"
@@ -220,17 +220,17 @@ TEST_P(FiniteKernel, StepsTheGradientOfItsEnergy) {
         u[lane][3 * n + 2] = double{loads.along.from[lane]};
     }
     step_in_double(bellies, loads, lane, steps, oracle, u[lane], v[lane]);
-    double most_u = 0, most_v = 0, off_u = 0, off_v = 0;
+    double max_u = 0, max_v = 0, off_u = 0, off_v = 0;
     for (std::size_t i = 0; i < u[lane].size(); ++i) {
-      most_u = std::max(most_u, std::abs(u[lane][i]));
+      max_u = std::max(max_u, std::abs(u[lane][i]));
       off_u = std::max(off_u, std::abs(u[lane][i] - double{bellies.u[i][lane]}));
       const bool moving = moves(bellies.muscle.mesh.cells, way, static_cast<std::uint32_t>(i / 3), i % 3);
       if (!moving) continue;
-      most_v = std::max(most_v, std::abs(v[lane][i]));
+      max_v = std::max(max_v, std::abs(v[lane][i]));
       off_v = std::max(off_v, std::abs(v[lane][i] - double{bellies.v[i][lane]}));
     }
-    EXPECT_LT(off_u, 1e-3 * most_u) << lane;
-    EXPECT_LT(off_v, 2e-3 * most_v) << lane;
+    EXPECT_LT(off_u, 1e-3 * max_u) << lane;
+    EXPECT_LT(off_v, 2e-3 * max_v) << lane;
     const double energy = oracle.energy(u[lane]);
     EXPECT_NEAR(double{bellies.report.strain_energy_j[lane]}, energy, 2e-3 * std::abs(energy)) << lane;
   }
@@ -245,7 +245,7 @@ TEST(FiniteBound, IsAboveEveryTangent) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1, 1);
   // Bent by half of its length, and nine times as wide in the middle as at its ends.
-  const std::vector<CageStation> stations = {
+  const std::vector<LatticeStation> stations = {
       {0, 0, 0, 0.008F, 0.008F}, {0.5F, 0.06F, 0, 0.024F, 0.024F}, {1, 0, 0, 0.008F, 0.008F}};
   const HexahedralMesh plain = spindle(cells), bent = *bend_block(cells, stations, 0.12);
   struct Body {

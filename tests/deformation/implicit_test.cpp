@@ -16,7 +16,7 @@ namespace mobil::implicit_test {
 using namespace oracle;  // NOLINT(google-build-using-namespace)
 
 /// Smallest stable number of central-difference substeps of all lanes with the consistent mass.
-std::uint32_t icd_substeps(const Block& block) {
+std::uint32_t implicit_substeps(const Block& block) {
   const MuscleTemplate& muscle = block.muscle;
   const std::vector<Eigen::Index> moving = free_components(muscle.mesh.cells, muscle.options.far_end);
   const double circular = 2 * std::numbers::pi * muscle.options.foundation_hz;
@@ -54,12 +54,12 @@ void follows(Method method, Mass mass, bool alike, const Cells& cells, int ticks
       const MuscleTemplate muscle = make(spindle(cells), options);
       Block block(muscle, make_solver(muscle, method, mass, static_cast<double>(tick_s)), 0.06, 0.12);
       if (alike) block.be_all_alike();
-      const std::uint32_t n = method == Method::icd ? icd_substeps(block) : 1;
+      const std::uint32_t n = method == Method::implicit_central ? implicit_substeps(block) : 1;
       const Distance distance = distance_from_reference(block, p.framed, ticks, n);
       const std::string where = std::string(far_end_name[static_cast<std::size_t>(end)]) + ", alpha " +
                                 std::to_string(p.alpha) + ", beta " + std::to_string(p.beta) + ", foundation " +
                                 std::to_string(p.foundation_hz) + (p.framed ? ", framed" : "");
-      const double swept = method == Method::caa && !alike ? 3 : 1;
+      const double swept = method == Method::newmark && !alike ? 3 : 1;
       EXPECT_LT(distance.displacement, swept * 1e-4) << where;
       EXPECT_LT(distance.report, swept * 4e-4) << where;
     }
@@ -67,19 +67,19 @@ void follows(Method method, Mass mass, bool alike, const Cells& cells, int ticks
 }
 
 TEST(Implicit, MeanAccelerationOfOneBodyFollowsTheReference) {
-  follows(Method::caa, Mass::lumped, true, {2, 2, 8}, 12);
-  follows(Method::caa, Mass::consistent, true, {2, 1, 4}, 60);
+  follows(Method::newmark, Mass::lumped, true, {2, 2, 8}, 12);
+  follows(Method::newmark, Mass::consistent, true, {2, 1, 4}, 60);
 }
 
 TEST(Implicit, MeanAccelerationOfIndividualsFollowsTheReference) {
-  follows(Method::caa, Mass::lumped, false, {2, 2, 8}, 12);
-  follows(Method::caa, Mass::consistent, false, {2, 1, 4}, 60);
+  follows(Method::newmark, Mass::lumped, false, {2, 2, 8}, 12);
+  follows(Method::newmark, Mass::consistent, false, {2, 1, 4}, 60);
 }
 
 TEST(Implicit, CentralDifferencesWithConsistentMassFollowTheReference) {
   MOBIL_SLOW();
-  follows(Method::icd, Mass::consistent, false, {2, 1, 4}, 30);
-  follows(Method::icd, Mass::consistent, true, {1, 2, 3}, 30);
+  follows(Method::implicit_central, Mass::consistent, false, {2, 1, 4}, 30);
+  follows(Method::implicit_central, Mass::consistent, true, {1, 2, 3}, 30);
 }
 
 TEST(Implicit, StaticAnswersFollowTheReference) {
@@ -91,7 +91,7 @@ TEST(Implicit, StaticAnswersFollowTheReference) {
 
 TEST(Implicit, SolverForAnotherBodyServesThoseAboutIt) {
   const MuscleTemplate muscle = make(spindle({1, 2, 4}), {FarEnd::free, 2});
-  for (const Method method : {Method::caa, Method::statics}) {
+  for (const Method method : {Method::newmark, Method::statics}) {
     Block block(muscle, make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s), 1.3, 0.9), 0.06, 0.12);
     EXPECT_LT(distance_from_reference(block, true, 20, 1).displacement, 1e-4);
   }
@@ -99,7 +99,7 @@ TEST(Implicit, SolverForAnotherBodyServesThoseAboutIt) {
 
 TEST(Implicit, MoreSweepsComeCloserInEveryMethodThatSweeps) {
   const MuscleTemplate muscle = make(spindle({2, 2, 4}), {FarEnd::free, 2});
-  for (const Method method : {Method::caa, Method::statics}) {
+  for (const Method method : {Method::newmark, Method::statics}) {
     std::vector<double> distance;
     for (const std::uint32_t sweeps : {2U, 4U, 6U}) {
       Block block(muscle, make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s)), 0.12, 0.25);
@@ -114,7 +114,7 @@ TEST(Implicit, MoreSweepsComeCloserInEveryMethodThatSweeps) {
 TEST(Implicit, OneLayerOfElementsMovesOrIsHeldWhole) {
   for (const FarEnd end : far_ends) {
     const MuscleTemplate muscle = make(*make_block({1, 1, 1}, 0.02), {end, 3});
-    for (const Method method : {Method::caa, Method::statics}) {
+    for (const Method method : {Method::newmark, Method::statics}) {
       Block block(muscle, make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s)), 0.05, 0.1);
       if (end != FarEnd::held) {
         EXPECT_LT(distance_from_reference(block, true, 20, 1).displacement, 1e-4);
@@ -135,7 +135,7 @@ TEST(Implicit, FreeUndampedMotionKeepsItsEnergy) {
   for (const Mass mass : {Mass::lumped, Mass::consistent}) {
     for (const bool alike : {true, false}) {
       const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::free, 0});
-      Block block(muscle, make_solver(muscle, Method::caa, mass, static_cast<double>(tick_s)), 0.06, 0.12);
+      Block block(muscle, make_solver(muscle, Method::newmark, mass, static_cast<double>(tick_s)), 0.06, 0.12);
       block.solver.sweeps = 5;
       if (alike) block.be_all_alike();
       shake(block, 0.002F);
@@ -151,12 +151,13 @@ TEST(Implicit, FreeUndampedMotionKeepsItsEnergy) {
 TEST(Implicit, MeanAccelerationIsStableAtAnyStepAndCentralDifferencesAreNot) {
   for (const float length_s : {tick_s, 1.0F}) {
     const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::free, 0});
-    Block block(muscle, make_solver(muscle, Method::caa, Mass::lumped, static_cast<double>(length_s)), 0.06, 0.12);
+    Block block(muscle, make_solver(muscle, Method::newmark, Mass::lumped, static_cast<double>(length_s)), 0.06, 0.12);
     shake(block, 0.001F);
     for (int tick = 0; tick < 1000; ++tick) block.tick(EndPull{}, 1, length_s);
     EXPECT_LT(largest(block), 0.1);
 
-    Block lost(muscle, make_solver(muscle, Method::icd, Mass::consistent, static_cast<double>(length_s)), 0, 0);
+    Block lost(muscle, make_solver(muscle, Method::implicit_central, Mass::consistent, static_cast<double>(length_s)),
+               0, 0);
     shake(lost, 0.001F);
     for (int tick = 0; tick < 40; ++tick) lost.tick(EndPull{}, 1, length_s);
     EXPECT_GT(largest(lost), 1e6);
@@ -165,9 +166,10 @@ TEST(Implicit, MeanAccelerationIsStableAtAnyStepAndCentralDifferencesAreNot) {
 
 TEST(Implicit, CentralDifferencesWithConsistentMassKeepTheirEnergyAndReachTheirLimit) {
   const MuscleTemplate muscle = make(spindle({2, 2, 4}), {FarEnd::free, 0});
-  Block block(muscle, make_solver(muscle, Method::icd, Mass::consistent, static_cast<double>(tick_s)), 0.2, 0.2);
+  Block block(muscle, make_solver(muscle, Method::implicit_central, Mass::consistent, static_cast<double>(tick_s)), 0.2,
+              0.2);
   shake(block, 0.001F);
-  const std::uint32_t n = icd_substeps(block);
+  const std::uint32_t n = implicit_substeps(block);
   block.tick(EndPull{}, n);
   std::vector<double> first(lane_count);
   for (std::size_t l = 0; l < lane_count; ++l) first[l] = energy(block, l);
@@ -185,7 +187,7 @@ TEST(Implicit, SlenderBelliesBendToTheStaticAnswer) {
 }
 
 TEST(Implicit, RestStaysAtRest) {
-  for (const Method method : {Method::caa, Method::icd, Method::statics}) {
+  for (const Method method : {Method::newmark, Method::implicit_central, Method::statics}) {
     const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::held, 8});
     Block block(muscle, make_solver(muscle, method, Mass::consistent, static_cast<double>(tick_s)), 0.06, 0.12);
     for (int tick = 0; tick < 3; ++tick) block.tick(EndPull{}, 8);
@@ -203,18 +205,18 @@ TEST(Implicit, NonsenseSolversAreRefusedInOneLine) {
     const auto made = make_belly_solver(muscle, method, Mass::lumped, dt, across, along);
     return !made && !made.error().message.empty() && made.error().message.find('\n') == std::string::npos;
   };
-  EXPECT_FALSE(refused(Method::caa, 0.01));
+  EXPECT_FALSE(refused(Method::newmark, 0.01));
   EXPECT_FALSE(refused(Method::statics, -1));
-  EXPECT_TRUE(refused(Method::ecd, 0.01));
+  EXPECT_TRUE(refused(Method::explicit_central, 0.01));
   for (const double bad : {0.0, -0.01, 1e9, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
-    EXPECT_TRUE(refused(Method::caa, bad));
-    EXPECT_TRUE(refused(Method::icd, bad));
-    EXPECT_TRUE(refused(Method::caa, 0.01, bad, bad));
+    EXPECT_TRUE(refused(Method::newmark, bad));
+    EXPECT_TRUE(refused(Method::implicit_central, bad));
+    EXPECT_TRUE(refused(Method::newmark, 0.01, bad, bad));
   }
-  EXPECT_TRUE(refused(Method::caa, 0.01, 3, 1));
-  EXPECT_TRUE(refused(Method::caa, 0.01, 1, 3));
+  EXPECT_TRUE(refused(Method::newmark, 0.01, 3, 1));
+  EXPECT_TRUE(refused(Method::newmark, 0.01, 1, 3));
   const auto wide = make(*make_block({40, 40, 2}, 0.01), {FarEnd::free, 0, 1, 1});
-  EXPECT_FALSE(make_belly_solver(wide, Method::caa, Mass::lumped, 0.01).has_value());
+  EXPECT_FALSE(make_belly_solver(wide, Method::newmark, Mass::lumped, 0.01).has_value());
 }
 
 }  // namespace mobil::implicit_test

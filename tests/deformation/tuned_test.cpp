@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/deformation/reduced_block.h"
+#include "tests/deformation/modal_block.h"
 
 namespace mobil::tuned_test {
 namespace {
@@ -16,16 +16,16 @@ namespace {
 constexpr std::array far_ends = {FarEnd::held, FarEnd::sliding, FarEnd::free};
 
 /// Bellies whose motions tension stiffens by up to five times.
-struct TunedBodies : ReducedBodies {
-  std::array<std::array<double, lane_count>, most_vectors> tension{};
+struct TunedBodies : ModalBodies {
+  std::array<std::array<double, lane_count>, max_modes> tension{};
   Lanes<float> activation{};
   std::mt19937 random{107};
 
-  TunedBodies(std::uint32_t vectors, FarEnd end, bool frame) : ReducedBodies(vectors, end, frame, 0) {
+  TunedBodies(std::uint32_t modes, FarEnd end, bool frame) : ModalBodies(modes, end, frame, 0) {
     write_motion(1.0 / 60);
     std::uniform_real_distribution<double> share(0, 5);
-    const std::size_t width = motion.size() / vectors;
-    for (std::size_t j = 0; j < vectors; ++j) {
+    const std::size_t width = motion.size() / modes;
+    for (std::size_t j = 0; j < modes; ++j) {
       for (std::size_t l = 0; l < lane_count; ++l) {
         const double square = omega[j][l] * omega[j][l];
         tension[j][l] = share(random) * square;
@@ -42,7 +42,7 @@ struct TunedBodies : ReducedBodies {
     for (float& a : activation.lane) a = any(random);
   }
 
-  std::uint32_t tick_tuned(const ReducedDrive& drive, double tick_s) {
+  std::uint32_t tick_tuned(const ModalDrive& drive, double tick_s) {
     std::uint32_t restarted = 0;
     drive.give([&](const FarFaceDrive& end, const FrameLoad<Lanes<float>>& frame) {
       restarted = deform_tuned(block(frame), end, activation, static_cast<float>(tick_s));
@@ -57,7 +57,7 @@ struct TunedBodies : ReducedBodies {
   /// As the kernel has it: no motion of a lane is damped to where it creeps.
   double damping_of(std::size_t l) const {
     double least = square(0, l);
-    for (std::size_t j = 1; j < basis.vectors; ++j) least = std::min(least, square(j, l));
+    for (std::size_t j = 1; j < basis.modes; ++j) least = std::min(least, square(j, l));
     return std::min(tuned_damping_per_s(double{activation[l]}), 1.9 * std::sqrt(least));
   }
 
@@ -75,17 +75,17 @@ struct TunedBodies : ReducedBodies {
 TEST(Tuned, EveryMotionIsTheClosedFormWhateverTheActivation) {
   for (const FarEnd end : far_ends) {
     for (const bool frame : {false, true}) {
-      for (const std::uint32_t vectors : {1U, 5U, 12U, 32U}) {
-        TunedBodies bodies(vectors, end, frame);
-        std::vector<ClosedForm> exact(vectors * lane_count, {1, 1});
+      for (const std::uint32_t modes : {1U, 5U, 12U, 32U}) {
+        TunedBodies bodies(modes, end, frame);
+        std::vector<ClosedForm> exact(modes * lane_count, {1, 1});
         std::vector<double> error(exact.size()), largest(exact.size(), 1e-30);
-        ReducedDrive drive(bodies, 5);
+        ModalDrive drive(bodies, 5);
         constexpr double tick_s = 1.0 / 60;
         for (int tick = 0; tick < 120; ++tick) {
           drive.advance();
           bodies.excite();
           bodies.tick_tuned(drive, tick_s);
-          for (std::size_t j = 0; j < vectors; ++j) {
+          for (std::size_t j = 0; j < modes; ++j) {
             for (std::size_t l = 0; l < lane_count; ++l) {
               ClosedForm& z = exact[j * lane_count + l];
               const double own = bodies.omega[j][l], square = bodies.square(j, l), give = own * own / square;
@@ -116,9 +116,9 @@ TEST(Tuned, EveryMotionIsTheClosedFormWhateverTheActivation) {
 TEST(Tuned, AtTheToneOfItsMotionsItSwingsAsUntuned) {
   TunedBodies tuned(12, FarEnd::held, true);
   for (float& a : tuned.activation.lane) a = static_cast<float>(tuned_activation);
-  ReducedBodies plain(12, FarEnd::held, true, tuned_damping_per_s(tuned_activation));
+  ModalBodies plain(12, FarEnd::held, true, tuned_damping_per_s(tuned_activation));
   plain.write_motion(1.0 / 60);
-  ReducedDrive drive(plain, 9);
+  ModalDrive drive(plain, 9);
   for (int tick = 0; tick < 120; ++tick) {
     drive.advance();
     plain.tick(drive, 1.0 / 60);

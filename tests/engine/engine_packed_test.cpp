@@ -22,13 +22,13 @@ namespace mobil::engine_packed_test {
 /// Whether to be chosen, and by whom it can be told.
 template <class F>
 struct Choice {
-  Whole<F> chosen, number;
+  UInt32<F> chosen, number;
 };
 /// More than one word, whole numbers among them.
 template <class F>
 struct Value {
   F x, y[2];
-  Whole<F> count;
+  UInt32<F> count;
 };
 template <class F>
 struct Given {

@@ -32,7 +32,7 @@ struct C {
 };
 template <class F>
 struct Friend {
-  Whole<F> index, generation;
+  UInt32<F> index, generation;
 };
 struct Nodes {};
 struct Substeps {};

@@ -18,7 +18,7 @@ namespace mobil::engine_world_test {
 template <class F>
 struct Size {
   F height_m;
-  Whole<F> bits;
+  UInt32<F> bits;
 };
 template <class F>
 struct Arms {
@@ -273,7 +273,7 @@ class Pair {
 
   static std::vector<std::pair<std::uint64_t, std::uint64_t>> parts_of(const Table& table) {
     std::vector<std::pair<std::uint64_t, std::uint64_t>> parts;
-    for (const KeyPart& part : table.key()) parts.emplace_back(part.id, part.value);
+    for (const ComponentId& part : table.key()) parts.emplace_back(part.id, part.value);
     return parts;
   }
 

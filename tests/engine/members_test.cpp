@@ -12,7 +12,7 @@
 namespace mobil::members_test {
 template <class F>
 struct Keeper {
-  Whole<F> index, generation, number;
+  UInt32<F> index, generation, number;
 };
 template <class F>
 struct Weight {
@@ -24,7 +24,7 @@ struct Model {
   std::vector<Entity> alive;
   std::map<std::uint32_t, Entity> keeper;  // by index, also of those that name somebody gone
 
-  Model() { world.set_owner_part(component_part<Keeper>()); }
+  Model() { world.set_owner_part(component_id<Keeper>()); }
 
   Entity some(std::uint32_t draw) const { return alive.empty() ? Entity{} : alive[draw % alive.size()]; }
   void check() const {
@@ -69,7 +69,7 @@ TEST(Members, AreThoseThatNameTheOwnerThroughAnyHistory) {
             rows[0].index[i] = owner.index;
             rows[0].generation[i] = owner.generation;
           }
-          world.create_many(std::vector<PartValue>{{component_part<Keeper>(), rows.data()}}, made);
+          world.create_many(std::vector<PartValue>{{component_id<Keeper>(), rows.data()}}, made);
           for (const Entity entity : made) {
             model.alive.push_back(entity);
             model.keeper[entity.index] = owner;
@@ -119,7 +119,7 @@ TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
     }
   }
   model.check();
-  const auto nothing = [](const TableKey&) { return std::uint64_t{0}; };
+  const auto nothing = [](const Archetype&) { return std::uint64_t{0}; };
   const SnapshotLayout layout = WorldSnapshot::layout(model.world, nothing);
   std::vector<std::byte> bytes(layout.bytes());
   WorldSnapshot::save(model.world, layout, bytes, {}, nothing);
@@ -131,7 +131,7 @@ TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
   const auto saved = WorldSnapshot::read(*open);
   ASSERT_TRUE(saved);
   WorldSnapshot snapshot;
-  ASSERT_TRUE(snapshot.prepare(model.world, *saved, {}, {}, nothing, [](const TableKey&) { return Result<void>(); }));
+  ASSERT_TRUE(snapshot.prepare(model.world, *saved, {}, {}, nothing, [](const Archetype&) { return Result<void>(); }));
   snapshot.commit(model.world, *saved, {});
   EXPECT_FALSE(model.world.alive(late));
   EXPECT_EQ(state_hash(model.world, {}), before);
@@ -141,10 +141,10 @@ TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
 TEST(Snapshot, WhatItLeavesOutIsWhatWhoRestoresItMakesAgain) {
   World world;
   world.create(Weight<float>{70}, kept_by({}, 1), TagValue<Model>{3});
-  const auto nothing = [](const TableKey&) { return std::uint64_t{0}; };
-  const auto weight = [](const TableKey&) { return type_id<Weight<float>>(); };
-  const auto keeper = [](const TableKey&) { return type_id<Keeper<float>>(); };
-  const auto no_column = [](const TableKey&) { return type_id<Model>(); };
+  const auto nothing = [](const Archetype&) { return std::uint64_t{0}; };
+  const auto weight = [](const Archetype&) { return type_id<Weight<float>>(); };
+  const auto keeper = [](const Archetype&) { return type_id<Keeper<float>>(); };
+  const auto no_column = [](const Archetype&) { return type_id<Model>(); };
   const struct {
     LeftOut by_writer, by_reader;
     bool agree;
@@ -159,15 +159,15 @@ TEST(Snapshot, WhatItLeavesOutIsWhatWhoRestoresItMakesAgain) {
     const auto saved = WorldSnapshot::read(*open);
     ASSERT_TRUE(saved);
     WorldSnapshot snapshot;
-    const auto any_key = [](const TableKey&) { return Result<void>(); };
+    const auto any_key = [](const Archetype&) { return Result<void>(); };
     EXPECT_EQ(snapshot.prepare(world, *saved, {}, {}, by_reader, any_key).has_value(), agree);
   }
 }
 
 TEST(Members, CountInTheHashOfTheirOwnerAndNotByHandle) {
   World one, other;
-  one.set_owner_part(component_part<Keeper>());
-  other.set_owner_part(component_part<Keeper>());
+  one.set_owner_part(component_id<Keeper>());
+  other.set_owner_part(component_id<Keeper>());
   const Entity a = one.create(Weight<float>{1}), b = one.create(Weight<float>{2});
   one.create(kept_by(a, 5));
   one.create(kept_by(b, 6));

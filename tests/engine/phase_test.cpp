@@ -37,7 +37,7 @@ Module telling(std::string& said, const std::string& name) {
 /// Creates an entity before each tick, and destroys those that are three ticks old after it.
 Module generations() {
   return {.name = "generations",
-          .parts = {component_part<Age>()},
+          .parts = {component_id<Age>()},
           .systems =
               [](ScheduleBuilder& systems) {
                 systems.add("age", [](Age<Lanes<float>>& age) {

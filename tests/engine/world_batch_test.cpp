@@ -22,7 +22,7 @@ struct Place3 {
 };
 template <class F>
 struct Age {
-  Whole<F> ticks;
+  UInt32<F> ticks;
 };
 struct Points {};
 struct Kind {};
@@ -69,9 +69,9 @@ std::vector<Entity> create(World& world, std::uint64_t kind, int first, std::siz
     age[b].ticks[l] = ticks;
     for (std::size_t w = 0; w < width; ++w) points[b * width + w][l] = point + static_cast<float>(w);
   }
-  const PartValue parts[] = {{component_part<Place3>(), place.data()},
-                             {component_part<Age>(), age.data()},
-                             {key_part(FieldWidth<Points>{width}), points.data()},
+  const PartValue parts[] = {{component_id<Place3>(), place.data()},
+                             {component_id<Age>(), age.data()},
+                             {component_id(FieldWidth<Points>{width}), points.data()},
                              part_value(TagValue<Kind>{kind})};
   std::vector<Entity> made(count);
   world.create_many(parts, made, jobs);
@@ -221,7 +221,7 @@ RC_GTEST_PROP(WorldBatch, RemadeTogetherTheyAreAsOneByOne, ()) {
   for (std::size_t i = 0; i < some.size(); ++i)
     badge[i / lane_count].value[i % lane_count] = static_cast<float>(some[i].index) + 0.25F;
   constexpr std::array owned = {type_id<Points>()};
-  together.remake_many(some, std::array{PartValue{component_part<Badge>(), badge.data()}}, owned, backwards(3));
+  together.change_archetype(some, std::array{PartValue{component_id<Badge>(), badge.data()}}, owned, backwards(3));
   for (const Entity entity : some) {
     const Badge<float> own{static_cast<float>(entity.index) + 0.25F};
     RC_ASSERT(single.remake_from(entity, std::array{part_value(own)}, owned) == Status::ok);
@@ -251,23 +251,23 @@ TEST(WorldBatch, WhatIsGivenAndThereIsThereOnce) {
   EXPECT_EQ(world.get<Age>(all[3])->ticks, 77U);
   const std::array some = {all[3], all[5], all[19]};
   const auto age = world.get<Age>(all[5])->ticks;
-  world.remake_many(some,
-                    std::array{PartValue{component_part<Age>(), nullptr}, PartValue{component_part<Badge>(), nullptr}},
-                    {}, backwards(3));
+  world.change_archetype(some,
+                         std::array{PartValue{component_id<Age>(), nullptr}, PartValue{component_id<Badge>(), nullptr}},
+                         {}, backwards(3));
   EXPECT_EQ(world.get<Age>(all[3])->ticks, 77U);
   EXPECT_EQ(world.get<Age>(all[5])->ticks, age) << "what is there keeps its value";
   for (const Entity entity : some) {
     EXPECT_TRUE(world.has<Badge>(entity));
-    const TableKey& key = world.find(entity).table->key();
-    EXPECT_EQ(
-        std::adjacent_find(key.begin(), key.end(), [](const KeyPart& a, const KeyPart& b) { return a.id == b.id; }),
-        key.end());
+    const Archetype& key = world.find(entity).table->key();
+    EXPECT_EQ(std::adjacent_find(key.begin(), key.end(),
+                                 [](const ComponentId& a, const ComponentId& b) { return a.id == b.id; }),
+              key.end());
   }
   expect_parked(world);
 }
 
 /// Some are remade in pieces and others come, some of whom get one part more; where that is not kept, nothing of it has
-/// been, and where it is, it is as without an attempt.
+/// been, and where it is, it is as without an transaction.
 RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 90), more = *rc::gen::inRange<std::size_t>(0, 40);
   const bool kept = *rc::gen::inRange(0, 2) == 1;
@@ -281,16 +281,16 @@ RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
     constexpr std::array owned = {type_id<Points>()};
     const std::size_t half = some.size() / 2;
     for (const auto piece : {std::span(some).first(half), std::span(some).subspan(half)})
-      of.remake_many(piece, std::array{PartValue{component_part<Badge>(), nullptr}}, owned, backwards(3));
+      of.change_archetype(piece, std::array{PartValue{component_id<Badge>(), nullptr}}, owned, backwards(3));
     for (std::size_t i = 0; i < some.size(); i += 3) of.add(some[i], TagValue<Mark>{7});
     create(of, 3, 0, more, backwards(3));
     create(of, 4, 0, more, {});
   };
   const std::uint64_t before = state_hash(world, {});
   {
-    World::Attempt attempt(world, backwards(3));
+    World::Transaction transaction(world, backwards(3));
     change(world);
-    if (kept) attempt.keep();
+    if (kept) transaction.commit();
   }
   if (kept) {
     change(twin);
@@ -306,7 +306,7 @@ RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
   expect_parked(world);
 }
 
-/// An attempt within another: what it did is undone where it is not kept, or where the other one is not.
+/// An transaction within another: what it did is undone where it is not kept, or where the other one is not.
 RC_GTEST_PROP(WorldBatch, AnAttemptWithinAnotherIsPartOfIt, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
   const bool outer_kept = *rc::gen::arbitrary<bool>(), inner_kept = *rc::gen::arbitrary<bool>();
@@ -315,7 +315,7 @@ RC_GTEST_PROP(WorldBatch, AnAttemptWithinAnotherIsPartOfIt, ()) {
   create(twin, 1, 0, count, {});
   const std::size_t half = all.size() / 2;
   const auto mark = [&](World& of, std::span<const Entity> some) {
-    of.remake_many(some, std::array{PartValue{component_part<Badge>(), nullptr}}, {}, backwards(3));
+    of.change_archetype(some, std::array{PartValue{component_id<Badge>(), nullptr}}, {}, backwards(3));
   };
   const auto outer_change = [&](World& of) {
     create(of, 3, 0, 5, {});
@@ -326,14 +326,14 @@ RC_GTEST_PROP(WorldBatch, AnAttemptWithinAnotherIsPartOfIt, ()) {
     mark(of, std::span(all).subspan(half));
   };
   {
-    World::Attempt outer(world, backwards(3));
+    World::Transaction outer(world, backwards(3));
     outer_change(world);
     {
-      World::Attempt inner(world, backwards(3));
+      World::Transaction inner(world, backwards(3));
       inner_change(world);
-      if (inner_kept) inner.keep();
+      if (inner_kept) inner.commit();
     }
-    if (outer_kept) outer.keep();
+    if (outer_kept) outer.commit();
   }
   if (outer_kept) outer_change(twin);
   if (outer_kept && inner_kept) inner_change(twin);

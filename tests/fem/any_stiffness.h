@@ -16,7 +16,7 @@ inline double any_between(double low, double high) {
 }
 
 inline HexahedralMesh any_belly(const Cells& cells) {
-  std::vector<CageStation> stations;
+  std::vector<LatticeStation> stations;
   for (const float t : {0.0F, 0.4F, 1.0F}) {
     stations.push_back({t, static_cast<float>(any_between(-0.01, 0.01)), static_cast<float>(any_between(-0.01, 0.01)),
                         static_cast<float>(any_between(0.02, 0.04)), static_cast<float>(any_between(0.02, 0.04))});

@@ -27,7 +27,7 @@ HexahedralMesh any_mesh() {
   const Cells cells = {within(1U, 4U), within(1U, 4U), within(2U, 7U)};
   const auto wide = [] { return static_cast<float>(uniform(0.02, 0.05)); };
   const auto off = [] { return static_cast<float>(uniform(-0.01, 0.01)); };
-  const CageStation stations[] = {
+  const LatticeStation stations[] = {
       {0, off(), off(), wide(), wide()}, {0.5F, off(), off(), wide(), wide()}, {1, off(), off(), wide(), wide()}};
   return *bend_block(cells, stations, uniform(0.15, 0.4));
 }

@@ -126,7 +126,7 @@ HexahedralMesh block(std::uint32_t n) {
 }
 
 HexahedralMesh graded_belly(std::uint32_t n) {
-  const std::vector<CageStation> stations = {{0, 0, 0, 0.02F, 0.03F}, {1, 0.03F, -0.01F, 0.035F, 0.025F}};
+  const std::vector<LatticeStation> stations = {{0, 0, 0, 0.02F, 0.03F}, {1, 0.03F, -0.01F, 0.035F, 0.025F}};
   return *bend_block({n, n, 2 * n}, stations, 0.12, {1.5, 2});
 }
 

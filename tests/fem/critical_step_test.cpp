@@ -79,8 +79,9 @@ RC_GTEST_PROP(CriticalStep, SafeAndCloseOnSliversAndNeedles, ()) {
   const bool sheared = *rc::gen::arbitrary<bool>();
   const auto shift = static_cast<float>(sheared ? any_between(0.5, 4) : 0);
   const auto thin = static_cast<float>(sheared ? 0.02 : 0.02 / any_between(1, 100));
-  const auto mesh = bend_block({2, 2, 4}, std::vector<CageStation>{{0, 0, 0, 0.02F, thin}, {1, shift, 0, 0.02F, thin}},
-                               0.08, {any_between(0.2, 5), any_between(0.2, 5)});
+  const auto mesh =
+      bend_block({2, 2, 4}, std::vector<LatticeStation>{{0, 0, 0, 0.02F, thin}, {1, shift, 0, 0.02F, thin}}, 0.08,
+                 {any_between(0.2, 5), any_between(0.2, 5)});
   RC_ASSERT(mesh.has_value());
   const Material material = any_material();
   const Element kind = any_element();
@@ -222,7 +223,8 @@ double sparse_limit(const HexahedralMesh& mesh, const Material& material, Mass k
 
 HexahedralMesh fine_belly(const Cells& cells) {
   return *bend_block(
-      cells, std::vector<CageStation>{{0, 0, 0, 0.02F, 0.03F}, {0.4F, 0.01F, 0, 0.03F, 0.02F}, {1, 0, 0, 0.02F, 0.02F}},
+      cells,
+      std::vector<LatticeStation>{{0, 0, 0, 0.02F, 0.03F}, {0.4F, 0.01F, 0, 0.03F, 0.02F}, {1, 0, 0, 0.02F, 0.02F}},
       0.2);
 }
 

@@ -19,18 +19,18 @@ Cells any_cells(std::uint32_t across = 4, std::uint32_t along = 9) {
 }
 
 /// A belly of moderate curvature and taper.
-std::vector<CageStation> any_belly() {
+std::vector<LatticeStation> any_belly() {
   const auto length = [](int low_mm, int high_mm) {
     return static_cast<float>(*rc::gen::inRange(low_mm, high_mm)) * 1e-3F;
   };
-  std::vector<CageStation> stations;
+  std::vector<LatticeStation> stations;
   for (const float t : {0.0F, 0.3F, 0.65F, 1.0F}) {
     stations.push_back({t, length(-15, 15), length(-15, 15), length(20, 40), length(20, 40)});
   }
   return stations;
 }
 
-const std::vector<CageStation> fixed_belly = {
+const std::vector<LatticeStation> fixed_belly = {
     {0, 0.01F, 0, 0.02F, 0.03F}, {0.4F, 0, 0.01F, 0.03F, 0.035F}, {1, 0, 0, 0.02F, 0.02F}};
 
 double volume_by_gauss(const HexahedralMesh& mesh) {
@@ -83,7 +83,7 @@ RC_GTEST_PROP(HexahedralMesh, BellyElementsStayWellShaped, ()) {
   const float x = static_cast<float>(*rc::gen::inRange(20, 40)) * 1e-3F;
   const float y = x * static_cast<float>(*rc::gen::inRange(75, 134)) * 1e-2F;
   const float bow = static_cast<float>(*rc::gen::inRange(-20, 21)) * 1e-3F;
-  const std::vector<CageStation> stations = {
+  const std::vector<LatticeStation> stations = {
       {0, 0, 0, 0.7F * x, 0.7F * y}, {0.5F, bow, 0, x, y}, {1, 0, 0, 0.7F * x, 0.7F * y}};
   const auto mesh = bend_block(cells, stations, 0.3);
   RC_ASSERT(mesh.has_value());
@@ -91,7 +91,7 @@ RC_GTEST_PROP(HexahedralMesh, BellyElementsStayWellShaped, ()) {
 }
 
 TEST(HexahedralMesh, RoundedSectionTouchesItsEllipseAndContainsIt) {
-  const std::vector<CageStation> stations = {{0, 0.01F, -0.02F, 0.03F, 0.02F}, {1, 0.01F, -0.02F, 0.03F, 0.02F}};
+  const std::vector<LatticeStation> stations = {{0, 0.01F, -0.02F, 0.03F, 0.02F}, {1, 0.01F, -0.02F, 0.03F, 0.02F}};
   const auto mesh = bend_block({8, 8, 1}, stations, 0.1);
   ASSERT_TRUE(mesh.has_value());
   double widest = 0, smallest = 1e9;
@@ -196,8 +196,8 @@ TEST(HexahedralMesh, NonsenseIsRefused) {
   EXPECT_FALSE(make_block({2, 2, 257}, 0.01));
   EXPECT_FALSE(make_block({60, 60, 60}, 0.01));
   for (const double size : {0.0, -1.0, std::nan(""), 1e9, double{INFINITY}}) EXPECT_FALSE(make_block({2, 2, 2}, size));
-  const CageStation good{0, 0, 0, 0.02F, 0.02F}, end{1, 0, 0, 0.02F, 0.02F};
-  const auto bent = [&](std::vector<CageStation> s, double length) { return bend_block({2, 2, 4}, s, length); };
+  const LatticeStation good{0, 0, 0, 0.02F, 0.02F}, end{1, 0, 0, 0.02F, 0.02F};
+  const auto bent = [&](std::vector<LatticeStation> s, double length) { return bend_block({2, 2, 4}, s, length); };
   EXPECT_TRUE(bent({good, end}, 0.2));
   EXPECT_FALSE(bent({good}, 0.2));
   EXPECT_FALSE(bent({end, good}, 0.2));

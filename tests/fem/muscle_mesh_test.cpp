@@ -12,7 +12,7 @@
 #include <mobil/assets/surfaces/surface_binding.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/muscle_table.h>
-#include "assets/surfaces/muscle_cage.h"
+#include "assets/surfaces/muscle_lattice.h"
 #include "tests/simulation/people.h"
 
 namespace mobil::muscle_mesh_test {
@@ -21,7 +21,7 @@ using namespace geometry;
 constexpr Cells coarse{2, 2, 8}, middle{4, 4, 16}, fine{8, 8, 32};
 
 HexahedralMesh mesh_of(Muscle muscle, const Cells& cells, double across = 1, double along = 1) {
-  const auto mesh = bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading).value();
+  const auto mesh = bend_block(cells, muscle_lattice(muscle), reference_belly_m(muscle), belly_grading).value();
   return scaled(mesh, BellyScale<double>{across, along});
 }
 
@@ -117,7 +117,7 @@ TEST(MuscleMesh, FollowsTheSurfacesOfItsMuscle) {
       for (const auto& p : s.surface.mesh.position) {
         const Vec at = rotated(conjugate(plan.rotation), to_double(p) - plan.start_m);
         if (at.z < 0 || at.z > plan.belly_length_m) continue;
-        const CagePlace place = place_in_cage(mesh, at);
+        const LatticePlace place = place_in_lattice(mesh, at);
         Vec near{0, 0, 0};
         for (std::size_t a = 0; a < 8; ++a) near = near + place.weight[a] * mesh.node[place.node[a]];
         outside += length(at - near);

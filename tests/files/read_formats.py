@@ -16,7 +16,7 @@ import struct
 import sys
 import xml.etree.ElementTree as xml
 
-# --- linear algebra: column vectors, 4x4 as lists of rows
+# --- linear algebra: column modes, 4x4 as lists of rows
 
 
 def times(a, b):
@@ -36,7 +36,7 @@ def placed(translation, w, x, y, z):
 
 
 def inverse_of_scale_and_place(m):
-    """Of rows (s 0 0 0) … (x y z 1), as USD writes it: to column vectors, and back."""
+    """Of rows (s 0 0 0) … (x y z 1), as USD writes it: to column modes, and back."""
     return [[1 / m[i][i] if i == j else 0 for j in range(3)] + [-m[3][i] / m[i][i]] for i in range(3)] + [[0, 0, 0, 1]]
 
 

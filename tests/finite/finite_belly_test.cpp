@@ -119,15 +119,15 @@ TEST(FiniteShapes, OfFinerControlPointsGoThroughTheTables) {
     for (std::uint32_t k = 0; k <= 16; ++k) {
       for (std::uint32_t j = 0; j <= 4; ++j) {
         for (std::uint32_t i = 0; i <= 4; ++i) {
-          const std::size_t at = 3 * shape_vectors * node_index(fine, i, j, k);
+          const std::size_t at = 3 * shape_modes * node_index(fine, i, j, k);
           if (i % 2 + j % 2 + k % 2 == 0) {
-            const std::size_t in_coarse = 3 * shape_vectors * node_index({2, 2, 8}, i / 2, j / 2, k / 2);
-            for (std::size_t w = 0; w < 3 * shape_vectors; ++w)
+            const std::size_t in_coarse = 3 * shape_modes * node_index({2, 2, 8}, i / 2, j / 2, k / 2);
+            for (std::size_t w = 0; w < 3 * shape_modes; ++w)
               ASSERT_NEAR(finer.vector[at + w], coarse.vector[in_coarse + w], 1e-6F);
           }
           if (k == 0) continue;
-          const std::size_t below = 3 * shape_vectors * node_index(fine, i, j, k - 1);
-          for (std::size_t w = 0; w < 3 * shape_vectors; ++w) {
+          const std::size_t below = 3 * shape_modes * node_index(fine, i, j, k - 1);
+          for (std::size_t w = 0; w < 3 * shape_modes; ++w) {
             most = std::max(most, std::abs(finer.vector[at + w]));
             step = std::max(step, std::abs(finer.vector[at + w] - finer.vector[below + w]));
           }

@@ -54,7 +54,7 @@ class WildHost {
   std::vector<unsigned char> bake() const {
     mobil_muscles choice;
     mobil_defaults(MOBIL_MUSCLES, &choice, sizeof choice);
-    for (const int method : {MOBIL_REDUCED, MOBIL_ECD}) {
+    for (const int method : {MOBIL_MODAL, MOBIL_EXPLICIT_CENTRAL}) {
       choice.method = method;
       promise(mobil_prepare(sim_, &choice) == MOBIL_OK, "usual muscles are prepared");
     }
@@ -81,7 +81,7 @@ class WildHost {
     mobil_defaults(MOBIL_MUSCLES, &choice, sizeof choice);
     choice.muscles = 1U << numbers_.byte() % 8;
     choice.method = numbers_.wild(6);
-    choice.vectors = numbers_.wild(20);
+    choice.modes = numbers_.wild(20);
     choice.control_points = numbers_.wild(2);
     choice.reported = numbers_.wild(2);
     choice.activation = numbers_.wild(4);
@@ -165,7 +165,7 @@ class WildHost {
         mobil_method method;
         mobil_defaults(MOBIL_METHOD, &method, sizeof method);
         method.method = numbers_.wild(6);
-        method.vectors = numbers_.wild(20);
+        method.modes = numbers_.wild(20);
         method.control_points = numbers_.wild(2);
         return mobil_set_method(sim_, &who, 1, numbers_.wild(17), &method);
       }
@@ -216,7 +216,7 @@ class WildHost {
       case 0:
         return mobil_avoidance_manage(sim_, &who, 1, numbers_.wild(2));
       case 1:
-        return mobil_avoidance_want(sim_, &who, 1, row, 0);
+        return mobil_avoidance_set_desired_velocity(sim_, &who, 1, row, 0);
       case 2:
         return mobil_avoidance_set_walls(sim_, row, 0, count);
       case 3:
@@ -230,7 +230,7 @@ class WildHost {
         return mobil_avoidance_set_options(sim_, &options);
       }
       default:
-        mobil_terrain_set_slowing(sim_, static_cast<int>(count));
+        mobil_terrain_set_speed_scaling(sim_, static_cast<int>(count));
         return mobil_terrain_manage(sim_, &who, 1, numbers_.wild(2));
     }
   }
@@ -238,11 +238,11 @@ class WildHost {
   /// Now and then something else than what was asked for.
   void answer_ground() {
     size_t places = 0;
-    promise(mobil_terrain_ask(sim_, nullptr, 0, nullptr, 0, &places) == MOBIL_OK, "the ground is asked for");
+    promise(mobil_terrain_query(sim_, nullptr, 0, nullptr, 0, &places) == MOBIL_OK, "the ground is asked for");
     if (places == 0) return;
     std::vector<float> ground(4 * places);
     for (float& number : ground) number = numbers_.byte() < 32 ? numbers_.number() : 0.25F * numbers_.number();
-    mobil_terrain_answer(sim_, ground.data(), 0, numbers_.byte() < 250 ? places : places - 1, nullptr);
+    mobil_terrain_resolve(sim_, ground.data(), 0, numbers_.byte() < 250 ? places : places - 1, nullptr);
   }
 
   /// Whatever was called, everybody who is there is somewhere.

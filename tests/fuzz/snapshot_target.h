@@ -6,7 +6,7 @@
 
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/simulation/reseal.h"
@@ -20,11 +20,11 @@ class SmallWorld {
     LegMuscles choice;
     choice.muscles.reset();
     choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
-    choice.reduced.vectors = 4;
+    choice.modal.modes = 4;
     const Entity walker = *simulation.spawn({});
     (void)simulation.set_muscles(walker, choice);
     (void)simulation.enable(walker, Feature::forces);
-    choice.method = Method::ecd;
+    choice.method = Method::explicit_central;
     choice.activation = ExcitationSource::host;
     (void)simulation.set_muscles(*simulation.spawn_posed({}), choice);
     const Entity sleeper = *simulation.spawn({.height_m = 1.6F, .mass_kg = 60});
@@ -82,11 +82,11 @@ inline void fuzz_snapshot(Input input) {
   const RestoreLimits limits{.rows = 1000, .mesh_nodes = 0, .seconds = 1, .steps = 200};
   if (held(simulation.restore(bytes, limits))) {
     for (int i = 0; i < 3; ++i) simulation.tick();
-    for (const Entity human : simulation.people()) {
-      (void)simulation.human(human);
-      (void)simulation.get<Pose>(human);
-      (void)held(simulation.change_gait(human, {.speed_m_s = 1.1F}));
-      for (const OwnMuscle& own : simulation.muscles(human))
+    for (const Entity person : simulation.people()) {
+      (void)simulation.person(person);
+      (void)simulation.get<Pose>(person);
+      (void)held(simulation.change_gait(person, {.speed_m_s = 1.1F}));
+      for (const MuscleRef& own : simulation.muscles(person))
         (void)nodal_displacement(simulation.world(), own.entity[Side::left]);
     }
     (void)simulation.state_hash();

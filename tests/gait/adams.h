@@ -50,10 +50,10 @@ struct AdamsResult {
 namespace adams {
 
 inline constexpr double last_place = std::numeric_limits<double>::epsilon();
-inline constexpr double least_share = 1e-3;
-inline constexpr double safety = 0.8, most_growth = 2.0, most_shrinking = 0.2;
+inline constexpr double min_share = 1e-3;
+inline constexpr double safety = 0.8, max_growth = 2.0, max_shrinking = 0.2;
 inline constexpr int failures_before_restart = 3;
-inline constexpr long most_evaluations = 1'000'000;
+inline constexpr long max_evaluations = 1'000'000;
 
 template <std::size_t N>
 bool finite(const Unknowns<N>& v) {
@@ -64,9 +64,9 @@ bool finite(const Unknowns<N>& v) {
 
 /// By how much the step may change when its error is `ratio` of what it may be; the ratio goes with the fourth power.
 inline double step_factor(double ratio) {
-  if (!(ratio < 1e12)) return most_shrinking;
-  const double factor = ratio > 1e-12 ? safety / std::sqrt(std::sqrt(ratio)) : most_growth;
-  return std::fmin(std::fmax(factor, most_shrinking), most_growth);
+  if (!(ratio < 1e12)) return max_shrinking;
+  const double factor = ratio > 1e-12 ? safety / std::sqrt(std::sqrt(ratio)) : max_growth;
+  return std::fmin(std::fmax(factor, max_shrinking), max_growth);
 }
 
 /// One integration under way.
@@ -94,7 +94,7 @@ struct Run {
 
   /// The worst component's error over what a step of h may make.
   double ratio(const Unknowns<N>& local, const Unknowns<N>& there, double h) const {
-    const double share = std::fmax(h / span, least_share);
+    const double share = std::fmax(h / span, min_share);
     double worst = 0.0;
     for (std::size_t i = 0; i < N; ++i) {
       const double size = std::fmax(std::fabs(y[i]), std::fabs(there[i]));
@@ -167,7 +167,7 @@ struct Run {
   const char* fixed_steps() {
     const double begin = time, length = end_s - begin;
     const double count = std::ceil(length / options.fixed_step_s * (1.0 - 1e-12)), h = length / count;
-    if (!(2.0 * count < static_cast<double>(most_evaluations))) return "too many evaluations";
+    if (!(2.0 * count < static_cast<double>(max_evaluations))) return "too many evaluations";
     const long steps = static_cast<long>(count), start = steps < 3 ? steps : 3;
     auto at = [&](long k) { return k == steps ? end_s : begin + length * (static_cast<double>(k) / count); };
     RungeKuttaStart<N> s;
@@ -193,7 +193,7 @@ struct Run {
     bool started = false;
     int failures = 0;
     while (time < end_s) {
-      if (counts.evaluations >= most_evaluations) return "too many evaluations";
+      if (counts.evaluations >= max_evaluations) return "too many evaluations";
       const double left = end_s - time;
       double h = std::fmax(wish, grain), r = 0.0;
       bool was_finite = true;
@@ -218,7 +218,7 @@ struct Run {
       }
       if (r <= 1.0) {
         // A step cut short by the end says little about a longer one.
-        const double next = h * std::fmin(step_factor(r), failures > 0 ? 1.0 : most_growth);
+        const double next = h * std::fmin(step_factor(r), failures > 0 ? 1.0 : max_growth);
         wish = h < wish ? std::fmax(wish, next) : next;
         failures = 0;
         continue;

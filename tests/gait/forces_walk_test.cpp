@@ -49,23 +49,23 @@ struct Walker {
 /// Walks a while at speed (m/s), then records some strides.
 Walker walk(float height, float mass, float speed, double tick_s = 1.0 / 120) {
   Simulation simulation({.tick_s = tick_s});
-  const Entity human = *simulation.spawn({.height_m = height, .mass_kg = mass}, {.speed_m_s = speed});
-  simulation.enable(human, Feature::forces);
+  const Entity person = *simulation.spawn({.height_m = height, .mass_kg = mass}, {.speed_m_s = speed});
+  simulation.enable(person, Feature::forces);
   Walker w{static_cast<double>(height), static_cast<double>(mass), tick_s, {}};
   const auto settle = static_cast<int>(5 / tick_s), ticks = static_cast<int>(11 / tick_s);
   for (int t = 0; t < ticks; ++t) {
     simulation.tick();
     if (t <= settle) continue;
-    const StepPlan<float> plan = *simulation.get<StepPlan>(human);
-    const GaitState<float> state = *simulation.get<GaitState>(human);
-    const Feet<float> feet = *simulation.get<Feet>(human);
-    const GroundReaction<float> ground = *simulation.get<GroundReaction>(human);
-    const JointMoments<float> moments = *simulation.get<JointMoments>(human);
+    const StepPlan<float> plan = *simulation.get<StepPlan>(person);
+    const GaitState<float> state = *simulation.get<GaitState>(person);
+    const Feet<float> feet = *simulation.get<Feet>(person);
+    const GroundReaction<float> ground = *simulation.get<GroundReaction>(person);
+    const JointMoments<float> moments = *simulation.get<JointMoments>(person);
     Instant now{};
     now.steps = state.steps;
     now.part_of_double_support = static_cast<double>(state.time_s / plan.double_support_s);
     now.stance = state.stance_side;
-    now.centre = vector_of(simulation.get<CentreOfMass>(human)->position_m);
+    now.centre = vector_of(simulation.get<CentreOfMass>(person)->position_m);
     for (std::size_t side = 0; side < 2; ++side) {
       now.phase[side] = static_cast<double>(feet.phase[side]);
       now.heel[side] = vector_of(feet.heel_m[side]);

@@ -15,7 +15,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 
 namespace mobil::steering {
 using geometry::to_double;
@@ -173,7 +173,7 @@ class Watch : public Findings {
                      *simulation.get<GaitState>(walker.entity)};
     walker_ = &walker;
     if (samples_ == 0) {
-      const Body body = simulation.human(walker.entity)->body;
+      const Body body = simulation.person(walker.entity)->body;
       shank_ = to_double(body.joint_offset_m[index(Segment::foot_right)]);
       toes_ = static_cast<double>(body.tip_m[index(Segment::toes_right)].z);
     }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "tests/gait/walkers.h"
 
 namespace mobil::step_aside_test {
@@ -38,7 +38,7 @@ TEST(StepAside, TakesFeetAndBodyThereInTwoSteps) {
   Dice dice{std::mt19937(71)};
   for (int trial = 0; trial < 40; ++trial) {
     Standing one(random_body(dice));
-    const Body body = one.simulation.human(one.entity)->body;
+    const Body body = one.simulation.person(one.entity)->body;
     const float scale = (body.thigh_length_m + body.shank_length_m) / 0.85F;
     for (int step = 0; step < 3; ++step) {
       const float left = scale * dice.single(-0.25, 0.25), ahead = scale * dice.single(-0.2, 0.2);

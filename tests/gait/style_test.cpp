@@ -1,4 +1,4 @@
-// What a walk's manner does, parameter by parameter, in walkers as they walk.
+// What a walk's posture does, parameter by parameter, in walkers as they walk.
 #include <gtest/gtest.h>
 
 #include <algorithm>

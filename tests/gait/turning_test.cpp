@@ -10,7 +10,7 @@
 
 namespace mobil::turning_test {
 constexpr double pi = 3.14159265358979323846, degree = pi / 180.0;
-constexpr double most_turn = 30.0 * degree;
+constexpr double max_turn = 30.0 * degree;
 
 /// Natural walks toward random headings.
 std::unique_ptr<Walkers> turning(unsigned seed) {
@@ -40,7 +40,7 @@ TEST(Turning, GoesTheShorterWayWithinItsLimitsAndArrives) {
         const double off = wrapped(double{w->gait.heading_rad[l]} - w->state.heading_rad[l]);
         const double turn = w->state.turn_rad[l], bend = w->state.bend_next_per_m[l], height = w->size.height_m[l];
         const double sideways = std::pow(w->plan.to.speed_m_s[l], 2) * bend;
-        EXPECT_LE(std::fabs(turn), most_turn + 1e-6);
+        EXPECT_LE(std::fabs(turn), max_turn + 1e-6);
         EXPECT_LE(std::fabs(sideways), 1.1 + 1e-5);
         EXPECT_LE(std::fabs(0.56 * height / 9.81 * sideways + w->state.shift_next_m[l]), 0.012 * height + 1e-5);
         EXPECT_LE(std::fabs(turn), std::fabs(off) + 0.07);  // a foot cannot be put anywhere: a little too far, and back
@@ -84,7 +84,7 @@ TEST(Turning, ThoseWhoStandTurnOnTheSpot) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const double way = std::fabs(wrapped(double{w->gait.heading_rad[l]} - first.heading_rad[l]));
     EXPECT_LT(std::fabs(wrapped(double{w->gait.heading_rad[l]} - w->state.heading_rad[l])), 0.021);
-    EXPECT_LE(w->state.steps[l], 2 + static_cast<unsigned>(way / most_turn));
+    EXPECT_LE(w->state.steps[l], 2 + static_cast<unsigned>(way / max_turn));
     EXPECT_EQ(w->state.turn_before_rad[l], 0);
     EXPECT_EQ(w->state.line_x_m[l], first.line_x_m[l]);
     EXPECT_EQ(w->state.line_z_m[l], first.line_z_m[l]);

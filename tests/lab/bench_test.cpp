@@ -24,7 +24,7 @@ struct Figure {
 /// Runs the named benches over 64 people. By name; every name once.
 struct Bench {
   explicit Bench(const std::string& names) {
-    ran = run_mobil("bench " + names + " --humans 64 --quiet --json bench.json", folder.path);
+    ran = run_mobil("bench " + names + " --people 64 --quiet --json bench.json", folder.path);
     if (ran.status != 0) return;
     json = nlohmann::json::parse(read_bytes(folder.path / "bench.json"));
     for (const auto& result : json.at("results")) {
@@ -53,8 +53,8 @@ TEST(Bench, PromisedNamesArePositiveAndFinite) {
   ASSERT_EQ(bench.ran.status, 0) << bench.ran.err;
   EXPECT_EQ(bench.ran.err, "");
   const std::map<std::string, std::string> promised = {
-      {"machine.fma_peak_gflops", "Gflop/s"}, {"machine.bandwidth_gbps", "GB/s"}, {"gait.us_per_human_tick", "us"},
-      {"kinematics.us_per_human_tick", "us"}, {"lines.us_per_muscle_tick", "us"}, {"skinning.ns_per_vertex", "ns"},
+      {"machine.fma_peak_gflops", "Gflop/s"},  {"machine.bandwidth_gbps", "GB/s"}, {"gait.us_per_person_tick", "us"},
+      {"kinematics.us_per_person_tick", "us"}, {"lines.us_per_muscle_tick", "us"}, {"skinning.ns_per_vertex", "ns"},
   };
   for (const auto& [name, unit] : promised) {
     ASSERT_TRUE(bench.figures.contains(name)) << name;
@@ -72,7 +72,7 @@ TEST(Bench, PromisedNamesArePositiveAndFinite) {
     EXPECT_FALSE(machine.at(text).get<std::string>().empty()) << text;
   }
   EXPECT_GE(machine.at("cores").get<int>(), 1);
-  EXPECT_EQ(bench.json.at("crowd").at("humans"), 64);
+  EXPECT_EQ(bench.json.at("crowd").at("people"), 64);
   EXPECT_EQ(std::distance(fs::directory_iterator(bench.folder.path), fs::directory_iterator()), 1);
 }
 
@@ -99,24 +99,24 @@ TEST(Bench, FiniteElementFiguresAreAllThereAndBelongTogether) {
   const Bench bench("fem --quick");
   ASSERT_EQ(bench.ran.status, 0) << bench.ran.err;
   EXPECT_EQ(bench.ran.err, "");
-  std::vector<std::string> promised = {"fem.ecd81.individual_over_shared",
+  std::vector<std::string> promised = {"fem.explicit81.individual_over_shared",
                                        "fem.static81.shared.us_per_solve",
                                        "fem.static81.individual.us_per_solve",
-                                       "fem.ecd81.time_error",
-                                       "fem.caa81.time_error",
-                                       "fem.caa81.60hz.time_error"};
+                                       "fem.explicit81.time_error",
+                                       "fem.newmark81.time_error",
+                                       "fem.newmark81.60hz.time_error"};
   for (const std::string whose : {".shared", ".individual"}) {
-    promised.push_back("fem.ecd81" + whose + ".us_per_step");
-    promised.push_back("fem.ecd81" + whose + ".peak_fraction");
+    promised.push_back("fem.explicit81" + whose + ".us_per_step");
+    promised.push_back("fem.explicit81" + whose + ".peak_fraction");
   }
-  for (const std::string stem : {"caa81", "caa81.60hz", "icd81"}) {
+  for (const std::string stem : {"newmark81", "newmark81.60hz", "implicit81"}) {
     for (const std::string whose : {".shared", ".individual"})
       promised.push_back("fem." + stem + whose + ".us_per_step");
   }
   const bool rivals = bench.figures.contains("fem.rivals.eigen.us_per_step");
   if (rivals) {
     for (const std::string ratio : {"ratio_to_eigen", "ratio_to_eigen_batched", "individual.ratio_to_eigen"}) {
-      promised.push_back("fem.ecd81." + ratio);
+      promised.push_back("fem.explicit81." + ratio);
     }
     EXPECT_EQ(bench.ran.out.find("TOO FAR OFF"), std::string::npos) << bench.ran.out;
   } else {
@@ -128,11 +128,11 @@ TEST(Bench, FiniteElementFiguresAreAllThereAndBelongTogether) {
     EXPECT_EQ(bench.figures.at(name).unit, name.find(".us_per_") != std::string::npos ? "us" : "1") << name;
   }
   EXPECT_NE(bench.ran.out.find("fem.threads2_speedup"), std::string::npos);
-  EXPECT_NE(bench.ran.out.find("fem.ecd81.ratio_to_"), std::string::npos);  // measured, or why not
+  EXPECT_NE(bench.ran.out.find("fem.explicit81.ratio_to_"), std::string::npos);  // measured, or why not
 
   // useful work over the time it took, over the peak
-  const double us = bench.figures.at("fem.ecd81.shared.us_per_step").value;
-  const double flops = bench.figures.at("fem.ecd81.shared.peak_fraction").value * us * 1e3 *
+  const double us = bench.figures.at("fem.explicit81.shared.us_per_step").value;
+  const double flops = bench.figures.at("fem.explicit81.shared.peak_fraction").value * us * 1e3 *
                        bench.figures.at("machine.fma_peak_gflops").value;
   EXPECT_NEAR(flops, 2 * 9702, 1e-6 * flops);
 }
@@ -140,20 +140,21 @@ TEST(Bench, FiniteElementFiguresAreAllThereAndBelongTogether) {
 TEST(Bench, PaperFiguresAreTablesThatRefuseWhatIsUnstable) {
   const Bench bench("paper_figures --quick");
   ASSERT_EQ(bench.ran.status, 0) << bench.ran.err;
-  for (const std::string name :
-       {"figure18.ecd81.2.0ms", "figure18.ecd81.3.0ms", "figure18.caa81.4.0ms", "figure18.caa525.4.0ms",
-        "figure18.icd81.1.0ms", "figure20.ecd81.1.0ms", "figure20.ecd525.1.0ms"}) {
+  for (const std::string name : {"figure18.explicit81.2.0ms", "figure18.explicit81.3.0ms", "figure18.newmark81.4.0ms",
+                                 "figure18.newmark525.4.0ms", "figure18.implicit81.1.0ms", "figure20.explicit81.1.0ms",
+                                 "figure20.explicit525.1.0ms"}) {
     EXPECT_TRUE(bench.figures.contains(name + ".us_per_simulated_s")) << name;
   }
-  for (const std::string name : {"figure18.ecd81.4.0ms", "figure18.ecd525.2.0ms", "figure20.ecd3321.1.0ms"}) {
+  for (const std::string name :
+       {"figure18.explicit81.4.0ms", "figure18.explicit525.2.0ms", "figure20.explicit3321.1.0ms"}) {
     EXPECT_FALSE(bench.figures.contains(name + ".us_per_simulated_s")) << name;
   }
   EXPECT_TRUE(bench.figures.contains("figure20.four_groups_at_3ms_over_three_at_2ms"));
   EXPECT_NE(bench.ran.out.find("above the limit 3.48 ms"), std::string::npos);
   // a coarse mesh is further from the truth than a fine one
-  EXPECT_LT(bench.figures.at("figure19.caa525_to_converged").value,
-            bench.figures.at("figure19.ecd81_2ms_to_converged").value);
-  EXPECT_NEAR(bench.figures.at("figure19.ecd81_to_caa525").value, 0.0107, 0.0003);
+  EXPECT_LT(bench.figures.at("figure19.newmark525_to_converged").value,
+            bench.figures.at("figure19.explicit81_2ms_to_converged").value);
+  EXPECT_NEAR(bench.figures.at("figure19.explicit81_to_newmark525").value, 0.0107, 0.0003);
 }
 
 TEST(Bench, BadInputIsOneLineAndNothingIsWritten) {
@@ -162,14 +163,14 @@ TEST(Bench, BadInputIsOneLineAndNothingIsWritten) {
   const std::map<std::string, std::vector<std::string>> refused = {
       {"gaiit --json bench.json",
        {"'gaiit'", "did you mean gait?",
-        "machine, gait, kinematics, lines, activation, skinning, skin, avoidance, table1, fem, reduced, "
+        "machine, gait, kinematics, lines, activation, skinning, skin, avoidance, table1, fem, modal, "
         "paper_figures"}},
       {"gait somersault", {"'somersault'", "machine, gait"}},
-      {"gait --humans 0", {"--humans '0'", "1 to 200000"}},
-      {"gait --humans -5", {"--humans '-5'", "1 to 200000"}},
-      {"gait --humans many", {"--humans 'many'", "1 to 200000"}},
-      {"gait --humans 200001", {"--humans '200001'", "1 to 200000"}},
-      {"gait --humans 99999999999999999999", {"1 to 200000"}},
+      {"gait --people 0", {"--people '0'", "1 to 200000"}},
+      {"gait --people -5", {"--people '-5'", "1 to 200000"}},
+      {"gait --people many", {"--people 'many'", "1 to 200000"}},
+      {"gait --people 200001", {"--people '200001'", "1 to 200000"}},
+      {"gait --people 99999999999999999999", {"1 to 200000"}},
       {"gait --json", {"--json needs one value"}},
       {"gait --json ''", {"--json", "empty"}},
       {"gait --json nowhere/bench.json", {"--json nowhere/bench.json", "folder"}},

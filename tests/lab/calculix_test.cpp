@@ -117,7 +117,7 @@ TEST(Calculix, ExplicitCentralDifferences) {
       {"4x4x16 ringing, both ways", fine, ringing(0.002, 0.01), 1e-3, 0.2},
       {"4x4x16 slow, lateral", fine, slow(0.002, 0), 1.2e-3, 0.24},
   };
-  for (const Case& c : cases) expect_agreement(c, Procedure::explicit_dynamics, "--method ecd");
+  for (const Case& c : cases) expect_agreement(c, Procedure::explicit_dynamics, "--method explicit-central");
 }
 
 TEST(Calculix, ItsExplicitVariantPrintsAMeanOfThreeOfOurSteps) {
@@ -127,7 +127,7 @@ TEST(Calculix, ItsExplicitVariantPrintsAMeanOfThreeOfOurSteps) {
   const double dt = 2.8e-3;
   const auto load = ringing(0.001, 0.02);
   const auto theirs = calculix::run(coarse, load, Procedure::explicit_dynamics, dt, 200 * dt);
-  const auto ours = mobil_history(coarse, load, dt, 201 * dt, "--method ecd --precision double");
+  const auto ours = mobil_history(coarse, load, dt, 201 * dt, "--method explicit-central --precision double");
   ASSERT_EQ(ours.size(), theirs.size() + 1);
   History mean;
   for (std::size_t n = 0; n < theirs.size(); ++n) {
@@ -152,7 +152,7 @@ TEST(Calculix, ConstantAverageAcceleration) {
       {"3x2x6 slow, damped by stiffness", damped(stubby, 0, 1e-3), slow(0.01, 0.05), 2e-3, 0.2},
       {"4x4x16 ringing, both ways", fine, ringing(0.002, 0.01), 5e-3, 0.25},
   };
-  for (const Case& c : cases) expect_agreement(c, Procedure::implicit_dynamics, "--method caa --mass consistent");
+  for (const Case& c : cases) expect_agreement(c, Procedure::implicit_dynamics, "--method newmark --mass consistent");
 }
 
 }  // namespace mobil::calculix_test

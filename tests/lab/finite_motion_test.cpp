@@ -8,13 +8,13 @@
 #include <vector>
 
 #include <mobil/muscle_table.h>
-#include "demo/lab/frontier/frontier_living.h"
+#include "demo/lab/frontier/frontier_active.h"
 
 namespace mobil::finite_motion_test {
 namespace {
 
 FiniteBelly spindle() {
-  const std::vector<CageStation> stations = {
+  const std::vector<LatticeStation> stations = {
       {0, 0, 0, 0.02F, 0.018F}, {0.4F, 0.004F, -0.005F, 0.036F, 0.03F}, {1, 0, 0, 0.014F, 0.012F}};
   return *make_finite_belly(*bend_block({2, 2, 8}, stations, 0.24), {}, 0);
 }
@@ -73,19 +73,19 @@ TEST(FiniteMotion, AStepThatIsTooLongChangesNothing) {
 /// What shape and tension change of a shaken muscle that pulls is most of what a linear one gets wrong.
 TEST(FiniteMotion, TunedBelliesAreShakenAsTissueIs) {
   const Muscle row[] = {*find_muscle("rectus_femoris")};
-  const auto found = measure_living(row, [](std::string_view, double) {});
+  const auto found = measure_active(row, [](std::string_view, double) {});
   const auto way = [&](std::string_view name) {
     const auto& ways = found.front().ways;
-    const auto at = std::ranges::find(ways, name, &LivingError::way);
+    const auto at = std::ranges::find(ways, name, &ActiveError::way);
     EXPECT_NE(at, ways.end()) << name;
     return *at;
   };
-  const LivingError plain = way("reduced-12"), tuned = way("reduced-12, tuned, finite shape");
+  const ActiveError plain = way("modal-12"), tuned = way("modal-12, tuned, finite shape");
   EXPECT_GT(plain.jolts_all, 1.2);
   EXPECT_GT(plain.jolts_across, 0.7);
   EXPECT_LT(tuned.jolts_all, 0.25);
   EXPECT_LT(tuned.jolts_across, 0.15);
-  EXPECT_LT(tuned.across, 0.4 * way("ecd, 81 nodes").across);
+  EXPECT_LT(tuned.across, 0.4 * way("explicit-central, 81 nodes").across);
   EXPECT_LT(tuned.all, 0.4 * plain.all);
 }
 

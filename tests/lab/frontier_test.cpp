@@ -16,21 +16,21 @@
 #include "tests/program/program.h"
 
 namespace mobil::frontier_test {
-FrontierRung elements(const char* name, Method method, const Cells& cells, std::optional<double> dt_s = {},
-                      bool fixed_step = false) {
-  FrontierRung rung{name, {}};
-  rung.method.choice.method = method;
-  rung.method.choice.cells = cells;
-  rung.method.choice.dt_s = dt_s;
-  rung.method.fixed_step = fixed_step;
-  return rung;
+FrontierLevel elements(const char* name, Method method, const Cells& cells, std::optional<double> dt_s = {},
+                       bool fixed_step = false) {
+  FrontierLevel level{name, {}};
+  level.method.choice.method = method;
+  level.method.choice.cells = cells;
+  level.method.choice.dt_s = dt_s;
+  level.method.fixed_step = fixed_step;
+  return level;
 }
 
-FrontierRung reduced(std::uint32_t vectors, bool moving = true) {
-  FrontierRung rung{moving ? "reduced" : "reduced-static", {}};
-  rung.method.choice.method = Method::reduced;
-  rung.method.choice.reduced = {vectors, moving, true, {4, 4, 16}};
-  return rung;
+FrontierLevel modal(std::uint32_t modes, bool moving = true) {
+  FrontierLevel level{moving ? "modal" : "modal-static", {}};
+  level.method.choice.method = Method::modal;
+  level.method.choice.modal = {modes, moving, true, {4, 4, 16}};
+  return level;
 }
 
 /// One muscle of one walker for a second, and few ways.
@@ -44,15 +44,15 @@ FrontierRequest tiny_request() {
   request.bytes = 1 << 20;
   request.rounds = 1;
   request.threads = 1;
-  request.rungs = {elements("ecd", Method::ecd, {2, 2, 8}, 0.002, true),
-                   elements("ecd", Method::ecd, {2, 2, 8}, 0.01, true),
-                   elements("ecd", Method::ecd, {4, 4, 16}),
-                   elements("caa", Method::caa, {2, 2, 8}),
-                   elements("static", Method::statics, {2, 2, 8}),
-                   reduced(4),
-                   reduced(12),
-                   reduced(12, false)};
-  request.rungs.front().mark = "the paper's choice: 81 nodes, 2 ms";
+  request.levels = {elements("explicit-central", Method::explicit_central, {2, 2, 8}, 0.002, true),
+                    elements("explicit-central", Method::explicit_central, {2, 2, 8}, 0.01, true),
+                    elements("explicit-central", Method::explicit_central, {4, 4, 16}),
+                    elements("newmark", Method::newmark, {2, 2, 8}),
+                    elements("static", Method::statics, {2, 2, 8}),
+                    modal(4),
+                    modal(12),
+                    modal(12, false)};
+  request.levels.front().mark = "the paper's choice: 81 nodes, 2 ms";
   return request;
 }
 
@@ -61,20 +61,20 @@ const Frontier& tiny() {
   return made;
 }
 
-const FrontierRow& row(const std::string& method, const std::string& cells, std::uint32_t vectors = 0) {
+const FrontierRow& row(const std::string& method, const std::string& cells, std::uint32_t modes = 0) {
   for (const FrontierRow& r : tiny().rows) {
-    if (r.method == method && r.cells == cells && r.vectors == vectors) return r;
+    if (r.method == method && r.cells == cells && r.modes == modes) return r;
   }
   throw std::runtime_error("no row " + method + " " + cells);
 }
 
 TEST(Frontier, ErrorsFallWithTheMeshAndTheVectors) {
-  EXPECT_LT(row("ecd", "4x4x16").error, row("ecd", "2x2x8").error);
-  EXPECT_LT(row("reduced", "4x4x16", 12).error, row("reduced", "4x4x16", 4).error);
-  EXPECT_LT(row("reduced", "4x4x16", 12).error, row("ecd", "2x2x8").error);
+  EXPECT_LT(row("explicit-central", "4x4x16").error, row("explicit-central", "2x2x8").error);
+  EXPECT_LT(row("modal", "4x4x16", 12).error, row("modal", "4x4x16", 4).error);
+  EXPECT_LT(row("modal", "4x4x16", 12).error, row("explicit-central", "2x2x8").error);
   // walks excite waves, which static answers have not
-  EXPECT_GT(row("static", "2x2x8").error, 2 * row("ecd", "2x2x8").error);
-  EXPECT_GT(row("reduced-static", "4x4x16", 12).error, 2 * row("reduced", "4x4x16", 12).error);
+  EXPECT_GT(row("static", "2x2x8").error, 2 * row("explicit-central", "2x2x8").error);
+  EXPECT_GT(row("modal-static", "4x4x16", 12).error, 2 * row("modal", "4x4x16", 12).error);
   for (const FrontierRow& r : tiny().rows) {
     EXPECT_TRUE(r.error > 0 && r.error < 1) << r.method;
     EXPECT_TRUE(r.error_max_m > 0 && r.error_max_m < 0.1) << r.method;
@@ -86,13 +86,13 @@ TEST(Frontier, ErrorsFallWithTheMeshAndTheVectors) {
 }
 
 TEST(Frontier, WhatCannotBeSteppedIsLeftOutWithAReason) {
-  EXPECT_EQ(tiny().rows.size(), tiny_request().rungs.size() - 1);
+  EXPECT_EQ(tiny().rows.size(), tiny_request().levels.size() - 1);
   ASSERT_EQ(tiny().notes.size(), 1U);
   EXPECT_NE(tiny().notes[0].find("10 ms"), std::string::npos) << tiny().notes[0];
   EXPECT_NE(tiny().notes[0].find("critical step"), std::string::npos) << tiny().notes[0];
 }
 
-TEST(Frontier, RatiosAreToTheFirstRungAndStepsAreAsAsked) {
+TEST(Frontier, RatiosAreToTheFirstLevelAndStepsAreAsAsked) {
   const FrontierRow& paper = tiny().rows.front();
   EXPECT_EQ(paper.ratio, 1);
   EXPECT_DOUBLE_EQ(paper.dt_s, 0.002);
@@ -101,7 +101,7 @@ TEST(Frontier, RatiosAreToTheFirstRungAndStepsAreAsAsked) {
     EXPECT_NEAR(r.ratio * r.cost_us, paper.cost_us, 1e-9 * paper.cost_us);
     EXPECT_NEAR(r.points_ratio * r.points_us, paper.cost_us, 1e-9 * paper.cost_us);
   }
-  EXPECT_DOUBLE_EQ(row("caa", "2x2x8").dt_s, frontier_tick_s);
+  EXPECT_DOUBLE_EQ(row("newmark", "2x2x8").dt_s, frontier_tick_s);
 }
 
 /// Mark of each row by asking of every other whether it is better.
@@ -148,7 +148,7 @@ TEST(Frontier, CsvHasThePromisedColumnsFirst) {
     EXPECT_EQ(csv.text(i, "method"), r.method);
     EXPECT_NEAR(csv.number(i, "error_rel"), r.error, 1e-5 * r.error);
     EXPECT_EQ(csv.number(i, "on_frontier"), r.on_frontier ? 1 : 0);
-    EXPECT_EQ(csv.number(i, "basis"), r.vectors);
+    EXPECT_EQ(csv.number(i, "basis"), r.modes);
     EXPECT_EQ(csv.text(i, "loads"), "line");
   }
 }

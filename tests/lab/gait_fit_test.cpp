@@ -93,7 +93,7 @@ TEST(StepTable, AStepIsMadeAgainFromItsNeighbours) {
   for (std::size_t i = 3; i < gait_quantity_count; ++i) EXPECT_NEAR(a.correlation[i], b.correlation[i], 0.01);
 }
 
-double most_lacking_m(const StepNode& node, const StepShape& shape) {
+double max_lacking_m(const StepNode& node, const StepShape& shape) {
   StepCycle cycle;
   evaluate_step(node.task, shape, cycle);
   double most = 0;
@@ -101,7 +101,7 @@ double most_lacking_m(const StepNode& node, const StepShape& shape) {
   return most;
 }
 
-/// One step of another manner each, by as much as people differ: what was asked for changes, balance does not.
+/// One step of another posture each, by as much as people differ: what was asked for changes, balance does not.
 TEST(StepStyles, ChangeWhatTheyAreCalledByAndKeepBalance) {
   constexpr std::array<double, style_effects.size()> by = {3, 5, 5, -4, 0.01, 8, 4, 0.01, 0.008, 0.05, -0.3, 0.1, 4, 1};
   for (std::size_t s = 0; s < speed_count; ++s) {
@@ -113,8 +113,7 @@ TEST(StepStyles, ChangeWhatTheyAreCalledByAndKeepBalance) {
       for (std::size_t i = 0; i < shape.size(); ++i) shape[i] += by[e] * unit[i];
       const double changed = style_values(n.task, n.shape, shape)[e] - before[e];
       EXPECT_NEAR(changed / by[e], 1, 0.35) << speed[s] << ' ' << style_effects[e].what;
-      EXPECT_LT(most_lacking_m(n, shape), most_lacking_m(n, n.shape) + 0.04)
-          << speed[s] << ' ' << style_effects[e].what;
+      EXPECT_LT(max_lacking_m(n, shape), max_lacking_m(n, n.shape) + 0.04) << speed[s] << ' ' << style_effects[e].what;
     }
   }
 }

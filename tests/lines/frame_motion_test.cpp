@@ -195,7 +195,7 @@ TEST(FrameMotion, TheMirrorImageFeelsTheMirrorImage) {
 // ------------------------------------------------------------------------------------------------- a belly in it
 
 MuscleTemplate belly(double foundation_hz, double damping_per_s) {
-  const std::vector<CageStation> stations = {
+  const std::vector<LatticeStation> stations = {
       {0, 0, 0, 0.03F, 0.025F}, {0.5F, 0.006F, -0.004F, 0.04F, 0.035F}, {1, 0, 0, 0.02F, 0.02F}};
   MuscleOptions options;
   options.damping_per_s = damping_per_s;

@@ -60,8 +60,8 @@ struct Random {
   }
   /// All that joints can do, in any combination (assets/body/joint_limits.h), and the knee a little overstretched.
   LegAngles angles() { return {between(-30, 120), between(-5, 144), between(-50, 30)}; }
-  Quat<double> turn(double most_deg) {
-    return about({between(-1, 1), between(-1, 1), between(-1, 1)}, between(-most_deg, most_deg));
+  Quat<double> turn(double max_deg) {
+    return about({between(-1, 1), between(-1, 1), between(-1, 1)}, between(-max_deg, max_deg));
   }
   Vec place(double far) { return {between(-far, far), between(0, 2), between(-far, far)}; }
   /// A leg whose pelvis and foot also turn out of the sagittal plane.

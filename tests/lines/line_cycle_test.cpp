@@ -114,7 +114,7 @@ TEST(LineCycle, OnEveryPublishedWalkEveryMuscleIsAsLong) {
 struct Walker {
   BodyRequest body;
   std::string speed;
-  Entity human{};
+  Entity person{};
   int strides = -3;
   double phase = 0, total = 0;  // of the last tick
   std::array<double, 5> now{};
@@ -123,7 +123,7 @@ struct Walker {
   bool done() const { return cycle.size() == 51; }
 
   void follow(const Simulation& simulation) {
-    const double here = static_cast<double>(simulation.get<Feet>(human)->phase[Side::right]);
+    const double here = static_cast<double>(simulation.get<Feet>(person)->phase[Side::right]);
     if (here < phase - 0.5) ++strides;
     const double before = total;
     const std::array<double, 5> last = now;
@@ -132,7 +132,7 @@ struct Walker {
     for (std::size_t c = 0; c < now.size(); ++c) {
       now[c] = 0;
       for (const auto name : group_curves[c].members) {
-        const auto line = *simulation.get<LineOfAction>(simulation.muscle(human, *find_muscle(name), Side::right));
+        const auto line = *simulation.get<LineOfAction>(simulation.muscle(person, *find_muscle(name), Side::right));
         now[c] += static_cast<double>(line.length_m / line.rest_length_m);
       }
       now[c] /= static_cast<double>(group_curves[c].members.size());
@@ -169,7 +169,7 @@ TEST(LineCycle, OurWalkLengthensMusclesAsMeasuredOnesDo) {
     for (const auto& [speed, dimensionless] : speeds) {
       const auto speed_m_s = static_cast<float>(dimensionless * std::sqrt(9.81 * leg_m));
       walkers.push_back({request, speed, simulation.spawn(request, {.speed_m_s = speed_m_s}).value()});
-      ASSERT_TRUE(simulation.set_muscles(walkers.back().human, only(members)));
+      ASSERT_TRUE(simulation.set_muscles(walkers.back().person, only(members)));
     }
   }
   while (simulation.time_s() < 20 && !std::ranges::all_of(walkers, &Walker::done)) {

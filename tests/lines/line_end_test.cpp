@@ -20,11 +20,11 @@ struct EndError {
 };
 
 /// Of one person's muscles over a second of walking, by muscle: how far the mesh's end is from the line's.
-std::vector<EndError> end_errors(const Person& who, const LegMuscles& choice) {
+std::vector<EndError> end_errors(const SamplePerson& who, const LegMuscles& choice) {
   Simulation simulation(sharing());
-  const Entity human = simulation.spawn(who.body, who.gait).value();
-  EXPECT_TRUE(simulation.set_muscles(human, choice));
-  const std::vector<OwnMuscle> muscles = simulation.muscles(human);
+  const Entity person = simulation.spawn(who.body, who.gait).value();
+  EXPECT_TRUE(simulation.set_muscles(person, choice));
+  const std::vector<MuscleRef> muscles = simulation.muscles(person);
   std::vector<EndError> errors(muscles.size());
   for (int tick = 0; tick < 60; ++tick) {
     simulation.tick();
@@ -48,11 +48,11 @@ class LineEnd : public testing::TestWithParam<int> {};
 
 // Drawn by displacement the end is the line's, whatever the method.
 TEST_P(LineEnd, FollowsTheLineExactlyWhereItIsDriven) {
-  for (const Method method : {Method::ecd, Method::statics}) {
+  for (const Method method : {Method::explicit_central, Method::statics}) {
     LegMuscles choice;
     choice.muscles = muscle_groups() | muscle_members();
     choice.method = method;
-    for (const EndError& e : end_errors(person(GetParam()), choice)) {
+    for (const EndError& e : end_errors(sample_person(GetParam()), choice)) {
       EXPECT_GT(e.largest_change_m, 1e-3);
       EXPECT_LT(e.worst_m, rounding_m);
     }
@@ -65,7 +65,7 @@ TEST_P(LineEnd, IsWithinThreeThousandthsOfTheLengtheningUnderThePapersForce) {
   choice.muscles = muscle_groups() | muscle_members();
   choice.drive = Drive::force;
   choice.method = Method::statics;
-  for (const EndError& e : end_errors(person(GetParam()), choice)) {
+  for (const EndError& e : end_errors(sample_person(GetParam()), choice)) {
     EXPECT_GT(e.largest_change_m, 1e-3);
     EXPECT_LT(e.worst_part, 0.003);
   }

@@ -203,17 +203,17 @@ TEST(LineOfAction, GatheringFromABlockAndFromARowIsTheSame) {
   for (auto& word : words) {
     for (auto& value : word.lane) value = static_cast<float>(random.between(-1, 1));
   }
-  for (std::size_t human = 0; human < lane_count; ++human) {
+  for (std::size_t person = 0; person < lane_count; ++person) {
     Pose<float> row{};
     for (std::size_t s = 0; s < segment_count; ++s) {
-      row.position_m[s] = {words[3 * s][human], words[3 * s + 1][human], words[3 * s + 2][human]};
+      row.position_m[s] = {words[3 * s][person], words[3 * s + 1][person], words[3 * s + 2][person]};
       const std::size_t q = 3 * segment_count + 4 * s;
-      row.rotation[s] = {words[q][human], words[q + 1][human], words[q + 2][human], words[q + 3][human]};
+      row.rotation[s] = {words[q][person], words[q + 1][person], words[q + 2][person], words[q + 3][person]};
     }
     for (const Side side : {Side::right, Side::left}) {
       LegFrames<Lanes<float>> from_row{}, from_block{};
       gather_leg(row, side, from_row, 5);
-      gather_leg(&words[0].lane[human], side, from_block, 5);
+      gather_leg(&words[0].lane[person], side, from_block, 5);
       EXPECT_EQ(std::memcmp(&from_row, &from_block, sizeof from_row), 0);
       const float mirror = side == Side::left ? -1.0F : 1.0F;
       EXPECT_EQ(from_row.knee_m.x[5], mirror * row.position_m[index(on_side(Segment::shank_right, side))].x);

@@ -42,24 +42,24 @@ struct Queue {
   }
 };
 
-/// Two people with one muscle, at tolerances of their own; small meshes are what the coarse rungs are of.
+/// Two people with one muscle, at tolerances of their own; small meshes are what the coarse levels are of.
 struct Scene {
   Simulation simulation;
-  Lod relevance;
+  Lod lod;
   std::vector<Entity> people;
 
   explicit Scene(const Background& background)
-      : relevance(lod_of(simulation,
-                         {.stagger = 1, .machine_factor = 1, .background = background, .making_ticks = making_ticks})) {
-    SceneNeeds needs{.tolerance_m = 0.006F};
+      : lod(lod_of(simulation,
+                   {.stagger = 1, .machine_factor = 1, .background = background, .making_ticks = making_ticks})) {
+    LodScene needs{.tolerance_m = 0.006F};
     needs.muscles = MuscleSet(1);
-    EXPECT_TRUE(relevance.set_scene(needs));
+    EXPECT_TRUE(lod.set_scene(needs));
     for (int i = 0; i < 2; ++i) {
-      people.push_back(*simulation.spawn(person(i).body));
-      EXPECT_TRUE(relevance.manage(people.back()));
+      people.push_back(*simulation.spawn(sample_person(i).body));
+      EXPECT_TRUE(lod.manage(people.back()));
     }
   }
-  std::size_t rung(std::size_t i) const { return relevance.why(people[i], Muscle::hamstrings)->rung; }
+  std::size_t level(std::size_t i) const { return lod.why(people[i], Muscle::hamstrings)->level; }
 };
 
 /// The state after each tick, where the queue is worked off as `when` says.
@@ -72,7 +72,7 @@ std::vector<std::uint64_t> hashes(Queue& queue, const std::function<bool(int tic
     all.push_back(scene.simulation.state_hash());
   }
   queue.run();
-  EXPECT_GT(scene.rung(0), 0U) << "nothing was taken up in the end";
+  EXPECT_GT(scene.level(0), 0U) << "nothing was taken up in the end";
   return all;
 }
 
@@ -92,20 +92,20 @@ TEST(BasisOrders, UntilThenTheCoarserOneServesAndNothingIsMade) {
   Scene scene(queue.background());
   for (std::uint32_t tick = 0; tick < making_ticks; ++tick) {
     scene.simulation.tick();
-    EXPECT_EQ(scene.rung(0), 0U);
-    EXPECT_EQ(scene.relevance.why(scene.people[0], Muscle::hamstrings)->reason, Reason::switch_pending);
+    EXPECT_EQ(scene.level(0), 0U);
+    EXPECT_EQ(scene.lod.why(scene.people[0], Muscle::hamstrings)->reason, Reason::switch_pending);
   }
   scene.simulation.tick();
-  EXPECT_GT(scene.rung(0), 0U);
+  EXPECT_GT(scene.level(0), 0U);
   queue.run();
 }
 
 TEST(BasisOrders, WhatWasPreparedDoesNotWait) {
   Queue queue;
   Scene scene(queue.background());
-  ASSERT_TRUE(scene.relevance.prepare());
+  ASSERT_TRUE(scene.lod.prepare());
   scene.simulation.tick();
-  EXPECT_GT(scene.rung(0), 0U);
+  EXPECT_GT(scene.level(0), 0U);
   EXPECT_EQ(queue.asked, 0U);
 }
 
@@ -121,7 +121,7 @@ TEST(BasisOrders, GoOnInAnotherProgram) {
     for (Scene* const one : {&scene, &other}) one->simulation.tick();
     EXPECT_EQ(other.simulation.state_hash(), scene.simulation.state_hash()) << tick;
   }
-  EXPECT_GT(scene.rung(0), 0U);
+  EXPECT_GT(scene.level(0), 0U);
   queue.run();
 }
 

@@ -22,7 +22,7 @@
 
 MOBIL_TEST_LABELS("long");
 
-namespace mobil::relevance_compact_test {
+namespace mobil::lod_compact_test {
 namespace {
 
 /// People round a camera that turns.
@@ -31,7 +31,7 @@ struct Turning {
     LodOptions options;
     options.machine_factor = 1;
     options.leg_muscles.muscles = muscles;
-    relevance.emplace(lod_of(simulation, options));
+    lod.emplace(lod_of(simulation, options));
     needs.muscles = muscles;
     needs.compact_unseen = compact;
     needs.tolerance_px = 2;
@@ -50,7 +50,7 @@ struct Turning {
     }
     people.resize(count);
     EXPECT_TRUE(simulation.spawn(requests, people));
-    for (const Entity human : people) EXPECT_TRUE(relevance->manage(human));
+    for (const Entity person : people) EXPECT_TRUE(lod->manage(person));
   }
   void look() {
     const float yaw = 0.5F * static_cast<float>(simulation.time_s());
@@ -62,7 +62,7 @@ struct Turning {
     camera.near_m = 12;  // all go on unseen
     camera.reach_m = 12;
     needs.camera = camera;
-    ASSERT_TRUE(relevance->set_scene(needs));
+    ASSERT_TRUE(lod->set_scene(needs));
   }
   LodReport tick() {
     look();
@@ -70,15 +70,15 @@ struct Turning {
       EXPECT_TRUE(simulation.turn_to(people[i], 0.3F * static_cast<float>(i % 9)));
     }
     simulation.tick();
-    const LodReport report = relevance->report();
+    const LodReport report = lod->report();
     EXPECT_EQ(report.refused, 0U) << report.refusal;
     return report;
   }
-  View view(std::size_t i) const { return static_cast<View>(simulation.get<Tiers>(people[i])->view); }
+  View view(std::size_t i) const { return static_cast<View>(simulation.get<LodState>(people[i])->view); }
 
   Simulation simulation;
-  std::optional<Lod> relevance;
-  SceneNeeds needs;
+  std::optional<Lod> lod;
+  LodScene needs;
   std::vector<Entity> people;
 };
 
@@ -119,7 +119,7 @@ TEST(LodCompact, WhoIsUnseenIsCompactAndTheSameAsEver) {
       for (const std::size_t m : {std::size_t{0}, std::size_t{2}}) {
         const auto muscle = static_cast<Muscle>(m);
         MuscleMethod one = compact.simulation.method(a, muscle), two = whole.simulation.method(b, muscle);
-        one.reduced.control_points = two.reduced.control_points;  // some ticks later of who must be whole first
+        one.modal.control_points = two.modal.control_points;  // some ticks later of who must be whole first
         alike[i][m] = same_method(one, two) ? alike[i][m] + 1 : 0;
         if (is_small || alike[i][m] < 120) continue;  // what a change excites has died away
         const auto off = apart(compact.simulation, compact.simulation.muscle(a, muscle, Side::left), whole.simulation,
@@ -143,18 +143,18 @@ TEST(LodCompact, NeedsAndReasonsAreAnsweredOfThem) {
   const auto at =
       std::ranges::find_if(scene.people, [&](Entity e) { return (scene.simulation.state(e) == PersonState::compact); });
   ASSERT_NE(at, scene.people.end());
-  const auto why = scene.relevance->why(*at, Muscle::quadriceps);
+  const auto why = scene.lod->why(*at, Muscle::quadriceps);
   ASSERT_TRUE(why);
-  EXPECT_EQ(why->method.method, Method::reduced);
+  EXPECT_EQ(why->method.method, Method::modal);
   EXPECT_EQ(why->reason, Reason::tolerance) << why->text;
-  ASSERT_TRUE(scene.relevance->manage(*at, {.looked_at = true}));
+  ASSERT_TRUE(scene.lod->manage(*at, {.looked_at = true}));
   for (int t = 0; t < 12; ++t) scene.tick();
   EXPECT_NE(scene.simulation.state(*at), PersonState::compact);
   EXPECT_NE(
       nodal_displacement(scene.simulation.world(), scene.simulation.muscle(*at, Muscle::quadriceps, Side::left)).first,
       nullptr);
-  ASSERT_TRUE(scene.relevance->manage(*at));
-  ASSERT_TRUE(scene.relevance->force(*at, Muscle::quadriceps, {Method::none, {}}));
+  ASSERT_TRUE(scene.lod->manage(*at));
+  ASSERT_TRUE(scene.lod->force(*at, Muscle::quadriceps, {Method::none, {}}));
   scene.needs.compact_unseen = false;
   for (int t = 0; t < 12; ++t) scene.tick();
   EXPECT_TRUE(std::ranges::none_of(scene.people,
@@ -162,4 +162,4 @@ TEST(LodCompact, NeedsAndReasonsAreAnsweredOfThem) {
 }
 
 }  // namespace
-}  // namespace mobil::relevance_compact_test
+}  // namespace mobil::lod_compact_test

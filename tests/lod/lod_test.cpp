@@ -26,24 +26,24 @@
 
 MOBIL_TEST_LABELS("threads");
 
-namespace mobil::relevance_test {
-/// Reduced bellies of one body alone need a basis a muscle; all are quick to make.
-Person one_body(int i) {
-  Person p;
+namespace mobil::lod_test {
+/// Modal bellies of one body alone need a basis a muscle; all are quick to make.
+SamplePerson one_body(int i) {
+  SamplePerson p;
   p.body.height_m = 1.8F;
   p.body.mass_kg = 80;
   p.gait.speed_m_s = 1.0F + 0.05F * static_cast<float>(i % 12);
   return p;
 }
 
-constexpr std::size_t fine_rung = 9;
-static_assert(rungs[fine_rung].cells == Cells{8, 8, 32});
+constexpr std::size_t fine_level = 9;
+static_assert(levels[fine_level].cells == Cells{8, 8, 32});
 
 /// The library's table, but for the fine mesh, which it finds no good: bases of that take a second each to make.
 const AccuracyTable& quick_table() {
   static const std::vector<AccuracyRow> rows = [] {
     std::vector<AccuracyRow> all(accuracy_table().rows.begin(), accuracy_table().rows.end());
-    for (AccuracyRow& row : all) row.error_m[fine_rung] = 1;
+    for (AccuracyRow& row : all) row.error_m[fine_level] = 1;
     return all;
   }();
   static const AccuracyTable table{rows, accuracy_table().cost};
@@ -58,29 +58,29 @@ LodOptions quick(LodOptions options) {
 /// People with two muscles, or as many of the first groups as asked: what a muscle costs to make a test waits for.
 struct Scene {
   Simulation simulation;
-  Lod relevance;
+  Lod lod;
   std::vector<Entity> people;
   std::size_t muscle_count = 2;
 
-  explicit Scene(int humans, const LodOptions& options = {.stagger = 1, .machine_factor = 1}, int threads = 1)
-      : simulation({.threads = threads}), relevance(lod_of(simulation, quick(options))) {
-    for (int i = 0; i < humans; ++i) add(i);
+  explicit Scene(int count, const LodOptions& options = {.stagger = 1, .machine_factor = 1}, int threads = 1)
+      : simulation({.threads = threads}), lod(lod_of(simulation, quick(options))) {
+    for (int i = 0; i < count; ++i) add(i);
   }
   void add(int i) {
-    const Entity human = join(simulation, one_body(i), false);
-    auto state = *simulation.get<GaitState>(human);
+    const Entity person = join(simulation, one_body(i), false);
+    auto state = *simulation.get<GaitState>(person);
     state.line_x_m = state.anchor_x_m = 3.0F * static_cast<float>(i % 8);
     state.line_z_m = state.anchor_z_m = 3.0F * static_cast<float>(i / 8);
-    world_of(simulation).set(human, state);
-    people.push_back(human);
+    world_of(simulation).set(person, state);
+    people.push_back(person);
   }
-  Result<void> ask(SceneNeeds needs) {
+  Result<void> ask(LodScene needs) {
     needs.muscles = MuscleSet((1U << muscle_count) - 1);
-    return relevance.set_scene(needs);
+    return lod.set_scene(needs);
   }
-  void manage_all(const PersonNeeds& needs = {}) {
-    for (const Entity human : people) {
-      const auto done = relevance.manage(human, needs);
+  void manage_all(const LodOverrides& needs = {}) {
+    for (const Entity person : people) {
+      const auto done = lod.manage(person, needs);
       ASSERT_TRUE(done) << done.error().message;
     }
   }
@@ -88,18 +88,18 @@ struct Scene {
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       simulation.tick();
-      last = relevance.report();
+      last = lod.report();
     }
   }
   template <class F>
   void each(F what) const {
-    for (const Entity human : people) {
-      for (std::size_t m = 0; m < muscle_count; ++m) what(human, static_cast<Muscle>(m));
+    for (const Entity person : people) {
+      for (std::size_t m = 0; m < muscle_count; ++m) what(person, static_cast<Muscle>(m));
     }
   }
-  std::vector<std::size_t> rungs_of() const {
+  std::vector<std::size_t> levels_of() const {
     std::vector<std::size_t> all;
-    each([&](Entity human, Muscle muscle) { all.push_back(relevance.why(human, muscle)->rung); });
+    each([&](Entity person, Muscle muscle) { all.push_back(lod.why(person, muscle)->level); });
     return all;
   }
 };
@@ -120,27 +120,27 @@ TEST(Lod, EveryMuscleKeepsToItsToleranceAndNoCheaperMethodWould) {
   scene.manage_all();
   const auto tolerance_of = [&](std::size_t i) { return tolerances_m[i / 6]; };
   for (std::size_t i = 6; i < scene.people.size(); ++i) {
-    ASSERT_TRUE(scene.relevance.manage(scene.people[i], {.tolerance_m = tolerance_of(i)}));
+    ASSERT_TRUE(scene.lod.manage(scene.people[i], {.tolerance_m = tolerance_of(i)}));
   }
   scene.simulation.tick();
-  const auto report = scene.relevance.report();
+  const auto report = scene.lod.report();
   EXPECT_EQ(report.refused, 0U) << report.refusal;
-  const RungLadder ladder(quick_table());
+  const LodTable lod_table(quick_table());
   for (std::size_t i = 0; i < scene.people.size(); ++i) {
-    const Entity human = scene.people[i];
+    const Entity person = scene.people[i];
     const float tolerance_m = tolerance_of(i);
     for (std::uint32_t m = 0; m < muscle_group_count; ++m) {
       const auto muscle = static_cast<Muscle>(m);
-      const auto choice = *scene.relevance.why(human, muscle);
-      const auto tiers = *scene.simulation.get<Tiers>(human);
-      const RungCase of{m, tiers.speed_step, false, true};
-      EXPECT_EQ(choice.rung, ladder.cheapest(of, tolerance_m / tiers.relative_size));
+      const auto choice = *scene.lod.why(person, muscle);
+      const auto lod_state = *scene.simulation.get<LodState>(person);
+      const LevelCase of{m, lod_state.speed_step, false, true};
+      EXPECT_EQ(choice.level, lod_table.cheapest(of, tolerance_m / lod_state.relative_size));
       if (choice.reason == Reason::tolerance) {
         EXPECT_LE(choice.predicted_error_m, tolerance_m);
       } else {
         EXPECT_EQ(choice.reason, Reason::best) << choice.text;
       }
-      EXPECT_EQ(scene.simulation.method(human, muscle).method, rungs[choice.rung].method);
+      EXPECT_EQ(scene.simulation.method(person, muscle).method, levels[choice.level].method);
       EXPECT_FALSE(choice.text.empty());
     }
   }
@@ -158,10 +158,10 @@ TEST(Lod, PreparedNoUpdateMakesWhatMethodsShare) {
     std::size_t meshes = 0;
     const auto count = [&](std::size_t done, std::size_t of) { meshes += done < of ? 1 : 0; };
     if (prepared) {
-      ASSERT_TRUE(scene.relevance.prepare({}, count));
+      ASSERT_TRUE(scene.lod.prepare({}, count));
     }
     EXPECT_EQ(meshes > 4, prepared);
-    EXPECT_LT(meshes, rung_count - 1) << "what is never the cheapest is not made";
+    EXPECT_LT(meshes, level_count - 1) << "what is never the cheapest is not made";
     scene.manage_all();
     for (int t = 0; t < 40; ++t) {
       camera.position_m.z = -400 + 10.0F * static_cast<float>(t);  // out of reach, then among them
@@ -178,7 +178,7 @@ TEST(Lod, PreparedNoUpdateMakesWhatMethodsShare) {
 TEST(Lod, PreparingRefusesWhatIsNoTolerance) {
   Scene scene(1);
   for (const float bad : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
-    EXPECT_TRUE(is_refused(scene.relevance.prepare({&bad, 1}), "tolerance"));
+    EXPECT_TRUE(is_refused(scene.lod.prepare({&bad, 1}), "tolerance"));
   }
 }
 
@@ -189,12 +189,12 @@ TEST(Lod, NobodyManagedIsNobodyTouched) {
       ASSERT_TRUE(simulation->set_muscles(join(*simulation, one_body(i), false), {.muscles = MuscleSet(3)}));
     }
   }
-  Lod relevance = watched.lod();
-  ASSERT_TRUE(relevance.set_scene({.camera = Viewpoint{}, .budget_s = 1e-6}));
+  Lod lod = watched.lod();
+  ASSERT_TRUE(lod.set_scene({.camera = Viewpoint{}, .budget_s = 1e-6}));
   for (int t = 0; t < 20; ++t) {
     plain.tick();
     watched.tick();
-    const auto report = relevance.report();
+    const auto report = lod.report();
     EXPECT_EQ(report.evaluated + report.switched + report.waiting, 0U);
   }
   EXPECT_EQ(hash_world(plain), hash_world(watched));
@@ -216,10 +216,10 @@ TEST(Lod, OutOfSightAndReachNothingDeformsAndPeopleWalkOn) {
   const float before = scene.simulation.get<Pose>(scene.people[0])->position_m[0].z;
   scene.run(30);
   EXPECT_GT(scene.simulation.get<Pose>(scene.people[0])->position_m[0].z, before + 0.2F);
-  scene.each([&](Entity human, Muscle muscle) {
-    EXPECT_EQ(scene.simulation.method(human, muscle).method, Method::none);
-    EXPECT_EQ(scene.relevance.why(human, muscle)->reason, Reason::out_of_reach);
-    EXPECT_EQ(nodal_displacement(scene.simulation.world(), scene.simulation.muscle(human, muscle, Side::right)).first,
+  scene.each([&](Entity person, Muscle muscle) {
+    EXPECT_EQ(scene.simulation.method(person, muscle).method, Method::none);
+    EXPECT_EQ(scene.lod.why(person, muscle)->reason, Reason::out_of_reach);
+    EXPECT_EQ(nodal_displacement(scene.simulation.world(), scene.simulation.muscle(person, muscle, Side::right)).first,
               nullptr);
   });
 }
@@ -235,9 +235,9 @@ TEST(Lod, WhoIsFartherFromTheCameraHasNoDearerMethod) {
   scene.each([&](Entity a, Muscle muscle) {
     scene.each([&](Entity b, Muscle other) {
       if (muscle != other) return;
-      const auto of_a = *scene.relevance.why(a, muscle), of_b = *scene.relevance.why(b, muscle);
+      const auto of_a = *scene.lod.why(a, muscle), of_b = *scene.lod.why(b, muscle);
       if (of_a.reason != Reason::tolerance || of_b.reason != Reason::tolerance) return;
-      const bool alike = scene.simulation.get<Tiers>(a)->speed_step == scene.simulation.get<Tiers>(b)->speed_step;
+      const bool alike = scene.simulation.get<LodState>(a)->speed_step == scene.simulation.get<LodState>(b)->speed_step;
       if (alike && of_a.tolerance_m > of_b.tolerance_m) {
         EXPECT_LE(of_a.predicted_cost_us, of_b.predicted_cost_us);
       }
@@ -249,7 +249,7 @@ TEST(Lod, ControlPointsArePlacedForThoseLookedAtAlone) {
   Scene scene(8);
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F, .looked_at = false}));
   scene.manage_all();
-  ASSERT_TRUE(scene.relevance.manage(scene.people[3], {.looked_at = true}));
+  ASSERT_TRUE(scene.lod.manage(scene.people[3], {.looked_at = true}));
   scene.run(60);
   for (std::size_t i = 0; i < scene.people.size(); ++i) {
     const Entity muscle = scene.simulation.muscle(scene.people[i], Muscle::hamstrings, Side::left);
@@ -263,13 +263,13 @@ TEST(Lod, WhatOnePersonNeedsHoldsBeforeWhatTheSceneNeeds) {
   scene.manage_all();
   MuscleSet one;
   one.set(static_cast<std::size_t>(Muscle::quadriceps));
-  ASSERT_TRUE(scene.relevance.manage(scene.people[1], {.muscles = one, .tolerance_m = 0.001F}));
+  ASSERT_TRUE(scene.lod.manage(scene.people[1], {.muscles = one, .tolerance_m = 0.001F}));
   scene.simulation.tick();
-  EXPECT_EQ(scene.relevance.why(scene.people[1], Muscle::hamstrings)->reason, Reason::not_wanted);
+  EXPECT_EQ(scene.lod.why(scene.people[1], Muscle::hamstrings)->reason, Reason::not_wanted);
   EXPECT_EQ(scene.simulation.method(scene.people[1], Muscle::hamstrings).method, Method::none);
-  EXPECT_EQ(scene.relevance.why(scene.people[1], Muscle::quadriceps)->tolerance_m, 0.001F);
-  EXPECT_GT(scene.relevance.why(scene.people[1], Muscle::quadriceps)->predicted_cost_us,
-            scene.relevance.why(scene.people[0], Muscle::quadriceps)->predicted_cost_us);
+  EXPECT_EQ(scene.lod.why(scene.people[1], Muscle::quadriceps)->tolerance_m, 0.001F);
+  EXPECT_GT(scene.lod.why(scene.people[1], Muscle::quadriceps)->predicted_cost_us,
+            scene.lod.why(scene.people[0], Muscle::quadriceps)->predicted_cost_us);
 }
 
 TEST(Lod, TheSameWhateverTheThreads) {
@@ -294,7 +294,7 @@ TEST(Lod, TheSameWhateverTheThreads) {
 }
 
 TEST(Lod, TheSameInWhateverOrderPeopleCame) {
-  constexpr int humans = 24;
+  constexpr int people = 24;
   const auto choices = [](const std::vector<int>& order) {
     Scene scene(0);
     for (const int i : order) scene.add(i);
@@ -303,8 +303,8 @@ TEST(Lod, TheSameInWhateverOrderPeopleCame) {
     EXPECT_TRUE(scene.ask({.camera = camera, .tolerance_px = 0.5F}));
     scene.manage_all();
     scene.run(3);
-    std::vector<std::size_t> by_person(humans * scene.muscle_count);
-    const auto all = scene.rungs_of();
+    std::vector<std::size_t> by_person(people * scene.muscle_count);
+    const auto all = scene.levels_of();
     for (std::size_t at = 0; at < order.size(); ++at) {
       for (std::size_t m = 0; m < scene.muscle_count; ++m) {
         by_person[static_cast<std::size_t>(order[at]) * scene.muscle_count + m] = all[at * scene.muscle_count + m];
@@ -312,7 +312,7 @@ TEST(Lod, TheSameInWhateverOrderPeopleCame) {
     }
     return by_person;
   };
-  std::vector<int> order(humans);
+  std::vector<int> order(people);
   std::iota(order.begin(), order.end(), 0);
   const auto in_order = choices(order);
   EXPECT_GT(std::ranges::max(in_order), std::ranges::min(in_order));
@@ -327,20 +327,21 @@ TEST(Lod, NoMoreMethodsChangeAtOnceThanAllowedAndThoseThatMissMostComeFirst) {
   std::size_t waiting = scene.people.size() * scene.muscle_count;
   while (waiting > 0) {
     scene.simulation.tick();
-    const auto report = scene.relevance.report();
+    const auto report = scene.lod.report();
     ASSERT_EQ(report.switched, std::min<std::size_t>(7, waiting));
     waiting -= report.switched;
     EXPECT_EQ(report.waiting, waiting);
-    float least_done = INFINITY, most_left = 0;
-    const RungLadder ladder(quick_table());
-    scene.each([&](Entity human, Muscle muscle) {
-      const auto choice = *scene.relevance.why(human, muscle);
-      const auto tiers = *scene.simulation.get<Tiers>(human);
-      const float unmoved = ladder.error_m({static_cast<std::uint32_t>(muscle), tiers.speed_step, false, true}, 0);
-      (choice.reason == Reason::switch_pending ? most_left = std::max(most_left, unmoved)
-                                               : least_done = std::min(least_done, unmoved));
+    float min_done = INFINITY, max_left = 0;
+    const LodTable lod_table(quick_table());
+    scene.each([&](Entity person, Muscle muscle) {
+      const auto choice = *scene.lod.why(person, muscle);
+      const auto lod_state = *scene.simulation.get<LodState>(person);
+      const float unmoved =
+          lod_table.error_m({static_cast<std::uint32_t>(muscle), lod_state.speed_step, false, true}, 0);
+      (choice.reason == Reason::switch_pending ? max_left = std::max(max_left, unmoved)
+                                               : min_done = std::min(min_done, unmoved));
     });
-    EXPECT_GE(least_done, most_left);
+    EXPECT_GE(min_done, max_left);
   }
 }
 
@@ -349,15 +350,15 @@ TEST(Lod, WhatIsForcedStaysAndWhatIsUnforcedIsChosenAgain) {
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.005F}));
   scene.manage_all();
   scene.run(1);
-  const Entity human = scene.people[0];
-  const std::size_t chosen = scene.relevance.why(human, Muscle::hamstrings)->rung;
-  ASSERT_TRUE(scene.relevance.force(human, Muscle::hamstrings, rung_method(10, true)));
+  const Entity person = scene.people[0];
+  const std::size_t chosen = scene.lod.why(person, Muscle::hamstrings)->level;
+  ASSERT_TRUE(scene.lod.force(person, Muscle::hamstrings, level_method(10, true)));
   scene.run(3);
-  EXPECT_EQ(scene.simulation.method(human, Muscle::hamstrings).method, Method::ecd);
-  EXPECT_EQ(scene.relevance.why(human, Muscle::hamstrings)->reason, Reason::forced);
-  ASSERT_EQ(scene.relevance.unforce(human, Muscle::hamstrings), Status::ok);
+  EXPECT_EQ(scene.simulation.method(person, Muscle::hamstrings).method, Method::explicit_central);
+  EXPECT_EQ(scene.lod.why(person, Muscle::hamstrings)->reason, Reason::forced);
+  ASSERT_EQ(scene.lod.unforce(person, Muscle::hamstrings), Status::ok);
   scene.run(1);
-  EXPECT_EQ(scene.relevance.why(human, Muscle::hamstrings)->rung, chosen);
+  EXPECT_EQ(scene.lod.why(person, Muscle::hamstrings)->level, chosen);
 }
 
 TEST(Lod, WhatWasForcedOfAMuscleThatIsGoneIsForgotten) {
@@ -365,15 +366,15 @@ TEST(Lod, WhatWasForcedOfAMuscleThatIsGoneIsForgotten) {
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.005F}));
   scene.manage_all();
   scene.run(1);
-  const Entity human = scene.people[0];
-  ASSERT_TRUE(scene.relevance.force(human, Muscle::hamstrings, rung_method(10, true)));
+  const Entity person = scene.people[0];
+  ASSERT_TRUE(scene.lod.force(person, Muscle::hamstrings, level_method(10, true)));
   LegMuscles choice;
   for (const bool there : {false, true}) {
     choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings), there);
-    ASSERT_TRUE(scene.simulation.set_muscles(human, choice));
+    ASSERT_TRUE(scene.simulation.set_muscles(person, choice));
     scene.run(1);
   }
-  EXPECT_NE(scene.relevance.why(human, Muscle::hamstrings)->reason, Reason::forced);
+  EXPECT_NE(scene.lod.why(person, Muscle::hamstrings)->reason, Reason::forced);
 }
 
 TEST(Lod, WhoIsReleasedKeepsTheirMusclesAndIsNotTouchedAgain) {
@@ -382,13 +383,13 @@ TEST(Lod, WhoIsReleasedKeepsTheirMusclesAndIsNotTouchedAgain) {
   scene.manage_all();
   scene.run(1);
   const auto method = scene.simulation.method(scene.people[0], Muscle::quadriceps);
-  ASSERT_EQ(scene.relevance.release(scene.people[0]), Status::ok);
-  EXPECT_EQ(scene.relevance.release(scene.people[0]), Status::missing);
+  ASSERT_EQ(scene.lod.release(scene.people[0]), Status::ok);
+  EXPECT_EQ(scene.lod.release(scene.people[0]), Status::missing);
   ASSERT_TRUE(scene.ask({.tolerance_m = 1}));
   scene.run(2);
   EXPECT_EQ(scene.simulation.method(scene.people[0], Muscle::quadriceps).method, method.method);
   EXPECT_EQ(scene.simulation.method(scene.people[1], Muscle::quadriceps).method, Method::none);
-  EXPECT_EQ(scene.relevance.why(scene.people[0], Muscle::quadriceps).error(), Status::missing);
+  EXPECT_EQ(scene.lod.why(scene.people[0], Muscle::quadriceps).error(), Status::missing);
 }
 
 TEST(Lod, PeopleMayGoUnderWay) {
@@ -402,40 +403,39 @@ TEST(Lod, PeopleMayGoUnderWay) {
   }
   scene.run(12);
   double sum_us = 0;
-  scene.each([&](Entity human, Muscle muscle) { sum_us += 2 * scene.relevance.why(human, muscle)->predicted_cost_us; });
+  scene.each([&](Entity person, Muscle muscle) { sum_us += 2 * scene.lod.why(person, muscle)->predicted_cost_us; });
   scene.simulation.tick();
-  EXPECT_NEAR(1e6 * scene.relevance.report().predicted_s, sum_us, 1e-3);
+  EXPECT_NEAR(1e6 * scene.lod.report().predicted_s, sum_us, 1e-3);
 }
 
 TEST(Lod, RefusesWhatIsOutOfRangeInOneLine) {
   Scene scene(1);
-  for (const SceneNeeds& bad :
-       {SceneNeeds{.tolerance_m = 0.0F}, SceneNeeds{.tolerance_m = NAN}, SceneNeeds{.budget_s = -1},
-        SceneNeeds{.tolerance_px = INFINITY}, SceneNeeds{.camera = Viewpoint{.forward = {0, 0, 0}}},
-        SceneNeeds{.camera = Viewpoint{.half_angle_rad = 4}}}) {
-    EXPECT_TRUE(is_refused(scene.relevance.set_scene(bad)));
+  for (const LodScene& bad : {LodScene{.tolerance_m = 0.0F}, LodScene{.tolerance_m = NAN}, LodScene{.budget_s = -1},
+                              LodScene{.tolerance_px = INFINITY}, LodScene{.camera = Viewpoint{.forward = {0, 0, 0}}},
+                              LodScene{.camera = Viewpoint{.half_angle_rad = 4}}}) {
+    EXPECT_TRUE(is_refused(scene.lod.set_scene(bad)));
   }
-  EXPECT_FALSE(scene.relevance.manage(Entity{77, 1}));
-  EXPECT_FALSE(scene.relevance.manage(scene.people[0], {.tolerance_m = -1.0F}));
-  EXPECT_FALSE(scene.relevance.force(scene.people[0], Muscle::hamstrings, {}));
-  EXPECT_EQ(scene.relevance.why(Entity{77, 1}, Muscle::hamstrings).error(), Status::stale_entity);
-  EXPECT_FALSE(scene.relevance.set_options({.slack = 0}));
-  EXPECT_FALSE(scene.relevance.set_options({.stagger = 0}));
+  EXPECT_FALSE(scene.lod.manage(Entity{77, 1}));
+  EXPECT_FALSE(scene.lod.manage(scene.people[0], {.tolerance_m = -1.0F}));
+  EXPECT_FALSE(scene.lod.force(scene.people[0], Muscle::hamstrings, {}));
+  EXPECT_EQ(scene.lod.why(Entity{77, 1}, Muscle::hamstrings).error(), Status::stale_entity);
+  EXPECT_FALSE(scene.lod.set_options({.slack = 0}));
+  EXPECT_FALSE(scene.lod.set_options({.stagger = 0}));
 }
 
 /// The time that methods as they are would take on a machine so much slower than the table's.
 double clock_s(const Scene& scene, double slower) {
   double sum_us = 0;
   const AccuracyTable& table = accuracy_table();
-  scene.each([&](Entity human, Muscle muscle) {
-    const MuscleMethod method = scene.simulation.method(human, muscle);
-    for (std::size_t r = 0; r < rung_count; ++r) {
-      const MuscleMethod of = rung_method(r, method.reduced.control_points);
-      const bool same = of.method == method.method && of.reduced.moving == method.reduced.moving &&
-                        of.reduced.vectors == method.reduced.vectors && of.reduced.cells == method.reduced.cells;
+  scene.each([&](Entity person, Muscle muscle) {
+    const MuscleMethod method = scene.simulation.method(person, muscle);
+    for (std::size_t r = 0; r < level_count; ++r) {
+      const MuscleMethod of = level_method(r, method.modal.control_points);
+      const bool same = of.method == method.method && of.modal.moving == method.modal.moving &&
+                        of.modal.modes == method.modal.modes && of.modal.cells == method.modal.cells;
       if (same) {
         sum_us += 2 * static_cast<double>(table.cost[0].state_us[r] +
-                                          (method.reduced.control_points ? table.cost[0].points_us[r] : 0.0F));
+                                          (method.modal.control_points ? table.cost[0].points_us[r] : 0.0F));
         break;
       }
     }
@@ -446,13 +446,13 @@ double clock_s(const Scene& scene, double slower) {
 TEST(Lod, ABudgetHoldsAsTheCameraFliesOverASlowAndUnsteadyMachine) {
   std::mt19937 dice(3);
   std::normal_distribution<double> bell;
-  constexpr int humans = 64;
+  constexpr int people = 64;
   const std::unique_ptr<Scene>* self = nullptr;
   double spent_s = 0, slower = 3;
   LodOptions options;
   options.switches = 20;
   options.measured_s = [&](const Schedule&) { return spent_s; };
-  const auto scene = std::make_unique<Scene>(humans, options);
+  const auto scene = std::make_unique<Scene>(people, options);
   self = &scene;
   ASSERT_TRUE(scene->ask({}));
   scene->manage_all();
@@ -462,7 +462,7 @@ TEST(Lod, ABudgetHoldsAsTheCameraFliesOverASlowAndUnsteadyMachine) {
     Viewpoint camera;
     camera.position_m = {12 + 12 * std::sin(0.02F * static_cast<float>(t)), 1.7F, static_cast<float>(t) * 0.02F - 6};
     camera.half_angle_rad = 0.7F;
-    SceneNeeds needs{.camera = camera, .tolerance_px = 0.5F};
+    LodScene needs{.camera = camera, .tolerance_px = 0.5F};
     if (t >= 60) needs.budget_s = budget_s;
     ASSERT_TRUE((*self)->ask(needs));
     (*self)->run(1);
@@ -478,4 +478,4 @@ TEST(Lod, ABudgetHoldsAsTheCameraFliesOverASlowAndUnsteadyMachine) {
   EXPECT_GE(parts[parts.size() / 2], 0.5) << "and is made use of";
 }
 
-}  // namespace mobil::relevance_test
+}  // namespace mobil::lod_test

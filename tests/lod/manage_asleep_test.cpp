@@ -34,11 +34,11 @@ struct Two {
 /// Nobody is managed or asleep after it.
 void expect_refused(const LodOptions& options, const std::string& word) {
   Two two;
-  Lod relevance = lod_of(two.simulation, options);
+  Lod lod = lod_of(two.simulation, options);
   const std::uint64_t before = two.simulation.state_hash();
-  EXPECT_TRUE(is_refused(relevance.manage_asleep(two.people), word)) << word;
+  EXPECT_TRUE(is_refused(lod.manage_asleep(two.people), word)) << word;
   EXPECT_EQ(two.simulation.state_hash(), before) << word;
-  EXPECT_FALSE(relevance.release(two.people[0])) << word;
+  EXPECT_FALSE(lod.release(two.people[0])) << word;
 }
 
 TEST(ManageAsleep, WhatMusclesCannotBeIsRefusedBeforeAnybodySleeps) {
@@ -51,31 +51,31 @@ TEST(ManageAsleep, WhatMusclesCannotBeIsRefusedBeforeAnybodySleeps) {
 
 TEST(ManageAsleep, WhoSleepsWithForcesHasMoments) {
   Simulation simulation(SimulationOptions{.threads = 1});
-  const Entity human = *simulation.spawn(BodyRequest{}, {});
-  ASSERT_TRUE(simulation.enable(human, Feature::forces));
+  const Entity person = *simulation.spawn(BodyRequest{}, {});
+  ASSERT_TRUE(simulation.enable(person, Feature::forces));
   simulation.tick(120);
-  ASSERT_TRUE(simulation.set_state({&human, 1}, PersonState::asleep));
-  ASSERT_EQ(simulation.state(human), PersonState::asleep);
-  Lod relevance = lod_of(simulation, {.leg_muscles = {.activation = ExcitationSource::moments}});
-  const auto done = relevance.manage_asleep({&human, 1});
+  ASSERT_TRUE(simulation.set_state({&person, 1}, PersonState::asleep));
+  ASSERT_EQ(simulation.state(person), PersonState::asleep);
+  Lod lod = lod_of(simulation, {.leg_muscles = {.activation = ExcitationSource::moments}});
+  const auto done = lod.manage_asleep({&person, 1});
   EXPECT_TRUE(done) << done.error().message;
 }
 
 TEST(ManageAsleep, ASceneWithoutMusclesManagesWhoCannotSleepToo) {
   Two two;
-  Lod relevance = two.simulation.lod();
-  SceneNeeds needs;
+  Lod lod = two.simulation.lod();
+  LodScene needs;
   needs.muscles = 0;
-  ASSERT_TRUE(relevance.set_scene(needs));
-  EXPECT_EQ(relevance.manage_asleep(two.people).value(), 1U);
+  ASSERT_TRUE(lod.set_scene(needs));
+  EXPECT_EQ(lod.manage_asleep(two.people).value(), 1U);
   two.simulation.tick();
-  for (const Entity human : two.people) EXPECT_TRUE(relevance.release(human));
+  for (const Entity person : two.people) EXPECT_TRUE(lod.release(person));
 }
 
 TEST(ManageAsleep, WhoComesIntoAViewThatStandsStillWakes) {
   Two two;
-  Lod relevance = two.simulation.lod();
-  SceneNeeds needs;
+  Lod lod = two.simulation.lod();
+  LodScene needs;
   needs.muscles = 0;
   Viewpoint camera;
   camera.forward = {0, 0, 1};
@@ -83,18 +83,18 @@ TEST(ManageAsleep, WhoComesIntoAViewThatStandsStillWakes) {
   camera.reach_m = 50;
   needs.camera = camera;
   needs.asleep_beyond_m = 30;
-  ASSERT_TRUE(relevance.set_scene(needs));
+  ASSERT_TRUE(lod.set_scene(needs));
   std::vector<SpawnRequest> far(400);
   for (SpawnRequest& request : far) request.z_m = -500;
   std::vector<Entity> unseen(far.size());
   ASSERT_TRUE(two.simulation.spawn(far, unseen));
-  ASSERT_TRUE(relevance.manage_asleep(unseen));
+  ASSERT_TRUE(lod.manage_asleep(unseen));
   for (int i = 0; i < 30; ++i) two.simulation.tick();
   SpawnRequest request;
   request.z_m = 20;
   Entity seen;
   ASSERT_TRUE(two.simulation.spawn({&request, 1}, {&seen, 1}));
-  ASSERT_EQ(relevance.manage_asleep({&seen, 1}).value(), 1U);
+  ASSERT_EQ(lod.manage_asleep({&seen, 1}).value(), 1U);
   for (int i = 0; i < 3 && (two.simulation.state(seen) == PersonState::asleep); ++i) two.simulation.tick();
   EXPECT_NE(two.simulation.state(seen), PersonState::asleep);
 }

@@ -15,7 +15,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/lod.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "demo/scene/crowd_people.h"
 #include "engine/row_hash.h"
 #include "systems/gait/asleep.h"
@@ -25,7 +25,7 @@
 
 MOBIL_TEST_LABELS("long");
 
-namespace mobil::relevance_sleep_test {
+namespace mobil::lod_sleep_test {
 namespace {
 
 constexpr std::size_t everybody = 900;
@@ -38,7 +38,7 @@ struct Scene {
     LodOptions options;
     options.machine_factor = 1;
     options.leg_muscles.muscles = MuscleSet(1);
-    relevance.emplace(lod_of(simulation, options));
+    lod.emplace(lod_of(simulation, options));
     needs.muscles = MuscleSet(1);
     needs.tolerance_px = muscles ? 4.0F : 1e4F;
     if (sleep) needs.asleep_beyond_m = 5;
@@ -61,7 +61,7 @@ struct Scene {
     EXPECT_TRUE(simulation.spawn(requests, people));
     changes.resize(people.size());
     if (sleep) {
-      EXPECT_EQ(relevance->manage_asleep(people).value(), people.size());
+      EXPECT_EQ(lod->manage_asleep(people).value(), people.size());
     }
   }
 
@@ -79,13 +79,13 @@ struct Scene {
     camera.near_m = 2;
     camera.reach_m = 30;
     needs.camera = camera;
-    ASSERT_TRUE(relevance->set_scene(needs));
+    ASSERT_TRUE(lod->set_scene(needs));
   }
   LodReport tick() {
     ask();
     look(simulation.ticks());
     simulation.tick();
-    return relevance->report();
+    return lod->report();
   }
   void ask() {
     std::vector<WalkChange> all;
@@ -108,17 +108,17 @@ struct Scene {
   std::uint64_t walks_hash() const {
     std::uint64_t hash = 0;
     const auto add = [&](const auto& row) { hash = mix64(hash ^ hash_bytes(&*row, sizeof(*row))); };
-    for (const Entity human : people) {
-      add(simulation.get<Gait>(human));
-      add(simulation.get<GaitState>(human));
-      add(simulation.get<Pose>(human));
+    for (const Entity person : people) {
+      add(simulation.get<Gait>(person));
+      add(simulation.get<GaitState>(person));
+      add(simulation.get<Pose>(person));
     }
     return hash;
   }
   /// Who is seen by the camera as it is, or near it.
-  bool sees(Entity human) const {
+  bool sees(Entity person) const {
     const Viewpoint& camera = *needs.camera;
-    const Vec3<float> at = simulation.get<Pose>(human)->position_m[0];
+    const Vec3<float> at = simulation.get<Pose>(person)->position_m[0];
     const double x = at.x - camera.position_m.x, y = at.y - camera.position_m.y, z = at.z - camera.position_m.z;
     const double distance = std::sqrt(x * x + y * y + z * z);
     const double along = (x * camera.forward.x + z * camera.forward.z) / distance;
@@ -126,8 +126,8 @@ struct Scene {
   }
 
   Simulation simulation;
-  std::optional<Lod> relevance;
-  SceneNeeds needs;
+  std::optional<Lod> lod;
+  LodScene needs;
   std::vector<Entity> people;
   std::vector<std::uint32_t> changes;
 };
@@ -139,10 +139,10 @@ TEST(LodSleep, NobodyWhoIsSeenSleeps) {
   for (int i = 0; i < 700; ++i) {
     const LodReport report = scene.tick();
     if (report.to_wake > 0 || i % 7 != 0) continue;
-    for (const Entity human : scene.people) {
-      if (!scene.sees(human)) continue;
+    for (const Entity person : scene.people) {
+      if (!scene.sees(person)) continue;
       ++seen;
-      EXPECT_NE(scene.simulation.state(human), PersonState::asleep) << "tick " << i;
+      EXPECT_NE(scene.simulation.state(person), PersonState::asleep) << "tick " << i;
     }
   }
   EXPECT_GT(seen, 1000U);
@@ -154,20 +154,20 @@ TEST(LodSleep, TheNearestWakeFirst) {
   few.machine_factor = 1;
   few.wakes = 10;
   few.leg_muscles.muscles = MuscleSet(1);
-  Lod relevance = lod_of(scene.simulation, few);
-  ASSERT_TRUE(relevance.set_scene(scene.needs));
+  Lod lod = lod_of(scene.simulation, few);
+  ASSERT_TRUE(lod.set_scene(scene.needs));
   std::set<Entity, decltype([](Entity a, Entity b) { return a.index < b.index; })> awake;
   double before = 0;
   std::size_t batches = 0;
   for (;; ++batches) {
     scene.simulation.tick();
-    const LodReport report = relevance.report();
+    const LodReport report = lod.report();
     double nearest = 1e9, farthest = 0;
-    for (const Entity human : scene.people) {
-      if ((scene.simulation.state(human) == PersonState::asleep) || awake.contains(human)) continue;
-      awake.insert(human);
-      if (!scene.sees(human)) continue;
-      const Vec3<float> at = scene.simulation.get<Pose>(human)->position_m[0];
+    for (const Entity person : scene.people) {
+      if ((scene.simulation.state(person) == PersonState::asleep) || awake.contains(person)) continue;
+      awake.insert(person);
+      if (!scene.sees(person)) continue;
+      const Vec3<float> at = scene.simulation.get<Pose>(person)->position_m[0];
       const double d = std::hypot(at.x - scene.needs.camera->position_m.x, at.z - scene.needs.camera->position_m.z);
       nearest = std::min(nearest, d);
       farthest = std::max(farthest, d);
@@ -230,27 +230,27 @@ TEST(LodSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
   EXPECT_GT(begun, 50U);
   EXPECT_GT(ended, 5U);
   std::size_t bare = 0;
-  for (const Entity human : scene.people) {
-    const bool has = !scene.simulation.muscles(human).empty();
+  for (const Entity person : scene.people) {
+    const bool has = !scene.simulation.muscles(person).empty();
     std::size_t rows = 0;
-    scene.simulation.world().each_member(human, [&](Entity) { ++rows; });
+    scene.simulation.world().each_member(person, [&](Entity) { ++rows; });
     EXPECT_EQ(rows, has ? 2U : 0U) << "one muscle, right and left";
-    if (scene.simulation.state(human) == PersonState::asleep) {
+    if (scene.simulation.state(person) == PersonState::asleep) {
       EXPECT_FALSE(has);
       continue;
     }
-    const auto tiers = *scene.simulation.get<Tiers>(human);
-    if (tiers.relative_size == 0) continue;  // has just woken
-    EXPECT_EQ(has, (tiers.effects & tier_bare) == 0);
-    EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(1));
+    const auto lod_state = *scene.simulation.get<LodState>(person);
+    if (lod_state.relative_size == 0) continue;  // has just woken
+    EXPECT_EQ(has, (lod_state.effects & lod_bare) == 0);
+    EXPECT_EQ(scene.simulation.person(person)->leg_muscles.muscles, MuscleSet(1));
     // A method of the host's choice is that of the muscles there are, or they begin with it.
     bare += has ? 0 : 1;
-    const MuscleMethod asked = {Method::reduced, {.vectors = 3}};
-    ASSERT_TRUE(scene.relevance->force(human, static_cast<Muscle>(0), asked));
+    const MuscleMethod asked = {Method::modal, {.modes = 3}};
+    ASSERT_TRUE(scene.lod->force(person, static_cast<Muscle>(0), asked));
     std::size_t forced = 0;
-    scene.simulation.world().each_member(human, [&](Entity) { ++forced; });
+    scene.simulation.world().each_member(person, [&](Entity) { ++forced; });
     EXPECT_EQ(forced, 2U);
-    EXPECT_TRUE(same_method(scene.simulation.method(human, static_cast<Muscle>(0)), asked));
+    EXPECT_TRUE(same_method(scene.simulation.method(person, static_cast<Muscle>(0)), asked));
   }
   EXPECT_GT(bare, 0U);
 }
@@ -259,26 +259,26 @@ TEST(LodSleep, MusclesThatAreTakenAwayStayAway) {
   Scene scene(true, 1, true);
   for (int i = 0; i < 300; ++i) scene.tick();
   std::vector<Entity> some;
-  for (const Entity human : scene.people)
-    if (some.size() < 6 && !scene.simulation.muscles(human).empty()) some.push_back(human);
+  for (const Entity person : scene.people)
+    if (some.size() < 6 && !scene.simulation.muscles(person).empty()) some.push_back(person);
   ASSERT_EQ(some.size(), 6U);
   LegMuscles other;
   other.muscles = MuscleSet(2);
   other.method = Method::none;
-  for (const Entity human : some) ASSERT_TRUE(scene.simulation.set_muscles(human, std::nullopt));
-  for (const Entity human : std::span(some).first(3)) {
-    ASSERT_TRUE(scene.simulation.set_muscles(human, other));
-    EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(2));
+  for (const Entity person : some) ASSERT_TRUE(scene.simulation.set_muscles(person, std::nullopt));
+  for (const Entity person : std::span(some).first(3)) {
+    ASSERT_TRUE(scene.simulation.set_muscles(person, other));
+    EXPECT_EQ(scene.simulation.person(person)->leg_muscles.muscles, MuscleSet(2));
   }
   for (int i = 0; i < 600; ++i) scene.tick();
-  for (const Entity human : std::span(some).first(3))
-    if (scene.simulation.is_person(human)) {
-      EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(2));
-      EXPECT_LE(scene.simulation.muscles(human).size(), 1U);
+  for (const Entity person : std::span(some).first(3))
+    if (scene.simulation.is_person(person)) {
+      EXPECT_EQ(scene.simulation.person(person)->leg_muscles.muscles, MuscleSet(2));
+      EXPECT_LE(scene.simulation.muscles(person).size(), 1U);
     }
-  for (const Entity human : std::span(some).last(3)) {
-    EXPECT_TRUE(scene.simulation.muscles(human).empty());
-    EXPECT_TRUE(scene.simulation.set_muscles(human, std::nullopt)) << "none are there";
+  for (const Entity person : std::span(some).last(3)) {
+    EXPECT_TRUE(scene.simulation.muscles(person).empty());
+    EXPECT_TRUE(scene.simulation.set_muscles(person, std::nullopt)) << "none are there";
   }
 }
 
@@ -288,20 +288,20 @@ TEST(LodSleep, AHostsMethodComesToWhoIsCompactAndBare) {
   std::size_t found = 0;
   for (int i = 0; i < 400 && found < 3; ++i) {
     scene.tick();
-    for (const Entity human : scene.people) {
-      const auto tiers = scene.simulation.get<Tiers>(human);
-      if (found > 2 || !tiers || (scene.simulation.state(human) != PersonState::compact) ||
-          (tiers->effects & tier_bare) == 0 || tiers->relative_size == 0)
+    for (const Entity person : scene.people) {
+      const auto lod_state = scene.simulation.get<LodState>(person);
+      if (found > 2 || !lod_state || (scene.simulation.state(person) != PersonState::compact) ||
+          (lod_state->effects & lod_bare) == 0 || lod_state->relative_size == 0)
         continue;
       ++found;
-      const MuscleMethod asked = {Method::reduced, {.vectors = 3}}, impossible = {Method::reduced, {.vectors = 9999}};
+      const MuscleMethod asked = {Method::modal, {.modes = 3}}, impossible = {Method::modal, {.modes = 9999}};
       const std::uint64_t before = scene.simulation.state_hash();
-      EXPECT_FALSE(scene.relevance->force(human, static_cast<Muscle>(0), impossible));
+      EXPECT_FALSE(scene.lod->force(person, static_cast<Muscle>(0), impossible));
       EXPECT_EQ(scene.simulation.state_hash(), before) << "what is refused changes nobody";
-      ASSERT_TRUE(scene.relevance->force(human, static_cast<Muscle>(0), asked));
-      EXPECT_NE(scene.simulation.state(human), PersonState::compact);
-      EXPECT_EQ(scene.simulation.muscles(human).size(), 1U);
-      EXPECT_TRUE(same_method(scene.simulation.method(human, static_cast<Muscle>(0)), asked));
+      ASSERT_TRUE(scene.lod->force(person, static_cast<Muscle>(0), asked));
+      EXPECT_NE(scene.simulation.state(person), PersonState::compact);
+      EXPECT_EQ(scene.simulation.muscles(person).size(), 1U);
+      EXPECT_TRUE(same_method(scene.simulation.method(person, static_cast<Muscle>(0)), asked));
     }
   }
   EXPECT_GT(found, 0U);
@@ -314,38 +314,38 @@ TEST(LodSleep, WhoIsReleasedHasTheirMuscles) {
   std::size_t asleep = 0, bare = 0, compact = 0;
   for (int i = 0; i < 400 && (compact < 3 || i < 300); ++i) {
     scene.tick();
-    for (const Entity human : scene.people) {
-      const auto tiers = scene.simulation.get<Tiers>(human);
-      if (compact > 2 || !tiers || (scene.simulation.state(human) != PersonState::compact) ||
-          (tiers->effects & tier_bare) == 0)
+    for (const Entity person : scene.people) {
+      const auto lod_state = scene.simulation.get<LodState>(person);
+      if (compact > 2 || !lod_state || (scene.simulation.state(person) != PersonState::compact) ||
+          (lod_state->effects & lod_bare) == 0)
         continue;
       ++compact;
-      ASSERT_TRUE(scene.relevance->release(human));
-      EXPECT_EQ(scene.simulation.muscles(human).size(), 1U);
+      ASSERT_TRUE(scene.lod->release(person));
+      EXPECT_EQ(scene.simulation.muscles(person).size(), 1U);
     }
   }
   std::vector<Entity> people;
-  for (const Entity human : scene.people) {
-    const bool sleeps = (scene.simulation.state(human) == PersonState::asleep);
-    const MuscleSet meant = scene.simulation.human(human)->leg_muscles.muscles;
-    if (!is_managed(scene.simulation.world(), human) || (scene.simulation.state(human) == PersonState::compact) ||
+  for (const Entity person : scene.people) {
+    const bool sleeps = (scene.simulation.state(person) == PersonState::asleep);
+    const MuscleSet meant = scene.simulation.person(person)->leg_muscles.muscles;
+    if (!is_managed(scene.simulation.world(), person) || (scene.simulation.state(person) == PersonState::compact) ||
         meant.none())
       continue;
-    if ((sleeps ? asleep : bare) > 4 || (!sleeps && !scene.simulation.muscles(human).empty())) continue;
+    if ((sleeps ? asleep : bare) > 4 || (!sleeps && !scene.simulation.muscles(person).empty())) continue;
     ++(sleeps ? asleep : bare);
-    people.push_back(human);
+    people.push_back(person);
   }
   ASSERT_GT(asleep * bare * compact, 0U);
   const std::uint64_t before = scene.simulation.state_hash();
   const std::vector<Entity> twice = {people[0], people[1], people[0]};
-  EXPECT_FALSE(scene.relevance->release(twice));
+  EXPECT_FALSE(scene.lod->release(twice));
   EXPECT_EQ(scene.simulation.state_hash(), before);
-  ASSERT_TRUE(scene.relevance->release(people));
-  for (const Entity human : people) {
-    EXPECT_FALSE(is_managed(scene.simulation.world(), human));
-    EXPECT_NE(scene.simulation.state(human), PersonState::asleep);
-    EXPECT_EQ(scene.simulation.muscles(human).size(), scene.simulation.human(human)->leg_muscles.muscles.count());
-    EXPECT_EQ(scene.relevance->release(human).error().status, Status::missing);
+  ASSERT_TRUE(scene.lod->release(people));
+  for (const Entity person : people) {
+    EXPECT_FALSE(is_managed(scene.simulation.world(), person));
+    EXPECT_NE(scene.simulation.state(person), PersonState::asleep);
+    EXPECT_EQ(scene.simulation.muscles(person).size(), scene.simulation.person(person)->leg_muscles.muscles.count());
+    EXPECT_EQ(scene.lod->release(person).error().status, Status::missing);
   }
 }
 
@@ -374,8 +374,8 @@ TEST(LodSleep, AnHourAsleepIsAnHourAwake) {
       ASSERT_TRUE(back.simulation.restore(bytes));
       back.changes = changes;
     }
-    for (const Entity human : sleep[0]->people)
-      compact += sleep[0]->simulation.state(human) == PersonState::compact ? 1 : 0;
+    for (const Entity person : sleep[0]->people)
+      compact += sleep[0]->simulation.state(person) == PersonState::compact ? 1 : 0;
     if (i % (ticks / 12) != 0) continue;
     const std::uint64_t expected = wakes.walks_hash(), whole = sleep[0]->simulation.state_hash();
     for (const auto& scene : sleep) {
@@ -394,9 +394,9 @@ struct Standing : Scene {
     for (int i = 0; i < 60; ++i) update();
   }
   LodReport update() {
-    EXPECT_TRUE(relevance->set_scene(needs));
+    EXPECT_TRUE(lod->set_scene(needs));
     simulation.tick();
-    return relevance->report();
+    return lod->report();
   }
   std::size_t seen_asleep() const {
     return static_cast<std::size_t>(std::ranges::count_if(
@@ -435,10 +435,10 @@ TEST(LodSleep, WhoCountsAsSeenStaysAwake) {
   const auto far =
       std::ranges::find_if(scene.people, [&](Entity e) { return (scene.simulation.state(e) == PersonState::asleep); });
   ASSERT_TRUE(far != scene.people.end() && scene.simulation.set_state({&*far, 1}, PersonState::full));
-  ASSERT_TRUE(scene.relevance->manage(*far, {.looked_at = true}));
+  ASSERT_TRUE(scene.lod->manage(*far, {.looked_at = true}));
   for (int i = 0; i < 120; ++i) scene.update();
   EXPECT_NE(scene.simulation.state(*far), PersonState::asleep);
-  ASSERT_TRUE(scene.relevance->manage(*far, {}));
+  ASSERT_TRUE(scene.lod->manage(*far, {}));
   for (int i = 0; i < 120; ++i) scene.update();
   EXPECT_EQ(scene.simulation.state(*far), PersonState::asleep);
 }
@@ -446,27 +446,27 @@ TEST(LodSleep, WhoCountsAsSeenStaysAwake) {
 TEST(LodSleep, WhoHasMusclesToComeIsNotPutToSleepAnew) {
   Scene scene(true, 1, true, 20);
   const std::size_t asleep = scene.asleep();
-  EXPECT_EQ(scene.relevance->manage_asleep(scene.people).error().status, Status::already_there);
+  EXPECT_EQ(scene.lod->manage_asleep(scene.people).error().status, Status::already_there);
   EXPECT_EQ(scene.asleep(), asleep);
   scene.needs.muscles = MuscleSet().set();
-  EXPECT_NE(scene.relevance->set_scene(scene.needs).error().message.find("muscles"), std::string::npos);
+  EXPECT_NE(scene.lod->set_scene(scene.needs).error().message.find("muscles"), std::string::npos);
 }
 
 TEST(LodSleep, WhatCannotBeIsRefused) {
   Scene scene(true);
-  SceneNeeds needs;
+  LodScene needs;
   needs.asleep_beyond_m = 10;
-  EXPECT_FALSE(scene.relevance->set_scene(needs));  // of what camera?
+  EXPECT_FALSE(scene.lod->set_scene(needs));  // of what camera?
   needs.camera = scene.needs.camera;
   needs.asleep_beyond_m = 1;
-  EXPECT_FALSE(scene.relevance->set_scene(needs));
+  EXPECT_FALSE(scene.lod->set_scene(needs));
   needs.asleep_beyond_m = NAN;
-  EXPECT_FALSE(scene.relevance->set_scene(needs));
+  EXPECT_FALSE(scene.lod->set_scene(needs));
   needs.asleep_beyond_m = 2;
-  EXPECT_TRUE(scene.relevance->set_scene(needs));
+  EXPECT_TRUE(scene.lod->set_scene(needs));
   const std::vector<Entity> twice = {scene.people[0], scene.people[0]};
-  EXPECT_FALSE(scene.relevance->manage_asleep(twice));
+  EXPECT_FALSE(scene.lod->manage_asleep(twice));
 }
 
 }  // namespace
-}  // namespace mobil::relevance_sleep_test
+}  // namespace mobil::lod_sleep_test

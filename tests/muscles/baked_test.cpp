@@ -21,11 +21,11 @@ std::vector<LegMuscles> choices() {
   LegMuscles one;
   one.muscles = MuscleSet(1);
   one.cells = {1, 1, 2};
-  one.reduced.cells = {2, 2, 4};
-  one.reduced.vectors = 4;
+  one.modal.cells = {2, 2, 4};
+  one.modal.modes = 4;
   std::vector<LegMuscles> all;
-  for (const Method method :
-       {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
+  for (const Method method : {Method::explicit_central, Method::implicit_central, Method::newmark, Method::statics,
+                              Method::modal, Method::finite}) {
     for (const bool inertia : {false, true}) {
       LegMuscles next = one;
       next.method = method;

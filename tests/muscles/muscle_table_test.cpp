@@ -10,7 +10,7 @@
 #include <mobil/assets/muscles/leg_sections.h>
 #include <mobil/assets/muscles/muscle_plan.h>
 #include <mobil/muscle_table.h>
-#include "assets/surfaces/muscle_cage.h"
+#include "assets/surfaces/muscle_lattice.h"
 #include "tests/lines/leg_pose.h"
 #include "tests/refused.h"
 #include "tests/simulation/people.h"
@@ -120,8 +120,8 @@ TEST(MusclePlan, BelliesLieWhereTheAnatomyHasThem) {
     const Vec z = rotated(plan.rotation, {0, 0, 1}), y = rotated(plan.rotation, {0, 1, 0});
     EXPECT_LT(z.y, -0.95);
     EXPECT_GT(y.z, 0.95);
-    // Behind the thigh, in front of it, behind the shank; from the middle of the cage.
-    const CageStation& middle = muscle_cage(group)[cage_station_count / 2];
+    // Behind the thigh, in front of it, behind the shank; from the middle of the lattice.
+    const LatticeStation& middle = muscle_lattice(group)[lattice_station_count / 2];
     const Vec centre =
         plan.start_m + rotated(plan.rotation, {static_cast<double>(middle.offset_x_m),
                                                static_cast<double>(middle.offset_y_m), plan.belly_length_m / 2});

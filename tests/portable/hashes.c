@@ -63,11 +63,11 @@ int main(void) {
   scene("bones", most, -1, 0, 0, 0, 0, 120);
   scene("bones and forces", most, -1, 0, 0, 0, 1, 60);
   scene("static", most, MOBIL_STATIC, 1, 0, 0, 0, 20);
-  scene("explicit", 3, MOBIL_ECD, 1, 0, 0, 0, 10);
-  scene("implicit", 3, MOBIL_CAA, 1, 0, 0, 0, 10);
-  scene("reduced, unseen", most, MOBIL_REDUCED, 0, 0, 0, 0, 20);
-  scene("reduced", most, MOBIL_REDUCED, 1, 0, 0, 0, 20);
-  scene("reduced, inertia", most, MOBIL_REDUCED, 1, 0, 1, 0, 20);
-  scene("reduced, pulling", most, MOBIL_REDUCED, 1, MOBIL_BY_PHASE, 0, 0, 20);
+  scene("explicit", 3, MOBIL_EXPLICIT_CENTRAL, 1, 0, 0, 0, 10);
+  scene("implicit", 3, MOBIL_NEWMARK, 1, 0, 0, 0, 10);
+  scene("reduced, unseen", most, MOBIL_MODAL, 0, 0, 0, 0, 20);
+  scene("reduced", most, MOBIL_MODAL, 1, 0, 0, 0, 20);
+  scene("reduced, inertia", most, MOBIL_MODAL, 1, 0, 1, 0, 20);
+  scene("reduced, pulling", most, MOBIL_MODAL, 1, MOBIL_BY_PHASE, 0, 0, 20);
   return 0;
 }

@@ -104,7 +104,7 @@ TEST(BadOutput, WithoutFfmpegOrADriverNothingIsWritten) {
 }
 
 TEST(BadWalk, NamesTheMethodsAndElements) {
-  expect_refused("walk --method magic", {"--method", "'magic'", "static, ecd, icd, caa"});
+  expect_refused("walk --method magic", {"--method", "'magic'", "static, explicit-central, implicit-central, newmark"});
   expect_refused("walk --element cube", {"--element", "'cube'", "full, bbar, one-point"});
 }
 

@@ -25,7 +25,7 @@ City city(const std::string& arguments, const std::filesystem::path& in, const s
   return {Json::parse(read_bytes(in / "city.json"), nullptr, false), ran.out};
 }
 
-const std::string walkers = "--humans 90 --shards 5 --effects none --churn 40 --burst 2 ";
+const std::string walkers = "--people 90 --shards 5 --effects none --churn 40 --burst 2 ";
 
 TEST(City, StateDependsOnNoThreads) {
   const TemporaryFolder folder;
@@ -33,12 +33,12 @@ TEST(City, StateDependsOnNoThreads) {
   const City two = city(walkers + "--seconds 2 --threads 2", folder.path);
   EXPECT_EQ(one.hash().size(), 16U);
   EXPECT_EQ(one.hash(), two.hash());
-  EXPECT_EQ(one.report["humans"], 90);
+  EXPECT_EQ(one.report["people"], 90);
   EXPECT_EQ(one.report["shards"], 5);
   EXPECT_EQ(one.report["ticks"], 120);
   EXPECT_GE(one.report["spawns"].get<int>(), 80);
   EXPECT_EQ(one.report["spawns"], one.report["despawns"]);
-  EXPECT_NE(one.out.find("90 humans on 15 m x 15 m, 1 rank"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("90 people on 15 m x 15 m, 1 rank"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("state hash " + one.hash()), std::string::npos);
 }
 
@@ -55,7 +55,7 @@ TEST(City, GoesOnWhereItWasSaved) {
 /// With muscles, some of them seen, whose methods change as people come near.
 TEST(City, MusclesGoOnWhereTheyWereSaved) {
   const TemporaryFolder folder;
-  const std::string seen = "--humans 50 --shards 3 --near 12 --seed 2 ";
+  const std::string seen = "--people 50 --shards 3 --near 12 --seed 2 ";
   const City whole = city(seen + "--seconds 3 --threads 2", folder.path);
   EXPECT_GT(whole.report["muscles_by_method"].size(), 1U);
   city(seen + "--seconds 2 --save run --save-every 1.5s", folder.path);
@@ -82,17 +82,17 @@ TEST(City, RefusesWhatDoesNotGoTogetherInOneLine) {
                   {"--shards 2 --save a --save-every 0", {"--save-every", "0.1 to 3600 s"}},
                   {"--shards 2 --silence 0.1s", {"--silence", "1 to 3600 s"}},
                   {"--save a --resume b", {"--save", "--resume"}},
-                  {"--humans 20 --effects none --resume nowhere", {"nowhere", "no snapshot", "--save"}}},
+                  {"--people 20 --effects none --resume nowhere", {"nowhere", "no snapshot", "--save"}}},
                  folder.path);
 }
 
 TEST(City, AnotherRunIsNotGoneOnWith) {
   const TemporaryFolder folder;
-  city("--humans 30 --shards 2 --effects none --seconds 0.5 --save run", folder.path);
-  const Ran other = run_mobil("crowd --humans 31 --shards 2 --effects none --seconds 1 --resume run", folder.path);
+  city("--people 30 --shards 2 --effects none --seconds 0.5 --save run", folder.path);
+  const Ran other = run_mobil("crowd --people 31 --shards 2 --effects none --seconds 1 --resume run", folder.path);
   EXPECT_EQ(other.status, 2);
-  EXPECT_NE(other.err.find("--humans 30"), std::string::npos) << other.err;
-  EXPECT_NE(other.err.find("--humans 31"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("--people 30"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("--people 31"), std::string::npos) << other.err;
   EXPECT_EQ(std::count(other.err.begin(), other.err.end(), '\n'), 1) << other.err;
 }
 

@@ -35,14 +35,14 @@ const std::string lines_alone = "--tolerance 100mm --near 0 ";
 TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
   const TemporaryFolder folder;
   expect_refused("crowd",
-                 {{"--humans 0", {"--humans 0", "1 to 200000"}},
-                  {"--humans many", {"--humans many", "1 to 200000"}},
+                 {{"--people 0", {"--people 0", "1 to 200000"}},
+                  {"--people many", {"--people many", "1 to 200000"}},
                   {"--seconds 0", {"--seconds", "0.1 to 3600 s"}},
                   {"--seconds 5km/h", {"--seconds", "unknown unit"}},
                   {"--threads 257", {"--threads 257", "0 to 256"}},
                   {"--seed -1", {"--seed"}},
                   {"--churn -3", {"--churn", "0 to 100000"}},
-                  {"--humans 10 --burst 11", {"--burst 11", "0 to 10"}},
+                  {"--people 10 --burst 11", {"--burst 11", "0 to 10"}},
                   {"--tolerance 2m", {"--tolerance", "1e-05 to 1 m"}},
                   {"--near-tolerance 0", {"--near-tolerance"}},
                   {"--near x", {"--near x"}},
@@ -55,7 +55,7 @@ TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
                   {"--capture crowd.jpg", {"--capture", ".png"}},
                   {"--frames 3", {"--frames", "--capture"}},
                   {"--raise --capture crowd.png", {"--raise"}},
-                  {"--human 3", {"there is no option --human", "--humans"}}},
+                  {"--person 3", {"there is no option --person", "--people"}}},
                  folder.path);
   expect_refused("city",
                  {{"--people 10", {"--people 10", "100 to 20000000"}},
@@ -66,9 +66,9 @@ TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
 
 TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
   const Json report =
-      report_of("--humans 40 --seconds 2.5 --threads 2 --seed 7 --effects muscles,forces " + lines_alone);
+      report_of("--people 40 --seconds 2.5 --threads 2 --seed 7 --effects muscles,forces " + lines_alone);
   ASSERT_TRUE(report.is_object());
-  for (const char* key : {"humans",
+  for (const char* key : {"people",
                           "muscles_by_method",
                           "ticks",
                           "missed_ticks",
@@ -79,9 +79,9 @@ TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
                           "tick_cpu_ms_p99",
                           "system_ms",
                           "host_ms",
-                          "relevance_ms",
-                          "bytes_per_human",
-                          "far_bytes_per_human",
+                          "lod_ms",
+                          "bytes_per_person",
+                          "far_bytes_per_person",
                           "peak_bytes",
                           "steady_allocations",
                           "steady_ticks",
@@ -94,7 +94,7 @@ TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
                           "options"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
-  EXPECT_EQ(report["humans"], 40);
+  EXPECT_EQ(report["people"], 40);
   EXPECT_EQ(report["seed"], 7);
   EXPECT_EQ(report["ticks"], 150);
   EXPECT_EQ(report["state_hash"].size(), 2U);
@@ -107,7 +107,7 @@ TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
   EXPECT_GT(report["tick_cpu_ms_p50"], 0);
   EXPECT_GT(report["system_ms"]["kinematics"], 0);
   EXPECT_GT(report["system_ms"]["forces"], 0);
-  EXPECT_GT(report["far_bytes_per_human"], 1000);
+  EXPECT_GT(report["far_bytes_per_person"], 1000);
   EXPECT_GT(report["peak_bytes"], 1e6);
   EXPECT_EQ(report["options"]["effects"], Json({"muscles", "forces"}));
   std::size_t muscles = 0;
@@ -119,7 +119,7 @@ TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
 }
 
 TEST(CrowdCommand, AnotherSeedIsAnotherCrowd) {
-  const std::string asked = "--humans 20 --seconds 1 --effects none ";
+  const std::string asked = "--people 20 --seconds 1 --effects none ";
   const Json first = report_of(asked + "--seed 1"), again = report_of(asked + "--seed 1"),
              other = report_of(asked + "--seed 2");
   EXPECT_EQ(first["state_hash"], again["state_hash"]);
@@ -143,8 +143,8 @@ TEST(CrowdCommand, MostOfThoseAliveSleepAndDependOnTheSeedAlone) {
 }
 
 TEST(CrowdCommand, AsManyComeAsLeave) {
-  const Json report = report_of("--humans 30 --seconds 4 --churn 12 --burst 5 " + lines_alone);
-  EXPECT_EQ(report["humans"], 30);
+  const Json report = report_of("--people 30 --seconds 4 --churn 12 --burst 5 " + lines_alone);
+  EXPECT_EQ(report["people"], 30);
   EXPECT_EQ(report["spawns"], report["despawns"]);
   EXPECT_EQ(report["spawns"], 4 * (12 + 5));
   EXPECT_LT(report["steady_ticks"], report["ticks"]);
@@ -153,7 +153,7 @@ TEST(CrowdCommand, AsManyComeAsLeave) {
 TEST(CrowdScene, IsRaisedUntilTicksAreMissedOrThereCanBeNoMore) {
   constexpr std::size_t most = 50;
   CrowdRequest request;
-  request.humans = 8;
+  request.people = 8;
   request.effects.muscles = false;
   auto scene = CrowdScene::make(request);
   ASSERT_TRUE(scene) << scene.error().message;
@@ -161,18 +161,18 @@ TEST(CrowdScene, IsRaisedUntilTicksAreMissedOrThereCanBeNoMore) {
   const auto limit = raise_crowd(**scene, 3, most, [&](const CrowdLimit::Tried&) { ++told; }, {});
   ASSERT_TRUE(limit) << limit.error().message;
   EXPECT_EQ(told, limit->tried.size());
-  EXPECT_EQ(limit->tried.front().humans, 8U);
+  EXPECT_EQ(limit->tried.front().people, 8U);
   if (limit->missed_with == 0) {
-    EXPECT_EQ(limit->humans, most);
+    EXPECT_EQ(limit->people, most);
     EXPECT_EQ((*scene)->walkers().size(), most);
   } else {
-    EXPECT_LT(limit->humans, limit->missed_with);
+    EXPECT_LT(limit->people, limit->missed_with);
   }
 }
 
 TEST(CrowdScene, NobodyStaysFarOutsideOfTheSquare) {
   CrowdRequest request;
-  request.humans = 60;
+  request.people = 60;
   request.effects.muscles = false;
   auto made = CrowdScene::make(request);
   ASSERT_TRUE(made) << made.error().message;

@@ -113,7 +113,7 @@ TEST(WalkFormats, WhatIsRefusedIsOneLine) {
                   {"--export a.glb --export a.glb", {"--export a.glb", "twice"}},
                   {"--export a.glb --churn 5", {"--export", "--churn"}},
                   {"--export a.glb --raise", {"--raise", "--export"}},
-                  {"--humans 100000 --export a.glb --export-seconds 60", {"--export", "800000", "--export-seconds"}},
+                  {"--people 100000 --export a.glb --export-seconds 60", {"--export", "800000", "--export-seconds"}},
                   {"--export-seconds 2h", {"--export-seconds", "unknown unit"}}},
                  folder.path);
 }
@@ -121,7 +121,7 @@ TEST(WalkFormats, WhatIsRefusedIsOneLine) {
 TEST(CrowdFormats, ACrowdIsOneValidGlbAndOneUsda) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil(
-      "crowd --humans 12 --seconds 0.1 --tolerance 100mm --near 0 --export crowd.glb --export crowd.usda "
+      "crowd --people 12 --seconds 0.1 --tolerance 100mm --near 0 --export crowd.glb --export crowd.usda "
       "--export-seconds 0.5",
       folder.path);
   ASSERT_EQ(ran.status, 0) << ran.err;

@@ -184,7 +184,7 @@ TEST(Quiet, NothingIsSaidOfWhatWasWritten) {
   const TemporaryFolder folder;
   for (const std::string arguments :
        {"muscle --seconds 0.01", "body --out out", "walk --seconds 0.1 --out out", "man --out pages",
-        "crowd --humans 4 --seconds 0.1 --effects none --report crowd.json", "stress nan --quick --json stress.json"}) {
+        "crowd --people 4 --seconds 0.1 --effects none --report crowd.json", "stress nan --quick --json stress.json"}) {
     const Ran told = run_mobil(arguments, folder.path), quiet = run_mobil(arguments + " --quiet", folder.path);
     EXPECT_EQ(quiet.status, told.status) << arguments;
     const auto says_where = [](const Ran& ran) {
@@ -220,7 +220,7 @@ TEST(Progress, ShortRunsSayNothingWhereStderrIsNoTerminal) {
   show("");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   const TemporaryFolder folder;
-  EXPECT_EQ(run_mobil("crowd --humans 8 --seconds 0.1 --effects none", folder.path).err, "");
+  EXPECT_EQ(run_mobil("crowd --people 8 --seconds 0.1 --effects none", folder.path).err, "");
 }
 
 /// On a terminal of its own; what it wrote there.
@@ -231,7 +231,7 @@ std::string on_terminal(const std::string& arguments, const TemporaryFolder& fol
 TEST(Progress, ATerminalShowsALineUnlessQuiet) {
   if (!is_there("script")) GTEST_SKIP() << "no script(1) to make a terminal";
   const TemporaryFolder folder;
-  const std::string arguments = "crowd --humans 8 --seconds 0.1 --effects none";
+  const std::string arguments = "crowd --people 8 --seconds 0.1 --effects none";
   EXPECT_NE(on_terminal(arguments, folder).find("spawning ["), std::string::npos);
   EXPECT_EQ(on_terminal(arguments + " --quiet", folder).find("spawning"), std::string::npos);
 }

@@ -19,7 +19,7 @@ namespace {
 
 /// Everybody gets somewhere and nobody into anybody, on kerbs, stairs and ramp.
 TEST(Town, PeopleGoAboutItAndKeepApart) {
-  auto made = TownScene::make({.humans = 30, .seed = 3, .threads = 1});
+  auto made = TownScene::make({.people = 30, .seed = 3, .threads = 1});
   ASSERT_TRUE(made) << made.error().message;
   TownScene& scene = *made;
   float highest_m = 0;
@@ -74,13 +74,13 @@ TEST(Town, WaysGoRoundWallsAndOverTheStairs) {
 
 TEST(Town, ItsReportSaysWhatHappened) {
   const TemporaryFolder folder;
-  const Ran ran = run_mobil("town --humans 12 --seconds 5 --report town.json", folder.path);
+  const Ran ran = run_mobil("town --people 12 --seconds 5 --report town.json", folder.path);
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_NE(ran.out.find("12 people, 5 s"), std::string::npos);
   const auto report = nlohmann::json::parse(read_bytes(folder.path / "town.json"));
-  EXPECT_EQ(report["humans"], 12);
+  EXPECT_EQ(report["people"], 12);
   EXPECT_GT(report["nearest_m"], -0.05);
-  const Ran again = run_mobil("town --humans 12 --seconds 5 --threads 1 --report again.json", folder.path);
+  const Ran again = run_mobil("town --people 12 --seconds 5 --threads 1 --report again.json", folder.path);
   ASSERT_EQ(again.status, 0);
   EXPECT_EQ(report["state_hash"], nlohmann::json::parse(read_bytes(folder.path / "again.json"))["state_hash"]);
 }
@@ -88,7 +88,7 @@ TEST(Town, ItsReportSaysWhatHappened) {
 TEST(Town, WhatCannotBeIsRefusedInOneLine) {
   const TemporaryFolder folder;
   expect_refused("town",
-                 {{"--humans 0", {"--humans 0", "1 to 300"}},
+                 {{"--people 0", {"--people 0", "1 to 300"}},
                   {"--seconds 0", {"--seconds", "0.1"}},
                   {"--view below", {"--view", "follow"}},
                   {"--capture town.gif", {"--capture town.gif", ".mp4"}},

@@ -113,7 +113,7 @@ TEST(BadMuscle, NamesTheLimit) {
   expect_refused("muscle --cells 2x2", {"'2x2'", "2x2x8"});
   expect_refused("muscle --cells 0x2x2", {"0x2x2", "1 to 256"});
   expect_refused("muscle --cell-size 0", {"--cell-size 0", "0.0001 to 1 m"});
-  expect_refused("muscle --method magic", {"'magic'", "ecd"});
+  expect_refused("muscle --method magic", {"'magic'", "explicit-central"});
   expect_refused("muscle --seconds 1e9", {"--seconds 1e9", "3600 s"});
 }
 

@@ -48,7 +48,7 @@ TEST(ViewScene, WhatIsSetIsAndABodyComesWhereTheOldOneWas) {
   const float z = scene->place().z;
   ViewChoice choice = small_scene();
   choice.body.height_m = 1.6F;
-  choice.method = {Method::ecd, Method::caa, Method::statics, Method::none};
+  choice.method = {Method::explicit_central, Method::newmark, Method::statics, Method::none};
   ASSERT_TRUE(scene->set(choice));
   EXPECT_EQ(scene->gone(), 0U);
   EXPECT_EQ(scene->gone(), std::nullopt);
@@ -90,10 +90,10 @@ TEST(ViewScene, MethodsAreChosenForTheCameraAndSetAgainAfter) {
   EXPECT_GT(scene->chosen()->predicted_s, 0);
   EXPECT_GT(scene->method(1).cost_us, 0);
   choice.choose = false;
-  choice.method.fill(Method::ecd);
+  choice.method.fill(Method::explicit_central);
   ASSERT_TRUE(scene->set(choice));
   EXPECT_FALSE(scene->chosen());
-  for (std::size_t g = 0; g < view_groups; ++g) EXPECT_EQ(scene->method(g).method.method, Method::ecd);
+  for (std::size_t g = 0; g < view_groups; ++g) EXPECT_EQ(scene->method(g).method.method, Method::explicit_central);
   run(*scene, 5);
 }
 

@@ -1,4 +1,4 @@
-// What fibres that pull add to reduced bellies: against the tangent of finite strain and dense matrices.
+// What fibres that pull add to modal bellies: against the tangent of finite strain and dense matrices.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "assets/fem/finite_element.h"
-#include "assets/reduction/reduced_rows.h"
-#include "assets/reduction/reduced_tension.h"
+#include "assets/reduction/modal_rows.h"
+#include "assets/reduction/modal_tension.h"
 #include "engine/eigen.h"
 #include "tests/fem/spindle.h"
 
@@ -20,17 +20,17 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using Square = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-const ReducedBasis& basis_of(bool frame) {
+const ModalBasis& basis_of(bool frame) {
   static const auto make = [](bool loads) {
-    ReducedOptions o;
+    ModalBasisOptions o;
     o.frame_loads = loads;
     o.foundation_hz = loads ? 7 : 0;
     o.middle_ratio = 1.1;
-    auto basis = make_reduced_basis(wide_spindle({4, 4, 16}), Material{}, Element::full, o);
+    auto basis = make_modal_basis(wide_spindle({4, 4, 16}), Material{}, Element::full, o);
     if (!basis) throw std::runtime_error(basis.error().message);
     return *basis;
   };
-  static const ReducedBasis both[] = {make(false), make(true)};
+  static const ModalBasis both[] = {make(false), make(true)};
   return both[frame ? 1 : 0];
 }
 
@@ -81,11 +81,11 @@ TEST(TunedBelly, TensionIsTheTangentOfFibresThatPull) {
 
 TEST(TunedBelly, ItsMotionsAreThoseOfALittleTension) {
   for (const bool frame : {false, true}) {
-    const ReducedBasis& basis = basis_of(frame);
-    const auto n = Index{basis.vectors};
+    const ModalBasis& basis = basis_of(frame);
+    const auto n = Index{basis.modes};
     for (const double ratio : {basis.lowest_ratio, 1.1, basis.highest_ratio}) {
       const double along = 0.93, across = ratio * along, size = across * along;
-      const auto belly = make_reduced_belly(basis, across, along, true);
+      const auto belly = make_modal_belly(basis, across, along, true);
       ASSERT_TRUE(belly) << belly.error().message;
       const Square a(basis.a.data(), n, n), b(basis.b.data(), n, n), c(basis.c.data(), n, n);
       const Square tension(basis.tension.data(), n, n);
@@ -111,16 +111,16 @@ TEST(TunedBelly, ItsMotionsAreThoseOfALittleTension) {
 /// Where the end alone moves a belly, tension changes nothing of where it comes to rest, nor of what that takes.
 TEST(TunedBelly, TheEndsDisplacementHasTheStaticAnswerOfNoTension) {
   for (const bool frame : {false, true}) {
-    const ReducedBasis& basis = basis_of(frame);
-    const auto slack = make_reduced_belly(basis, 1.1, 1.02), tuned = make_reduced_belly(basis, 1.1, 1.02, true);
+    const ModalBasis& basis = basis_of(frame);
+    const auto slack = make_modal_belly(basis, 1.1, 1.02), tuned = make_modal_belly(basis, 1.1, 1.02, true);
     ASSERT_TRUE(slack && tuned);
     EXPECT_FALSE(slack->tuned);
     EXPECT_TRUE(tuned->tuned);
     EXPECT_NEAR(tuned->reaction[0] / slack->reaction[0], 1, 1e-9);
     double largest = 0;
-    for (std::size_t i = 0; i < basis.vectors; ++i) {
+    for (std::size_t i = 0; i < basis.modes; ++i) {
       double rest[2] = {};
-      for (std::size_t j = 0; j < basis.vectors; ++j) {
+      for (std::size_t j = 0; j < basis.modes; ++j) {
         rest[0] += slack->eigenvector[i][j] * (slack->participation[j][0] - slack->lift_share[j]);
         rest[1] += tuned->eigenvector[i][j] * (tuned->participation[j][0] - tuned->lift_share[j]);
       }
@@ -132,12 +132,12 @@ TEST(TunedBelly, TheEndsDisplacementHasTheStaticAnswerOfNoTension) {
 }
 
 TEST(TunedBelly, WhatALaneGetsDoesNotDependOnTheOthers) {
-  const ReducedBasis& basis = basis_of(true);
+  const ModalBasis& basis = basis_of(true);
   std::vector<BellyScale<float>> bodies;
   for (int i = 0; i < 16; ++i)
     bodies.push_back({1.1F + 0.004F * static_cast<float>(i % 5), 1 + 0.003F * static_cast<float>(i % 7)});
-  const std::size_t width = reduced_motion_width(basis.vectors, basis.inputs);
-  ReducedBellies together, alone;
+  const std::size_t width = modal_motion_width(basis.modes, basis.inputs);
+  ModalBellies together, alone;
   together.tuned = alone.tuned = true;
   ASSERT_TRUE(solve_bellies(basis, bodies, together));
   std::vector<Lanes<float>> all(width), own(width);
@@ -151,10 +151,10 @@ TEST(TunedBelly, WhatALaneGetsDoesNotDependOnTheOthers) {
 }
 
 TEST(TunedBelly, AloneItsNumbersAreThoseOfTheBlock) {
-  const ReducedBasis& basis = basis_of(true);
+  const ModalBasis& basis = basis_of(true);
   const BellyScale<float> body{1.1F, 1};
-  const std::size_t width = reduced_motion_width(basis.vectors, basis.inputs);
-  ReducedBellies block;
+  const std::size_t width = modal_motion_width(basis.modes, basis.inputs);
+  ModalBellies block;
   block.tuned = true;
   ASSERT_TRUE(solve_bellies(basis, std::span(&body, 1), block));
   std::vector<Lanes<float>> words(width);

@@ -16,16 +16,16 @@ namespace {
 LegMuscles pulling(ExcitationSource source, Method method = Method::none) {
   LegMuscles choice;
   choice.method = method;
-  choice.reduced.cells = {2, 2, 8};
+  choice.modal.cells = {2, 2, 8};
   choice.activation = source;
   return choice;
 }
 
-Activation<float> activation(const Simulation& simulation, Entity human, std::string_view muscle, Side side) {
-  return *simulation.get<Activation>(simulation.muscle(human, *find_muscle(muscle), side));
+Activation<float> activation(const Simulation& simulation, Entity person, std::string_view muscle, Side side) {
+  return *simulation.get<Activation>(simulation.muscle(person, *find_muscle(muscle), side));
 }
-Musculotendon<float> pull(const Simulation& simulation, Entity human, std::string_view muscle, Side side) {
-  return *simulation.get<Musculotendon>(simulation.muscle(human, *find_muscle(muscle), side));
+Musculotendon<float> pull(const Simulation& simulation, Entity person, std::string_view muscle, Side side) {
+  return *simulation.get<Musculotendon>(simulation.muscle(person, *find_muscle(muscle), side));
 }
 
 void run(Simulation& simulation, int ticks) {
@@ -35,12 +35,12 @@ void run(Simulation& simulation, int ticks) {
 /// Neither the walk nor the lines know of it, and the others' rows are what they were.
 TEST(Activation, WhoDoesNotAskIsAsBefore) {
   Simulation with(sharing()), without(sharing());
-  const Entity asks = join_with(with, person(1), pulling(ExcitationSource::phase, Method::ecd));
-  const Entity does_not = join_with(with, person(2), pulling(ExcitationSource::none, Method::ecd));
-  const Entity same = join_with(without, person(1), pulling(ExcitationSource::none, Method::ecd));
-  const Entity alone = join_with(without, person(2), pulling(ExcitationSource::none, Method::ecd));
+  const Entity asks = join_with(with, sample_person(1), pulling(ExcitationSource::phase, Method::explicit_central));
+  const Entity does_not = join_with(with, sample_person(2), pulling(ExcitationSource::none, Method::explicit_central));
+  const Entity same = join_with(without, sample_person(1), pulling(ExcitationSource::none, Method::explicit_central));
+  const Entity alone = join_with(without, sample_person(2), pulling(ExcitationSource::none, Method::explicit_central));
   run(with, 100), run(without, 100);
-  EXPECT_EQ(hash_human(with, does_not), hash_human(without, alone));
+  EXPECT_EQ(hash_person(with, does_not), hash_person(without, alone));
   const Entity one = with.muscle(asks, Muscle::triceps_surae, Side::right);
   const Entity other = without.muscle(same, Muscle::triceps_surae, Side::right);
   EXPECT_EQ(with.get<LineOfAction>(one)->length_m, without.get<LineOfAction>(other)->length_m);
@@ -50,14 +50,14 @@ TEST(Activation, WhoDoesNotAskIsAsBefore) {
 /// The mesh's end is where the tendon leaves it, by every method.
 TEST(Activation, BellyFollowsWhatTheTendonLeaves) {
   MOBIL_SLOW();
-  for (const Method method :
-       {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
+  for (const Method method : {Method::explicit_central, Method::implicit_central, Method::newmark, Method::statics,
+                              Method::modal, Method::finite}) {
     Simulation simulation(sharing());
-    const Entity human = join_with(simulation, person(3), pulling(ExcitationSource::phase, method));
+    const Entity person = join_with(simulation, sample_person(3), pulling(ExcitationSource::phase, method));
     float apart = 0, by_tendon = 0;
     for (int tick = 0; tick < 90; ++tick) {
       simulation.tick();
-      for (const OwnMuscle& own : simulation.muscles(human)) {
+      for (const MuscleRef& own : simulation.muscles(person)) {
         for (const Entity muscle : own.entity) {
           const auto line = *simulation.get<LineOfAction>(muscle);
           const float belly = simulation.get<Musculotendon>(muscle)->belly_m;
@@ -73,29 +73,29 @@ TEST(Activation, BellyFollowsWhatTheTendonLeaves) {
 
 TEST(Activation, FollowsTheHost) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn_posed({});
+  const Entity person = *simulation.spawn_posed({});
   LegMuscles choice = pulling(ExcitationSource::host);
   choice.muscles |= muscle_members();
-  ASSERT_TRUE(simulation.set_muscles(human, choice));
+  ASSERT_TRUE(simulation.set_muscles(person, choice));
   run(simulation, 10);
   const Muscle soleus = *find_muscle("soleus");
-  EXPECT_NEAR(activation(simulation, human, "soleus", Side::left).activation, 0.01F, 1e-6F);
-  const auto relaxed = pull(simulation, human, "soleus", Side::left);
+  EXPECT_NEAR(activation(simulation, person, "soleus", Side::left).activation, 0.01F, 1e-6F);
+  const auto relaxed = pull(simulation, person, "soleus", Side::left);
   EXPECT_NEAR(relaxed.belly_m, 0, 1e-5F) << "as in who stands";
-  ASSERT_TRUE(simulation.set_excitation(human, soleus, Side::left, 1));
+  ASSERT_TRUE(simulation.set_excitation(person, soleus, Side::left, 1));
   run(simulation, 60);
-  EXPECT_NEAR(activation(simulation, human, "soleus", Side::left).activation, 1, 1e-4F);
-  EXPECT_NEAR(activation(simulation, human, "soleus", Side::right).activation, 0.01F, 1e-6F);
-  const auto pulls = pull(simulation, human, "soleus", Side::left);
+  EXPECT_NEAR(activation(simulation, person, "soleus", Side::left).activation, 1, 1e-4F);
+  EXPECT_NEAR(activation(simulation, person, "soleus", Side::right).activation, 0.01F, 1e-6F);
+  const auto pulls = pull(simulation, person, "soleus", Side::left);
   EXPECT_LT(pulls.belly_m, relaxed.belly_m - 0.005F);
   EXPECT_GT(pulls.tendon_m, relaxed.tendon_m + 0.005F);
   EXPECT_GT(pulls.force_n, 1500);
   EXPECT_GT(pulls.pennation_rad, relaxed.pennation_rad + 0.05F);
   // A group's members all do.
-  ASSERT_TRUE(simulation.set_excitation(human, Muscle::quadriceps, Side::right, 7));
+  ASSERT_TRUE(simulation.set_excitation(person, Muscle::quadriceps, Side::right, 7));
   run(simulation, 60);
-  EXPECT_EQ(activation(simulation, human, "quadriceps", Side::right).excitation, 1);
-  EXPECT_GT(pull(simulation, human, "quadriceps", Side::right).force_n, 500) << "short, on a straight knee";
+  EXPECT_EQ(activation(simulation, person, "quadriceps", Side::right).excitation, 1);
+  EXPECT_GT(pull(simulation, person, "quadriceps", Side::right).force_n, 500) << "short, on a straight knee";
 }
 
 TEST(Activation, BadRequestsSayWhat) {
@@ -124,12 +124,12 @@ TEST(Activation, BadRequestsSayWhat) {
 /// Method changes, snapshots, batches, other sources.
 TEST(Activation, StateGoesOn) {
   Simulation simulation(sharing());
-  const Entity human = join_with(simulation, person(4), pulling(ExcitationSource::phase, Method::reduced));
+  const Entity person = join_with(simulation, sample_person(4), pulling(ExcitationSource::phase, Method::modal));
   run(simulation, 33);
-  const auto before = pull(simulation, human, "triceps_surae", Side::right);
-  const auto excited = activation(simulation, human, "triceps_surae", Side::right);
-  ASSERT_TRUE(simulation.set_method(human, Muscle::triceps_surae, {Method::ecd}));
-  EXPECT_EQ(pull(simulation, human, "triceps_surae", Side::right).fibre_m, before.fibre_m);
+  const auto before = pull(simulation, person, "triceps_surae", Side::right);
+  const auto excited = activation(simulation, person, "triceps_surae", Side::right);
+  ASSERT_TRUE(simulation.set_method(person, Muscle::triceps_surae, {Method::explicit_central}));
+  EXPECT_EQ(pull(simulation, person, "triceps_surae", Side::right).fibre_m, before.fibre_m);
 
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
@@ -142,15 +142,15 @@ TEST(Activation, StateGoesOn) {
 
   // The host takes over where the walk had it.
   ASSERT_TRUE(simulation.restore(bytes, RestoreLimits::none()));
-  LegMuscles hosted = pulling(ExcitationSource::host, Method::reduced);
-  ASSERT_TRUE(simulation.set_muscles(human, hosted));
-  EXPECT_EQ(activation(simulation, human, "triceps_surae", Side::right).activation, excited.activation);
+  LegMuscles hosted = pulling(ExcitationSource::host, Method::modal);
+  ASSERT_TRUE(simulation.set_muscles(person, hosted));
+  EXPECT_EQ(activation(simulation, person, "triceps_surae", Side::right).activation, excited.activation);
   run(simulation, 5);
-  EXPECT_EQ(activation(simulation, human, "triceps_surae", Side::right).excitation, excited.excitation);
+  EXPECT_EQ(activation(simulation, person, "triceps_surae", Side::right).excitation, excited.excitation);
   // Without, the line's length is the belly's again.
-  ASSERT_TRUE(simulation.set_muscles(human, pulling(ExcitationSource::none, Method::statics)));
+  ASSERT_TRUE(simulation.set_muscles(person, pulling(ExcitationSource::none, Method::statics)));
   run(simulation, 2);
-  const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+  const Entity muscle = simulation.muscle(person, Muscle::triceps_surae, Side::right);
   const auto line = *simulation.get<LineOfAction>(muscle);
   EXPECT_NEAR(simulation.get<BellyReport>(muscle)->elongation_m, line.length_m - line.rest_length_m, 1e-6F);
 }
@@ -158,31 +158,31 @@ TEST(Activation, StateGoesOn) {
 TEST(Activation, LeftIsRightHalfACycleLater) {
   Simulation simulation(sharing({.tick_s = 1.0 / 64}));
   // Two steps a second: 64 ticks a cycle.
-  const auto human = simulation.spawn({}, {.speed_m_s = 1.4F, .step_frequency_hz = 2.0F});
-  ASSERT_TRUE(human);
-  ASSERT_TRUE(simulation.set_muscles(*human, pulling(ExcitationSource::phase)));
+  const auto person = simulation.spawn({}, {.speed_m_s = 1.4F, .step_frequency_hz = 2.0F});
+  ASSERT_TRUE(person);
+  ASSERT_TRUE(simulation.set_muscles(*person, pulling(ExcitationSource::phase)));
   run(simulation, 256);
-  const auto right = pull(simulation, *human, "triceps_surae", Side::right);
-  const auto excited = activation(simulation, *human, "triceps_surae", Side::right);
+  const auto right = pull(simulation, *person, "triceps_surae", Side::right);
+  const auto excited = activation(simulation, *person, "triceps_surae", Side::right);
   run(simulation, 32);
-  const auto left = pull(simulation, *human, "triceps_surae", Side::left);
+  const auto left = pull(simulation, *person, "triceps_surae", Side::left);
   EXPECT_NEAR(left.force_n, right.force_n, 0.02F * right.force_n + 1);
-  EXPECT_NEAR(activation(simulation, *human, "triceps_surae", Side::left).activation, excited.activation, 0.01F);
+  EXPECT_NEAR(activation(simulation, *person, "triceps_surae", Side::left).activation, excited.activation, 0.01F);
 }
 
 /// The phase is that of the walk: at a heel strike of its own a leg's tibialis is strongly excited, its calf is not.
 TEST(Activation, IsInStepWithTheFeet) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn({}, {.speed_m_s = 1.3F});
-  ASSERT_TRUE(simulation.set_muscles(human, pulling(ExcitationSource::phase)));
+  const Entity person = *simulation.spawn({}, {.speed_m_s = 1.3F});
+  ASSERT_TRUE(simulation.set_muscles(person, pulling(ExcitationSource::phase)));
   run(simulation, 120);
   for (int tick = 0; tick < 120; ++tick) {
     simulation.tick();
-    const Feet<float> feet = *simulation.get<Feet>(human);
+    const Feet<float> feet = *simulation.get<Feet>(person);
     for (const Side side : {Side::right, Side::left}) {
       const float cycle = feet.phase[side];
-      const float calf = activation(simulation, human, "triceps_surae", side).excitation;
-      const float shin = activation(simulation, human, "tibialis_anterior", side).excitation;
+      const float calf = activation(simulation, person, "triceps_surae", side).excitation;
+      const float shin = activation(simulation, person, "tibialis_anterior", side).excitation;
       if (cycle < 0.03F) {
         EXPECT_GT(shin, 2 * calf) << cycle;
       } else if (cycle > 0.35F && cycle < 0.45F) {

@@ -14,7 +14,7 @@
 #include <mobil/host_parts.h>
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/labels.h"
 #include "tests/simulation/simulation_hash.h"
@@ -24,10 +24,10 @@ MOBIL_TEST_LABELS("threads");
 namespace mobil {
 namespace {
 
-LegMuscles unseen(std::uint32_t vectors) {
+LegMuscles unseen(std::uint32_t modes) {
   LegMuscles choice;
-  choice.method = Method::reduced;
-  choice.reduced = {.vectors = vectors, .cells = {2, 2, 8}, .control_points = false, .reported = false};
+  choice.method = Method::modal;
+  choice.modal = {.modes = modes, .cells = {2, 2, 8}, .control_points = false, .reported = false};
   return choice;
 }
 
@@ -36,13 +36,13 @@ struct Pair {
   explicit Pair(int count, const std::optional<LegMuscles>& muscles = std::nullopt, int threads = 1)
       : compact(sharing({.threads = threads})), whole(sharing({.threads = threads})) {
     for (int i = 0; i < count; ++i) {
-      const Person one = person(i);
+      const SamplePerson one = sample_person(i);
       for (Simulation* const simulation : {&compact, &whole}) {
-        const Entity human = *simulation->spawn(one.body, one.gait);
+        const Entity person = *simulation->spawn(one.body, one.gait);
         if (muscles) {
-          EXPECT_TRUE(simulation->set_muscles(human, *muscles));
+          EXPECT_TRUE(simulation->set_muscles(person, *muscles));
         }
-        (simulation == &compact ? small : large).push_back(human);
+        (simulation == &compact ? small : large).push_back(person);
       }
     }
   }
@@ -68,8 +68,8 @@ struct Pair {
 };
 
 std::vector<float> state_of(const Simulation& simulation, Entity muscle) {
-  std::vector<float> state(*simulation.world().get<ReducedState>(muscle));
-  EXPECT_EQ(simulation.world().get_field<ReducedState>(muscle, state), Status::ok);
+  std::vector<float> state(*simulation.world().get<ModalState>(muscle));
+  EXPECT_EQ(simulation.world().get_field<ModalState>(muscle, state), Status::ok);
   return state;
 }
 
@@ -106,16 +106,16 @@ TEST(Compact, WhoWasCompactIsWhereWhoNeverWasIs) {
 /// Near the origin: far from it whole people's places, and with them their lines, lose digits that compact ones keep.
 TEST(Compact, MusclesGoOnWithinFourMicrometres) {
   MOBIL_SLOW();
-  for (const std::uint32_t vectors : {4U, 12U}) {
-    Pair pair(40, unseen(vectors));
+  for (const std::uint32_t modes : {4U, 12U}) {
+    Pair pair(40, unseen(modes));
     pair.tick(20);
     ASSERT_EQ(*pair.compact.set_state(pair.small, PersonState::compact), pair.small.size());
     for (std::size_t i = 0; i < pair.small.size(); i += 3) pair.turn(i, i % 2 == 0 ? 1.2F : -0.7F);
     for (std::size_t i = 1; i < pair.small.size(); i += 3) pair.hasten(i, i % 2 == 0 ? 0.0F : 1.5F);
     pair.tick(120);
     ASSERT_TRUE(pair.compact.set_state(pair.small, PersonState::full));
-    MuscleMethod seen = {Method::reduced, unseen(vectors).reduced};
-    seen.reduced.control_points = true;
+    MuscleMethod seen = {Method::modal, unseen(modes).modal};
+    seen.modal.control_points = true;
     double worst_end = 0, worst_point = 0, largest = 0;
     for (std::size_t i = 0; i < pair.small.size(); ++i) {
       for (std::size_t m = 0; m < muscle_group_count; ++m) {
@@ -147,15 +147,15 @@ TEST(Compact, HandingOverAndBackChangesNothing) {
   Simulation simulation(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 19; ++i) {
-    people.push_back(*simulation.spawn(person(i).body, person(i).gait));
+    people.push_back(*simulation.spawn(sample_person(i).body, sample_person(i).gait));
     ASSERT_TRUE(simulation.set_muscles(people.back(), unseen(6)));
   }
   for (int i = 0; i < 30; ++i) simulation.tick();
   std::vector<std::vector<float>> before;
   const auto states = [&] {
     std::vector<std::vector<float>> all;
-    for (const Entity human : people) {
-      for (const OwnMuscle& own : simulation.muscles(human))
+    for (const Entity person : people) {
+      for (const MuscleRef& own : simulation.muscles(person))
         for (const Entity muscle : own.entity) {
           all.push_back(state_of(simulation, muscle));
           all.back().push_back(simulation.get<EndDrive>(muscle)->to);
@@ -178,28 +178,27 @@ TEST(Compact, HandingOverAndBackChangesNothing) {
 
 TEST(Compact, EachMuscleHasTheMethodThatItHad) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn({});
-  ASSERT_TRUE(simulation.set_muscles(human, unseen(4)));
-  const auto reduced = [](std::uint32_t vectors, bool moving) {
-    ReducedChoice choice = unseen(vectors).reduced;
+  const Entity person = *simulation.spawn({});
+  ASSERT_TRUE(simulation.set_muscles(person, unseen(4)));
+  const auto modal = [](std::uint32_t modes, bool moving) {
+    ModalOptions choice = unseen(modes).modal;
     choice.moving = moving;
-    return MuscleMethod{Method::reduced, choice};
+    return MuscleMethod{Method::modal, choice};
   };
-  const std::vector<MuscleMethod> methods = {
-      {Method::none, {}}, reduced(12, false), reduced(7, true), reduced(4, true)};
+  const std::vector<MuscleMethod> methods = {{Method::none, {}}, modal(12, false), modal(7, true), modal(4, true)};
   for (std::size_t m = 0; m < methods.size(); ++m)
-    ASSERT_TRUE(simulation.set_method(human, static_cast<Muscle>(m), methods[m]));
-  ASSERT_EQ(*simulation.set_state({&human, 1}, PersonState::compact), 1U);
+    ASSERT_TRUE(simulation.set_method(person, static_cast<Muscle>(m), methods[m]));
+  ASSERT_EQ(*simulation.set_state({&person, 1}, PersonState::compact), 1U);
   const auto as_asked = [&] {
     for (std::size_t m = 0; m < methods.size(); ++m)
-      EXPECT_TRUE(same_method(simulation.method(human, static_cast<Muscle>(m)), methods[m])) << m;
+      EXPECT_TRUE(same_method(simulation.method(person, static_cast<Muscle>(m)), methods[m])) << m;
   };
   as_asked();
   simulation.tick();
-  EXPECT_EQ(simulation.human(human)->leg_muscles.muscles, muscle_groups());
-  ASSERT_TRUE(simulation.set_state({&human, 1}, PersonState::full));
+  EXPECT_EQ(simulation.person(person)->leg_muscles.muscles, muscle_groups());
+  ASSERT_TRUE(simulation.set_state({&person, 1}, PersonState::full));
   as_asked();
-  EXPECT_EQ(simulation.muscles(human).size(), 4U);
+  EXPECT_EQ(simulation.muscles(person).size(), 4U);
 }
 
 template <class F>
@@ -208,45 +207,45 @@ struct Sticker {
 };
 
 TEST(Compact, NotWhoHasWhatACompactRowCannotHold) {
-  Simulation simulation({.modules = {{.name = "stickers", .parts = {component_part<Sticker>()}}}});
-  const auto stays_whole = [&](Entity human, const char* what) {
-    EXPECT_EQ(simulation.set_state({&human, 1}, PersonState::compact).value(), 0U) << what;
-    EXPECT_NE(simulation.state(human), PersonState::compact) << what;
+  Simulation simulation({.modules = {{.name = "stickers", .parts = {component_id<Sticker>()}}}});
+  const auto stays_full = [&](Entity person, const char* what) {
+    EXPECT_EQ(simulation.set_state({&person, 1}, PersonState::compact).value(), 0U) << what;
+    EXPECT_NE(simulation.state(person), PersonState::compact) << what;
   };
   const auto with = [&](const LegMuscles& choice) {
-    const Entity human = *simulation.spawn({});
-    EXPECT_TRUE(simulation.set_muscles(human, choice));
-    return human;
+    const Entity person = *simulation.spawn({});
+    EXPECT_TRUE(simulation.set_muscles(person, choice));
+    return person;
   };
-  stays_whole(*simulation.spawn_posed({}), "posed");
+  stays_full(*simulation.spawn_posed({}), "posed");
   const Entity pressing = *simulation.spawn({});
   ASSERT_TRUE(simulation.enable(pressing, Feature::forces));
-  stays_whole(pressing, "forces");
+  stays_full(pressing, "forces");
   LegMuscles choice = unseen(4);
-  choice.reduced.control_points = true;
-  stays_whole(with(choice), "control points");
+  choice.modal.control_points = true;
+  stays_full(with(choice), "control points");
   choice = unseen(4);
   choice.inertia = true;
-  stays_whole(with(choice), "inertia");
+  stays_full(with(choice), "inertia");
   choice = unseen(4);
   choice.line_motion = true;
-  stays_whole(with(choice), "line motion");
+  stays_full(with(choice), "line motion");
   choice = unseen(4);
   choice.drive = Drive::force;
-  stays_whole(with(choice), "drawn by force");
+  stays_full(with(choice), "drawn by force");
   choice = unseen(4);
-  choice.method = Method::ecd;
-  stays_whole(with(choice), "explicit");
+  choice.method = Method::explicit_central;
+  stays_full(with(choice), "explicit");
   choice = unseen(4);
   choice.activation = ExcitationSource::phase;
-  stays_whole(with(choice), "activation");
+  stays_full(with(choice), "activation");
   choice = unseen(31);
   choice.muscles = 1;
-  choice.reduced.cells = {4, 4, 16};
-  stays_whole(with(choice), "too many vectors");
+  choice.modal.cells = {4, 4, 16};
+  stays_full(with(choice), "too many modes");
   const Entity labelled = with(unseen(4));
   ASSERT_TRUE(simulation.parts().add(simulation.muscle(labelled, Muscle::quadriceps, Side::left), Sticker<float>{1}));
-  stays_whole(labelled, "a host's part of a muscle");
+  stays_full(labelled, "a host's part of a muscle");
   const Entity fine = with(unseen(4));
   ASSERT_TRUE(simulation.parts().add(fine, Sticker<float>{7}));
   EXPECT_EQ(simulation.set_state({&fine, 1}, PersonState::compact).value(), 1U);
@@ -262,30 +261,30 @@ TEST(Compact, NotWhoHasWhatACompactRowCannotHold) {
 
 TEST(Compact, OtherCallsMakeWholeFirst) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn({});
-  ASSERT_TRUE(simulation.set_muscles(human, unseen(4)));
-  const auto small = [&] { EXPECT_EQ(simulation.set_state({&human, 1}, PersonState::compact).value(), 1U); };
+  const Entity person = *simulation.spawn({});
+  ASSERT_TRUE(simulation.set_muscles(person, unseen(4)));
+  const auto small = [&] { EXPECT_EQ(simulation.set_state({&person, 1}, PersonState::compact).value(), 1U); };
   small();
-  ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.1F}));
-  ASSERT_TRUE(simulation.turn_to(human, 0.5F));
+  ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 1.1F}));
+  ASSERT_TRUE(simulation.turn_to(person, 0.5F));
   simulation.tick();
-  EXPECT_EQ(simulation.state(human), PersonState::compact);
-  ASSERT_TRUE(simulation.place(human, 3, 4, 0.2F));
-  ASSERT_TRUE(simulation.enable({&human, 1}, Feature::step_events));
-  EXPECT_EQ(simulation.state(human), PersonState::compact);
-  EXPECT_NEAR(simulation.get<Pose>(human)->position_m[0].x, 3, 0.5);
-  ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none, {}}));
-  EXPECT_NE(simulation.state(human), PersonState::compact);
+  EXPECT_EQ(simulation.state(person), PersonState::compact);
+  ASSERT_TRUE(simulation.place(person, 3, 4, 0.2F));
+  ASSERT_TRUE(simulation.enable({&person, 1}, Feature::step_events));
+  EXPECT_EQ(simulation.state(person), PersonState::compact);
+  EXPECT_NEAR(simulation.get<Pose>(person)->position_m[0].x, 3, 0.5);
+  ASSERT_TRUE(simulation.set_method(person, Muscle::hamstrings, {Method::none, {}}));
+  EXPECT_NE(simulation.state(person), PersonState::compact);
   small();
-  ASSERT_TRUE(simulation.set_muscles(human, std::nullopt));
-  EXPECT_TRUE(simulation.muscles(human).empty());
+  ASSERT_TRUE(simulation.set_muscles(person, std::nullopt));
+  EXPECT_TRUE(simulation.muscles(person).empty());
   small();
-  ASSERT_TRUE(simulation.set_muscles(human, unseen(4)));
-  EXPECT_EQ(simulation.muscles(human).size(), 4U);
+  ASSERT_TRUE(simulation.set_muscles(person, unseen(4)));
+  EXPECT_EQ(simulation.muscles(person).size(), 4U);
   small();
-  ASSERT_TRUE(simulation.enable(human, Feature::forces));
+  ASSERT_TRUE(simulation.enable(person, Feature::forces));
   simulation.tick();
-  EXPECT_TRUE(simulation.get<GroundReaction>(human));
+  EXPECT_TRUE(simulation.get<GroundReaction>(person));
 }
 
 TEST(Compact, FallsAsleepAndWakes) {
@@ -298,7 +297,7 @@ TEST(Compact, FallsAsleepAndWakes) {
   ASSERT_TRUE(pair.compact.set_state(pair.small, PersonState::full));
   for (std::size_t i = 0; i < pair.small.size(); ++i) {
     EXPECT_TRUE(pair.all_same(i));
-    EXPECT_EQ(pair.compact.method(pair.small[i], Muscle::quadriceps).reduced.vectors, 4U);
+    EXPECT_EQ(pair.compact.method(pair.small[i], Muscle::quadriceps).modal.modes, 4U);
     EXPECT_EQ(pair.compact.muscles(pair.small[i]).size(), 4U);
   }
 }
@@ -307,7 +306,7 @@ TEST(Compact, SnapshotsAndAnotherOriginKeepThem) {
   Simulation simulation(sharing({.threads = 2}));
   std::vector<Entity> people;
   for (int i = 0; i < 21; ++i) {
-    people.push_back(*simulation.spawn(person(i).body, person(i).gait));
+    people.push_back(*simulation.spawn(sample_person(i).body, sample_person(i).gait));
     if (i % 3 != 0) {
       ASSERT_TRUE(simulation.set_muscles(people.back(), unseen(i % 2 == 0 ? 4 : 9)));
     }

@@ -55,7 +55,7 @@ TEST(CrowdDeterminism, EverythingIsUnderWay) {
   };
   for (int i = 0; i < ticks; ++i) {
     crowd.tick();
-    for (const auto& [who, human] : crowd.people()) seen.insert(who);
+    for (const auto& [who, person] : crowd.people()) seen.insert(who);
     note_work(crowd);
     if ((i + 1) % apart == 0) seen_hashes.push_back(crowd.hashes());
   }

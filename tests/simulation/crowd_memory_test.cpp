@@ -35,8 +35,8 @@ std::vector<Effects> every_effect() {
   std::vector<Effects> all;
   for (const MuscleMethod& method : play::every_method()) {
     for (const bool more : {false, true}) {
-      Effects e{more, {.method = method.method, .reduced = method.reduced, .inertia = more, .line_motion = more}};
-      if (more && method.method == Method::ecd) e.muscles.drive = Drive::force;
+      Effects e{more, {.method = method.method, .modal = method.modal, .inertia = more, .line_motion = more}};
+      if (more && method.method == Method::explicit_central) e.muscles.drive = Drive::force;
       e.muscles.muscles = 0;
       e.muscles.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
       all.push_back(e);
@@ -55,18 +55,18 @@ TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
     Simulation simulation(sharing(o));
     for (std::size_t i = 0; i < 2 * effects.size(); ++i) {
       const Effects& e = effects[i % effects.size()];
-      const Entity human = join(simulation, person(static_cast<int>(i)), false);
+      const Entity person = join(simulation, sample_person(static_cast<int>(i)), false);
       if (e.forces) {
-        EXPECT_EQ(simulation.enable(human, Feature::forces), Status::ok);
+        EXPECT_EQ(simulation.enable(person, Feature::forces), Status::ok);
       }
-      const auto added = simulation.set_muscles(human, e.muscles);
+      const auto added = simulation.set_muscles(person, e.muscles);
       ASSERT_TRUE(added) << added.error().message;
       if (i % 2 == 0) {
-        EXPECT_TRUE(simulation.enable({&human, 1}, Feature::step_events));
+        EXPECT_TRUE(simulation.enable({&person, 1}, Feature::step_events));
       }
       // a change of method fades and is over before what is counted begins
       if (i % 3 == 0) {
-        EXPECT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::statics}));
+        EXPECT_TRUE(simulation.set_method(person, Muscle::hamstrings, {Method::statics}));
       }
     }
     for (int i = 0; i < 80; ++i) simulation.tick();
@@ -98,7 +98,7 @@ TEST(CrowdMemory, AllComesFromTheCallerAndGoesBack) {
 /// What there is: handles and state of everybody, and what the facade says of them.
 std::uint64_t all_of(const Simulation& simulation, const std::vector<Entity>& people) {
   std::uint64_t hash = hash_world(simulation);
-  for (const Entity human : people) hash = fnv(hash_human(simulation, human), static_cast<std::uint32_t>(hash));
+  for (const Entity person : people) hash = fnv(hash_person(simulation, person), static_cast<std::uint32_t>(hash));
   return hash;
 }
 
@@ -114,12 +114,12 @@ void refuse_at_every_request(const Change& change, Refuses who) {
     auto simulation = std::make_unique<Simulation>(options);
     static const std::vector<std::byte> usual = [] {
       Simulation first;
-      join(first, person(0));
+      join(first, sample_person(0));
       return first.muscle_library().bake();
     }();
     EXPECT_TRUE(simulation->muscle_library().load(usual));  // and makes what else it needs itself
     people.reserve(32);
-    for (int i = 0; i < 16; ++i) people.push_back(join(*simulation, person(i), i % 4 == 0));
+    for (int i = 0; i < 16; ++i) people.push_back(join(*simulation, sample_person(i), i % 4 == 0));
     for (int i = 0; i < 5; ++i) simulation->tick();
     return simulation;
   };
@@ -155,7 +155,7 @@ void refuse_at_every_request(const Change& change, Refuses who) {
   ASSERT_EQ(people.size(), others.size());
   for (std::size_t i = 0; i < people.size(); ++i) {
     EXPECT_EQ(people[i], others[i]) << "person " << i;  // no handle is lost to a refusal
-    EXPECT_EQ(hash_human(*simulation, people[i]), hash_human(*other, others[i])) << "person " << i;
+    EXPECT_EQ(hash_person(*simulation, people[i]), hash_person(*other, others[i])) << "person " << i;
   }
 }
 
@@ -164,23 +164,24 @@ void refuse_at_every_request(const Change& change) {
   refuse_at_every_request(change, Refuses::heap);
 }
 
-void add(Simulation& simulation, Entity human, const LegMuscles& choice) {
-  const auto added = simulation.set_muscles(human, choice);
+void add(Simulation& simulation, Entity person, const LegMuscles& choice) {
+  const auto added = simulation.set_muscles(person, choice);
   ASSERT_TRUE(added) << added.error().message;
 }
 
 TEST(CrowdMemory, ASpawnWithoutMemoryChangesNothing) {
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
-    people.push_back(*simulation.spawn(person(20).body, person(20).gait));
+    people.push_back(*simulation.spawn(sample_person(20).body, sample_person(20).gait));
   });
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
-    people.push_back(*simulation.spawn_posed(person(20).body));
+    people.push_back(*simulation.spawn_posed(sample_person(20).body));
   });
 }
 
 TEST(CrowdMemory, AddingMusclesWithoutMemoryChangesNothing) {
-  refuse_at_every_request(
-      [](Simulation& simulation, std::vector<Entity>& people) { add(simulation, people[1], {.method = Method::caa}); });
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    add(simulation, people[1], {.method = Method::newmark});
+  });
 }
 
 TEST(CrowdMemory, AChangeOfMethodWithoutMemoryChangesNothing) {
@@ -207,20 +208,22 @@ TEST(CrowdMemory, WatchingAndPlacingWithoutMemoryChangesNothing) {
   });
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     std::vector<PlaceRequest> places;
-    for (const Entity human : people) places.push_back({human, static_cast<float>(human.index), 5, 1});
+    for (const Entity person : people) places.push_back({person, static_cast<float>(person.index), 5, 1});
     ASSERT_TRUE(simulation.place(places));
   });
 }
 
 TEST(CrowdMemory, SpawningManyWithMusclesIsAllOrNoneToo) {
-  LegMuscles far{.method = Method::reduced, .reduced = play::reduced(12, true, false)}, near = far;
-  near.reduced.control_points = true;
-  const std::array<LegMuscles, 4> choices = {
-      near, {.method = Method::icd, .inertia = true}, far, {.drive = Drive::force, .method = Method::none}};
+  LegMuscles far{.method = Method::modal, .modal = play::modal(12, true, false)}, near = far;
+  near.modal.control_points = true;
+  const std::array<LegMuscles, 4> choices = {near,
+                                             {.method = Method::implicit_central, .inertia = true},
+                                             far,
+                                             {.drive = Drive::force, .method = Method::none}};
   refuse_at_every_request([&](Simulation& simulation, std::vector<Entity>& people) {
     std::vector<SpawnRequest> requests;
     for (int i = 0; i < 8; ++i) {
-      requests.push_back({.body = person(20 + i).body, .gait = person(20 + i).gait});
+      requests.push_back({.body = sample_person(20 + i).body, .gait = sample_person(20 + i).gait});
       if (i % 5 != 0) requests.back().muscles = choices[static_cast<std::size_t>(i % 4)];
     }
     std::vector<Entity> come(requests.size());
@@ -234,16 +237,16 @@ TEST(CrowdMemory, GoingTakesNone) {
   CountingMemory memory;
   Simulation simulation(sharing({.memory = &memory}));
   std::vector<Entity> people;
-  for (int i = 0; i < 40; ++i) people.push_back(join(simulation, person(i), i % 2 == 0));
+  for (int i = 0; i < 40; ++i) people.push_back(join(simulation, sample_person(i), i % 2 == 0));
   const std::span<const Entity> all = people;
   const std::array<Entity, 2> twice = {people[20], people[20]};
   memory.refuse_after = 0;
   heap_refuse_at = 0;
   const auto refused = simulation.despawn(twice);
   bool gone = true;
-  for (const Entity human : all.first(20)) gone = simulation.despawn(human) == Status::ok && gone;
-  for (const Entity human : all.subspan(20, 4))
-    gone = simulation.set_muscles(human, std::nullopt) != Status::stale_entity && gone;
+  for (const Entity person : all.first(20)) gone = simulation.despawn(person) == Status::ok && gone;
+  for (const Entity person : all.subspan(20, 4))
+    gone = simulation.set_muscles(person, std::nullopt) != Status::stale_entity && gone;
   gone = simulation.despawn(all.subspan(20)) == Status::ok && gone;
   memory.refuse_after = heap_refuse_at = SIZE_MAX;
   EXPECT_EQ(refused, Status::stale_entity);
@@ -260,7 +263,7 @@ TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
   const auto grow_to = [&](std::size_t count) {
     while (people.size() < count) {
       const Effects& e = effects[people.size() % effects.size()];
-      people.push_back(join(simulation, person(static_cast<int>(people.size() % (4 * effects.size()))), false));
+      people.push_back(join(simulation, sample_person(static_cast<int>(people.size() % (4 * effects.size()))), false));
       if (e.forces) {
         EXPECT_EQ(simulation.enable(people.back(), Feature::forces), Status::ok);
       }
@@ -278,12 +281,12 @@ TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
   MOBIL_SLOW();
   CountingMemory memory;
   Simulation simulation(sharing({.memory = &memory}));
-  LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, false)};
+  LegMuscles choice{.method = Method::modal, .modal = play::modal(12, true, false)};
   std::vector<Entity> people;
   const auto grow_to = [&](std::size_t count) {
     std::vector<SpawnRequest> more(64);
     for (std::size_t i = 0; i < more.size(); ++i) {
-      const Person p = person(static_cast<int>(i));
+      const SamplePerson p = sample_person(static_cast<int>(i));
       more[i].body = p.body, more[i].gait = p.gait, more[i].muscles = choice;
     }
     while (people.size() < count) {

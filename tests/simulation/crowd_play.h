@@ -29,19 +29,19 @@ namespace mobil::play {
 // Coarse meshes, whose bases are made in no time.
 inline constexpr Cells coarse = {2, 2, 8};
 
-inline ReducedChoice reduced(std::uint32_t vectors, bool moving, bool seen) {
-  return {.vectors = vectors, .moving = moving, .cells = coarse, .control_points = seen};
+inline ModalOptions modal(std::uint32_t modes, bool moving, bool seen) {
+  return {.modes = modes, .moving = moving, .cells = coarse, .control_points = seen};
 }
 
 inline const std::array<MuscleMethod, 10>& every_method() {
-  static const std::array<MuscleMethod, 10> all = {{{Method::ecd},
-                                                    {Method::icd},
-                                                    {Method::caa},
+  static const std::array<MuscleMethod, 10> all = {{{Method::explicit_central},
+                                                    {Method::implicit_central},
+                                                    {Method::newmark},
                                                     {Method::statics},
-                                                    {Method::reduced, reduced(12, true, true)},
-                                                    {Method::reduced, reduced(12, true, false)},
-                                                    {Method::reduced, reduced(5, true, true)},
-                                                    {Method::reduced, reduced(8, false, true)},
+                                                    {Method::modal, modal(12, true, true)},
+                                                    {Method::modal, modal(12, true, false)},
+                                                    {Method::modal, modal(5, true, true)},
+                                                    {Method::modal, modal(8, false, true)},
                                                     {Method::finite},
                                                     {Method::none}}};
   return all;
@@ -56,8 +56,8 @@ inline std::uint64_t mixed(std::uint64_t seed, std::uint64_t who, std::uint64_t 
 inline LegMuscles choice_of(std::uint64_t draw) {
   LegMuscles choice;
   choice.method = every_method()[draw % every_method().size()].method;
-  choice.reduced = every_method()[draw % every_method().size()].reduced;
-  choice.reduced.cells = coarse;
+  choice.modal = every_method()[draw % every_method().size()].modal;
+  choice.modal.cells = coarse;
   draw /= every_method().size();
   choice.line_motion = draw % 2 == 0;
   choice.muscles = 0;
@@ -70,9 +70,9 @@ inline LegMuscles choice_of(std::uint64_t draw) {
     choice.muscles.set(static_cast<std::size_t>(Muscle::tibialis_anterior));
     choice.activation = static_cast<ExcitationSource>(draw / 6 % 3);
     if (draw / 18 % 3 != 0) choice.finite_shape = draw / 18 % 3 == 1;
-    choice.reduced.tuned = has_activation(choice) && draw / 54 % 2 == 0;
-    choice.inertia = choice.reduced.tuned && draw / 108 % 2 == 0;
-    if (choice.method == Method::ecd) choice.muscles.set(static_cast<std::size_t>(Muscle::quadriceps));
+    choice.modal.tuned = has_activation(choice) && draw / 54 % 2 == 0;
+    choice.inertia = choice.modal.tuned && draw / 108 % 2 == 0;
+    if (choice.method == Method::explicit_central) choice.muscles.set(static_cast<std::size_t>(Muscle::quadriceps));
   }
   return choice;
 }
@@ -125,7 +125,7 @@ class Crowd {
   std::map<int, std::uint64_t> hashes() const {
     std::map<int, std::uint64_t> all;
     all[-1] = simulation_.state_hash();
-    for (const auto& [who, human] : people_) all[who] = hash_human(simulation_, human);
+    for (const auto& [who, person] : people_) all[who] = hash_person(simulation_, person);
     return all;
   }
 
@@ -142,36 +142,36 @@ class Crowd {
   }
 
   void come(int who) {
-    Person p = person(who);
+    SamplePerson p = sample_person(who);
     if (who % 2 == 0) p.gait.style = snapped(p.gait.style);
     if (is_posed(who)) p.body.limbs = {0.27F * p.body.height_m, 0, 0, 0.16F * p.body.height_m};
-    const auto human = is_posed(who) ? simulation_.spawn_posed(p.body) : simulation_.spawn(p.body, p.gait);
-    ASSERT_TRUE(human) << human.error().message;
-    people_[who] = *human;
+    const auto person = is_posed(who) ? simulation_.spawn_posed(p.body) : simulation_.spawn(p.body, p.gait);
+    ASSERT_TRUE(person) << person.error().message;
+    people_[who] = *person;
     if (is_posed(who)) {
-      EXPECT_EQ(simulation_.enable(*human, Feature::forces), Status::ok);
+      EXPECT_EQ(simulation_.enable(*person, Feature::forces), Status::ok);
     }
     if (who % 3 == 0 && !is_posed(who)) {
-      EXPECT_TRUE(simulation_.enable({&*human, 1}, Feature::step_events));
+      EXPECT_TRUE(simulation_.enable({&*person, 1}, Feature::step_events));
     }
     if (who % 4 == 1) {
-      EXPECT_TRUE(simulation_.enable({&*human, 1}, Feature::fat));
+      EXPECT_TRUE(simulation_.enable({&*person, 1}, Feature::fat));
     }
     if (is_on_hills(who)) {
-      EXPECT_TRUE(terrain_.manage({&*human, 1}));
+      EXPECT_TRUE(terrain_.manage({&*person, 1}));
     }
     if (avoids_others(who)) {
-      EXPECT_TRUE(simulation_.avoidance().manage(*human));
+      EXPECT_TRUE(simulation_.avoidance().manage(*person));
     }
     if (who % 8 == 5) return;  // walks without muscles
-    const auto added = simulation_.set_muscles(*human, choice_for(*human, draw(who, -1)));
+    const auto added = simulation_.set_muscles(*person, choice_for(*person, draw(who, -1)));
     ASSERT_TRUE(added) << added.error().message;
   }
 
   /// Who has forces follows moments where others follow the phase.
-  LegMuscles choice_for(Entity human, std::uint64_t how) const {
+  LegMuscles choice_for(Entity person, std::uint64_t how) const {
     LegMuscles choice = choice_of(how);
-    if (choice.activation == ExcitationSource::phase && simulation_.get<JointMoments>(human))
+    if (choice.activation == ExcitationSource::phase && simulation_.get<JointMoments>(person))
       choice.activation = ExcitationSource::moments;
     return choice;
   }
@@ -181,70 +181,70 @@ class Crowd {
     people_.erase(who);
   }
 
-  void ask(int who, Entity human) {
+  void ask(int who, Entity person) {
     const std::uint64_t what = draw(who, now_);
     if (is_posed(who)) {
-      Pose<float> pose = *simulation_.get<Pose>(human);
+      Pose<float> pose = *simulation_.get<Pose>(person);
       for (auto& at : pose.position_m) at.z += 0.01F * static_cast<float>(what % 3);
-      EXPECT_EQ(simulation_.set_pose(human, pose), Status::ok);
+      EXPECT_EQ(simulation_.set_pose(person, pose), Status::ok);
     }
     if (what % 24 == 1) {
-      EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::asleep));
+      EXPECT_TRUE(simulation_.set_state({&person, 1}, PersonState::asleep));
     } else if (what % 24 == 2 || (what % 24 == 0 && what / 24 % 2 == 0)) {
-      EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::full));  // for muscles, too
+      EXPECT_TRUE(simulation_.set_state({&person, 1}, PersonState::full));  // for muscles, too
     }
-    if (what % 24 == 3 || what % 24 == 4) shrink(human, what / 24);
+    if (what % 24 == 3 || what % 24 == 4) shrink(person, what / 24);
     if (what % 24 == 5) {
-      EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::full));
+      EXPECT_TRUE(simulation_.set_state({&person, 1}, PersonState::full));
     }
     if (what % 24 != 0) return;
     const std::uint64_t how = what / 24 / 8;
     if (what / 24 % 2 == 0) {
-      ask_for_muscles(human, what / 48 % 4, how);
+      ask_for_muscles(person, what / 48 % 4, how);
     } else if (!is_posed(who)) {
-      ask_to_walk(human, what / 48 % 4, how);
+      ask_to_walk(person, what / 48 % 4, how);
     }
   }
 
   /// With muscles that may be compact, or without.
-  void shrink(Entity human, std::uint64_t how) {
+  void shrink(Entity person, std::uint64_t how) {
     LegMuscles choice;
     choice.muscles = how % 2 == 0 ? 1 : 9;
-    choice.method = how % 5 == 0 ? Method::none : Method::reduced;
-    choice.reduced = reduced(how % 3 == 0 ? 5 : 12, true, false);
-    if (!simulation_.muscles(human).empty()) {
-      EXPECT_TRUE(simulation_.set_muscles(human, choice));
+    choice.method = how % 5 == 0 ? Method::none : Method::modal;
+    choice.modal = modal(how % 3 == 0 ? 5 : 12, true, false);
+    if (!simulation_.muscles(person).empty()) {
+      EXPECT_TRUE(simulation_.set_muscles(person, choice));
     }
-    EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::compact));
+    EXPECT_TRUE(simulation_.set_state({&person, 1}, PersonState::compact));
   }
 
-  void ask_to_walk(Entity human, std::uint64_t what, std::uint64_t how) {
+  void ask_to_walk(Entity person, std::uint64_t what, std::uint64_t how) {
     const auto part = static_cast<float>(how % 1000) * 1e-3F;
     if (what == 0) {
-      EXPECT_TRUE(simulation_.change_gait(human, {.speed_m_s = how % 5 == 0 ? 0.0F : 0.7F + part}));
+      EXPECT_TRUE(simulation_.change_gait(person, {.speed_m_s = how % 5 == 0 ? 0.0F : 0.7F + part}));
     } else if (what == 1) {
-      EXPECT_TRUE(simulation_.turn_to(human, 6 * (part - 0.5F)));
+      EXPECT_TRUE(simulation_.turn_to(person, 6 * (part - 0.5F)));
     } else if (what == 2) {
-      EXPECT_EQ(simulation_.enable(human, Feature::forces), Status::ok);
+      EXPECT_EQ(simulation_.enable(person, Feature::forces), Status::ok);
     } else {
-      EXPECT_NE(simulation_.enable(human, Feature::forces, false), Status::stale_entity);
+      EXPECT_NE(simulation_.enable(person, Feature::forces, false), Status::stale_entity);
     }
   }
 
-  void ask_for_muscles(Entity human, std::uint64_t what, std::uint64_t how) {
-    EXPECT_TRUE(simulation_.set_state({&human, 1}, PersonState::full));
-    const auto hamstrings = simulation_.muscle(human, Muscle::hamstrings, Side::right);
+  void ask_for_muscles(Entity person, std::uint64_t what, std::uint64_t how) {
+    EXPECT_TRUE(simulation_.set_state({&person, 1}, PersonState::full));
+    const auto hamstrings = simulation_.muscle(person, Muscle::hamstrings, Side::right);
     if (!simulation_.world().alive(hamstrings)) {
-      EXPECT_TRUE(simulation_.set_muscles(human, choice_for(human, how)));
+      EXPECT_TRUE(simulation_.set_muscles(person, choice_for(person, how)));
     } else if (what == 0) {
-      EXPECT_EQ(simulation_.set_muscles(human, std::nullopt), Status::ok);
+      EXPECT_EQ(simulation_.set_muscles(person, std::nullopt), Status::ok);
     } else if (what == 1) {
-      EXPECT_TRUE(simulation_.set_muscles(human, choice_for(human, how)));
+      EXPECT_TRUE(simulation_.set_muscles(person, choice_for(person, how)));
     } else {
-      EXPECT_TRUE(simulation_.set_method(human, Muscle::hamstrings, every_method()[how % every_method().size()]));
+      EXPECT_TRUE(simulation_.set_method(person, Muscle::hamstrings, every_method()[how % every_method().size()]));
       if (simulation_.get<ExcitationSource>(hamstrings) == static_cast<std::uint64_t>(ExcitationSource::host)) {
         const float level = static_cast<float>(how % 100) * 0.01F;
-        EXPECT_TRUE(simulation_.set_excitation(human, Muscle::hamstrings, Side::right, level));
+        EXPECT_TRUE(simulation_.set_excitation(person, Muscle::hamstrings, Side::right, level));
       }
     }
   }

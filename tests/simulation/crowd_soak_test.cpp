@@ -40,7 +40,7 @@ std::size_t heap_bytes() {
 /// Few deform by the dear methods.
 LegMuscles muscles_of(std::uint64_t kind) {
   if (kind % 16 == 3) return play::choice_of(kind * 7);
-  LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, kind % 4 == 0)};
+  LegMuscles choice{.method = Method::modal, .modal = play::modal(12, true, kind % 4 == 0)};
   choice.muscles = 0;
   choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
   choice.muscles.set(static_cast<std::size_t>(Muscle::tibialis_anterior));
@@ -82,7 +82,7 @@ class Soak {
 
   std::uint64_t hash() const {
     std::uint64_t sum = 0;
-    for (const Entity human : people_) sum = fnv(sum, 1) ^ hash_human(simulation_, human);
+    for (const Entity person : people_) sum = fnv(sum, 1) ^ hash_person(simulation_, person);
     return sum;
   }
 
@@ -90,10 +90,10 @@ class Soak {
   void check() {
     EXPECT_EQ(simulation_.get<Pose>(gone_).error(), Status::stale_entity);
     std::size_t expected = 0;
-    for (const Entity human : people_) {
-      const auto pose = simulation_.get<Pose>(human);
-      const auto state = simulation_.get<GaitState>(human);
-      const auto feet = simulation_.get<Feet>(human);
+    for (const Entity person : people_) {
+      const auto pose = simulation_.get<Pose>(person);
+      const auto state = simulation_.get<GaitState>(person);
+      const auto feet = simulation_.get<Feet>(person);
       ASSERT_TRUE(pose && state && feet);
       ++expected;
       for (const auto& at : pose->position_m) ASSERT_TRUE(std::isfinite(at.x + at.y + at.z));
@@ -105,10 +105,10 @@ class Soak {
       lowest_m_ = std::min(lowest_m_, static_cast<double>(std::min(feet->heel_m[0].y, feet->heel_m[1].y)));
       for (std::size_t m = 0; m < muscle_group_count; ++m) {
         for (const Side side : {Side::right, Side::left}) {
-          const Entity muscle = simulation_.muscle(human, static_cast<Muscle>(m), side);
+          const Entity muscle = simulation_.muscle(person, static_cast<Muscle>(m), side);
           if (!simulation_.world().alive(muscle)) continue;
           ++expected;
-          EXPECT_EQ(simulation_.get<MuscleOwner>(muscle)->index, human.index);
+          EXPECT_EQ(simulation_.get<MuscleOwner>(muscle)->index, person.index);
           const auto line = *simulation_.get<LineOfAction>(muscle);
           ASSERT_TRUE(line.length_m > 0.05F && line.length_m < 1);
           const NodalView nodes = nodal_displacement(simulation_.world(), muscle);
@@ -143,11 +143,11 @@ class Soak {
  private:
   Entity come(std::size_t number) {
     const std::uint64_t kind = number % kinds;
-    const Person p = person(static_cast<int>(kind));
-    const auto human = simulation_.spawn(p.body, p.gait);
-    EXPECT_TRUE(human);
-    EXPECT_TRUE(simulation_.set_muscles(*human, muscles_of(kind)));
-    return *human;
+    const SamplePerson p = sample_person(static_cast<int>(kind));
+    const auto person = simulation_.spawn(p.body, p.gait);
+    EXPECT_TRUE(person);
+    EXPECT_TRUE(simulation_.set_muscles(*person, muscles_of(kind)));
+    return *person;
   }
 
   CountingMemory memory_;

@@ -12,7 +12,7 @@
 #include <mobil/host_parts.h>
 #include <mobil/pose_writer.h>
 #include <mobil/step_report.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
@@ -53,7 +53,7 @@ TEST(CrowdThreads, ManyComeAndGoAtOnce) {
   constexpr int many = 40;
   std::vector<SpawnRequest> requests;
   for (int i = 0; i < many; ++i) {
-    const Person p = person(i);
+    const SamplePerson p = sample_person(i);
     SpawnRequest& request = requests.emplace_back();
     request.body = p.body;
     request.gait = p.gait;
@@ -71,7 +71,7 @@ TEST(CrowdThreads, ManyComeAndGoAtOnce) {
       EXPECT_EQ(simulation.despawn(half), Status::ok);
     }
     std::vector<std::uint64_t> hashes;
-    for (int i = 0; i < many / 2; ++i) hashes.push_back(hash_human(simulation, people[static_cast<std::size_t>(i)]));
+    for (int i = 0; i < many / 2; ++i) hashes.push_back(hash_person(simulation, people[static_cast<std::size_t>(i)]));
     return hashes;
   };
   WilfulPool pool(3);
@@ -97,8 +97,8 @@ TEST(CrowdThreads, ManyReadAtOnce) {
         EXPECT_TRUE(writer.write(simulation.world(), people, 0.01, {}, {bytes}));
         for (const Entity person : simulation.people()) {
           sum += static_cast<double>(simulation.get<Pose>(person)->position_m[0].y);
-          sum += static_cast<double>(simulation.human(person)->body.request.height_m);
-          for (const OwnMuscle& own : simulation.muscles(person)) {
+          sum += static_cast<double>(simulation.person(person)->body.request.height_m);
+          for (const MuscleRef& own : simulation.muscles(person)) {
             sum += static_cast<double>(own.muscle) +
                    (nodal_displacement(simulation.world(), own.entity[Side::left]).first != nullptr);
           }

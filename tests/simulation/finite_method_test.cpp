@@ -33,12 +33,12 @@ LegMuscles close_up(ExcitationSource source = ExcitationSource::phase) {
 TEST(FiniteMethod, KeepsVolumeAndItsLineInAWalk) {
   Simulation simulation(sharing());
   std::vector<Entity> people;
-  for (int i = 0; i < 3; ++i) people.push_back(join_with(simulation, person(i), close_up()));
+  for (int i = 0; i < 3; ++i) people.push_back(join_with(simulation, sample_person(i), close_up()));
   float least = 1, most = 1, farthest = 0;
   for (int tick = 0; tick < 120; ++tick) {
     simulation.tick();
-    for (const Entity human : people) {
-      for (const Entity muscle : muscles_of(simulation, human)) {
+    for (const Entity person : people) {
+      for (const Entity muscle : muscles_of(simulation, person)) {
         const BellyReport<float> report = *simulation.get<BellyReport>(muscle);
         least = std::min(least, report.volume_ratio), most = std::max(most, report.volume_ratio);
         const auto u = displacement(simulation, muscle);
@@ -59,13 +59,13 @@ TEST(FiniteMethod, StandsAsTheTablesSay) {
   for (const float pull : {0.02F, 0.5F}) {
     Simulation simulation(sharing());
     std::vector<Entity> people;
-    for (const Method method : {Method::finite, Method::reduced}) {
+    for (const Method method : {Method::finite, Method::modal}) {
       people.push_back(*simulation.spawn_posed({}));
       LegMuscles choice = close_up(ExcitationSource::host);
       choice.inertia = false;
       choice.method = method;
       ASSERT_TRUE(simulation.set_muscles(people.back(), choice));
-      for (const OwnMuscle& own : simulation.muscles(people.back())) {
+      for (const MuscleRef& own : simulation.muscles(people.back())) {
         for (const Side side : {Side::right, Side::left})
           ASSERT_TRUE(simulation.set_excitation(people.back(), own.muscle, side, pull));
       }
@@ -98,11 +98,11 @@ double middle_area(const Simulation& simulation, Entity muscle) {
 
 TEST(FiniteMethod, FibresThatPullAreFeltAtTheEndAndThicken) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn_posed({});
-  ASSERT_TRUE(simulation.set_muscles(human, close_up(ExcitationSource::host)));
-  const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+  const Entity person = *simulation.spawn_posed({});
+  ASSERT_TRUE(simulation.set_muscles(person, close_up(ExcitationSource::host)));
+  const Entity muscle = simulation.muscle(person, Muscle::triceps_surae, Side::right);
   const auto pull = [&](float how_hard) {
-    ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, how_hard));
+    ASSERT_TRUE(simulation.set_excitation(person, Muscle::triceps_surae, Side::right, how_hard));
     simulation.tick(120);
   };
   pull(0.01F);
@@ -115,14 +115,14 @@ TEST(FiniteMethod, FibresThatPullAreFeltAtTheEndAndThicken) {
 
 TEST(FiniteMethod, RefusesWhatItCannotDo) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn_posed({});
+  const Entity person = *simulation.spawn_posed({});
   LegMuscles choice = close_up();
   choice.stiffness_damping_s = 1e-3;
-  EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "stiffness_damping_s"));
+  EXPECT_TRUE(is_refused(simulation.set_muscles(person, choice), "stiffness_damping_s"));
   choice = close_up();
   choice.dt_s = 0.004;
-  EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "critical step"));
-  EXPECT_TRUE(simulation.muscles(human).empty());
+  EXPECT_TRUE(is_refused(simulation.set_muscles(person, choice), "critical step"));
+  EXPECT_TRUE(simulation.muscles(person).empty());
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ namespace {
 LegMuscles finite(Method method, ExcitationSource source = ExcitationSource::phase) {
   LegMuscles choice;
   choice.method = method;
-  choice.reduced.cells = {4, 4, 16};
-  choice.reduced.moving = false;
+  choice.modal.cells = {4, 4, 16};
+  choice.modal.moving = false;
   choice.activation = source;
   choice.finite_shape = true;
   return choice;
@@ -29,25 +29,25 @@ void run(Simulation& simulation, int ticks) {
 }
 
 /// Largest |volume − 1| that is shown of a person's muscles.
-double volume_off(const Simulation& simulation, Entity human) {
+double volume_off(const Simulation& simulation, Entity person) {
   double worst = 0;
-  for (const Entity muscle : muscles_of(simulation, human))
+  for (const Entity muscle : muscles_of(simulation, person))
     worst = std::max(worst, std::abs(static_cast<double>(simulation.get<BellyReport>(muscle)->volume_ratio) - 1));
   return worst;
 }
 
 TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
   Simulation with(sharing()), without(sharing());
-  const Entity asks = join_with(with, person(1), finite(Method::ecd));
-  const Entity does_not = join_with(with, person(2), {});
-  const Entity alone = join_with(without, person(2), {});
+  const Entity asks = join_with(with, sample_person(1), finite(Method::explicit_central));
+  const Entity does_not = join_with(with, sample_person(2), {});
+  const Entity alone = join_with(without, sample_person(2), {});
   run(with, 60), run(without, 60);
-  EXPECT_EQ(hash_human(with, does_not), hash_human(without, alone));
+  EXPECT_EQ(hash_person(with, does_not), hash_person(without, alone));
   // The method knows nothing of it either.
-  LegMuscles linear = finite(Method::ecd);
+  LegMuscles linear = finite(Method::explicit_central);
   linear.finite_shape = false;
   Simulation plain(sharing());
-  const Entity same = join_with(plain, person(1), linear);
+  const Entity same = join_with(plain, sample_person(1), linear);
   run(plain, 60);
   const Entity one = with.muscle(asks, Muscle::hamstrings, Side::left);
   const Entity other = plain.muscle(same, Muscle::hamstrings, Side::left);
@@ -58,18 +58,18 @@ TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
 /// Without vibration within 1 %, single muscles and groups, as they walk; linear statics lose up to ten times that.
 TEST(FiniteShape, KeepsItsVolumeInAWalk) {
   MOBIL_SLOW();
-  for (const Method method : {Method::reduced, Method::statics}) {
+  for (const Method method : {Method::modal, Method::statics}) {
     Simulation simulation(sharing());
     LegMuscles choice = finite(method);
     choice.muscles |= muscle_members();
-    const Entity human = join_with(simulation, person(5), choice);
+    const Entity person = join_with(simulation, sample_person(5), choice);
     LegMuscles linear = choice;
     linear.finite_shape = false;
-    const Entity other = join_with(simulation, person(5), linear);
+    const Entity other = join_with(simulation, sample_person(5), linear);
     double ours = 0, theirs = 0;
     for (int tick = 0; tick < 70; ++tick) {
       simulation.tick();
-      ours = std::max(ours, volume_off(simulation, human));
+      ours = std::max(ours, volume_off(simulation, person));
       theirs = std::max(theirs, volume_off(simulation, other));
     }
     EXPECT_LT(ours, 0.012) << name(method);
@@ -80,16 +80,17 @@ TEST(FiniteShape, KeepsItsVolumeInAWalk) {
 /// By all methods alike but for their vibration, which dies away when the leg is still.
 TEST(FiniteShape, IsTheSameByEveryMethod) {
   std::vector<std::vector<float>> shown;
-  for (const Method method : {Method::statics, Method::reduced, Method::ecd, Method::caa, Method::icd}) {
+  for (const Method method :
+       {Method::statics, Method::modal, Method::explicit_central, Method::newmark, Method::implicit_central}) {
     Simulation simulation(sharing());
-    const Entity human = *simulation.spawn_posed({});
+    const Entity person = *simulation.spawn_posed({});
     LegMuscles choice = finite(method, ExcitationSource::host);
     choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
     choice.damping_per_s = 40;
-    ASSERT_TRUE(simulation.set_muscles(human, choice));
-    ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, 0.5F));
+    ASSERT_TRUE(simulation.set_muscles(person, choice));
+    ASSERT_TRUE(simulation.set_excitation(person, Muscle::triceps_surae, Side::right, 0.5F));
     run(simulation, 240);
-    shown.push_back(displacement(simulation, simulation.muscle(human, Muscle::triceps_surae, Side::right)));
+    shown.push_back(displacement(simulation, simulation.muscle(person, Muscle::triceps_surae, Side::right)));
   }
   for (const auto& other : shown) {
     double apart = 0, most = 0;
@@ -105,13 +106,13 @@ TEST(FiniteShape, IsTheSameByEveryMethod) {
 /// Thicker where it pulls, and the more the harder.
 TEST(FiniteShape, BulgesAsItPulls) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn_posed({});
-  LegMuscles choice = finite(Method::reduced, ExcitationSource::host);
+  const Entity person = *simulation.spawn_posed({});
+  LegMuscles choice = finite(Method::modal, ExcitationSource::host);
   choice.muscles = MuscleSet{};
   const Muscle soleus = *find_muscle("soleus");
   choice.muscles.set(static_cast<std::size_t>(soleus));
-  ASSERT_TRUE(simulation.set_muscles(human, choice));
-  const Entity muscle = simulation.muscle(human, soleus, Side::right);
+  ASSERT_TRUE(simulation.set_muscles(person, choice));
+  const Entity muscle = simulation.muscle(person, soleus, Side::right);
   const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
   const BellyScale<float> scale = *simulation.get<BellyScale>(muscle);
   const auto area = [&](bool moved) {  // of its middle section
@@ -134,7 +135,7 @@ TEST(FiniteShape, BulgesAsItPulls) {
   };
   double before = 0.99;
   for (const float level : {0.05F, 0.3F, 1.0F}) {
-    ASSERT_TRUE(simulation.set_excitation(human, soleus, Side::right, level));
+    ASSERT_TRUE(simulation.set_excitation(person, soleus, Side::right, level));
     run(simulation, 60);
     const double grown = area(true) / area(false);
     EXPECT_GT(grown, before + 0.005) << level;
@@ -145,22 +146,22 @@ TEST(FiniteShape, BulgesAsItPulls) {
 /// What is shown goes on through a change of method or of the effect itself.
 TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
   const auto method = [](Method to, bool moving) {
-    return MuscleMethod{to, {.vectors = 12, .moving = moving, .cells = {4, 4, 16}}};
+    return MuscleMethod{to, {.modes = 12, .moving = moving, .cells = {4, 4, 16}}};
   };
   Simulation simulation(sharing());
-  LegMuscles choice = finite(Method::ecd);
+  LegMuscles choice = finite(Method::explicit_central);
   choice.muscles = MuscleSet(3);
-  const Entity human = join_with(simulation, person(6), choice);
+  const Entity person = join_with(simulation, sample_person(6), choice);
   run(simulation, 40);
   const std::array changes = {
-      method(Method::reduced, true), method(Method::statics, true), method(Method::reduced, false),
-      method(Method::caa, true),     method(Method::finite, true),  method(Method::reduced, true),
-      method(Method::finite, true),  method(Method::ecd, true),     method(Method::reduced, true)};
-  const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::right);
+      method(Method::modal, true),   method(Method::statics, true),          method(Method::modal, false),
+      method(Method::newmark, true), method(Method::finite, true),           method(Method::modal, true),
+      method(Method::finite, true),  method(Method::explicit_central, true), method(Method::modal, true)};
+  const Entity muscle = simulation.muscle(person, Muscle::quadriceps, Side::right);
   for (const MuscleMethod& to : changes) {
     run(simulation, 7);
     const auto before = displacement(simulation, muscle);
-    ASSERT_TRUE(simulation.set_method(human, Muscle::quadriceps, to));
+    ASSERT_TRUE(simulation.set_method(person, Muscle::quadriceps, to));
     const auto at_once = displacement(simulation, muscle);
     double apart = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
@@ -178,16 +179,16 @@ TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
 /// A fade that is over leaves the shape, and rows that snapshots know.
 TEST(FiniteShape, GoesOnAfterAFade) {
   Simulation simulation(sharing());
-  LegMuscles choice = finite(Method::ecd);
+  LegMuscles choice = finite(Method::explicit_central);
   choice.muscles = MuscleSet(1);
-  const Entity changed = join_with(simulation, person(6), choice);
+  const Entity changed = join_with(simulation, sample_person(6), choice);
   choice.method = Method::statics;
-  const Entity always = join_with(simulation, person(6), choice);
+  const Entity always = join_with(simulation, sample_person(6), choice);
   run(simulation, 20);
   ASSERT_TRUE(simulation.set_method(changed, Muscle::hamstrings, {Method::statics}));
   run(simulation, 30);
-  const auto shown = [&](Entity human) {
-    return displacement(simulation, simulation.muscle(human, Muscle::hamstrings, Side::right));
+  const auto shown = [&](Entity person) {
+    return displacement(simulation, simulation.muscle(person, Muscle::hamstrings, Side::right));
   };
   const auto one = shown(changed), other = shown(always);
   for (std::size_t i = 0; i < one.size(); ++i) ASSERT_NEAR(one[i], other[i], 2e-5F);
@@ -195,29 +196,29 @@ TEST(FiniteShape, GoesOnAfterAFade) {
   ASSERT_TRUE(simulation.save(bytes));
   const auto restored = simulation.restore(bytes, RestoreLimits::none());
   EXPECT_TRUE(restored) << restored.error().message;
-  EXPECT_TRUE(simulation.set_method(changed, Muscle::hamstrings, {Method::ecd}));
+  EXPECT_TRUE(simulation.set_method(changed, Muscle::hamstrings, {Method::explicit_central}));
 }
 
 /// Who is looked at again begins with the belly's own motion, not with the shape's place as one.
 TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
-  const MuscleMethod seen{Method::reduced, {.vectors = 12, .cells = {4, 4, 16}}};
+  const MuscleMethod seen{Method::modal, {.modes = 12, .cells = {4, 4, 16}}};
   MuscleMethod unseen = seen;
-  unseen.reduced.vectors = 4;
-  unseen.reduced.control_points = unseen.reduced.reported = false;
+  unseen.modal.modes = 4;
+  unseen.modal.control_points = unseen.modal.reported = false;
   for (const MuscleMethod& to :
-       {seen, MuscleMethod{Method::ecd}, MuscleMethod{Method::caa}, MuscleMethod{Method::finite}}) {
+       {seen, MuscleMethod{Method::explicit_central}, MuscleMethod{Method::newmark}, MuscleMethod{Method::finite}}) {
     Simulation simulation(sharing());
-    const Entity human = *simulation.spawn_posed({});
-    LegMuscles choice = finite(Method::reduced, ExcitationSource::host);
-    choice.reduced = unseen.reduced;
+    const Entity person = *simulation.spawn_posed({});
+    LegMuscles choice = finite(Method::modal, ExcitationSource::host);
+    choice.modal = unseen.modal;
     choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
     const bool stepped = to.method == Method::finite;  // which is as far from the table as its mesh is
     if (stepped) choice.cells = close_up_cells;
-    ASSERT_TRUE(simulation.set_muscles(human, choice));
-    ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, 0.8F));
+    ASSERT_TRUE(simulation.set_muscles(person, choice));
+    ASSERT_TRUE(simulation.set_excitation(person, Muscle::triceps_surae, Side::right, 0.8F));
     run(simulation, 240);
-    ASSERT_TRUE(simulation.set_method(human, Muscle::triceps_surae, to));
-    const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+    ASSERT_TRUE(simulation.set_method(person, Muscle::triceps_surae, to));
+    const Entity muscle = simulation.muscle(person, Muscle::triceps_surae, Side::right);
     const auto at_once = displacement(simulation, muscle);
     double most = 0;
     for (int tick = 0; tick < 30; ++tick) {
@@ -232,19 +233,20 @@ TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
 
 /// Turned on and off under way, for all methods.
 TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
-  for (const Method method : {Method::ecd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
+  for (const Method method :
+       {Method::explicit_central, Method::newmark, Method::statics, Method::modal, Method::finite}) {
     Simulation simulation(sharing());
     LegMuscles pulls = finite(method);
     pulls.muscles = MuscleSet(4);
     LegMuscles linear = pulls;
     linear.activation = ExcitationSource::none;
     linear.finite_shape = false;
-    const Entity human = join_with(simulation, person(6), linear);
+    const Entity person = join_with(simulation, sample_person(6), linear);
     run(simulation, 40);
-    const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+    const Entity muscle = simulation.muscle(person, Muscle::triceps_surae, Side::right);
     for (const LegMuscles& next : {pulls, linear, pulls}) {
       const auto before = displacement(simulation, muscle);
-      ASSERT_TRUE(simulation.set_muscles(human, next));
+      ASSERT_TRUE(simulation.set_muscles(person, next));
       simulation.tick();
       const auto after = displacement(simulation, muscle);
       double step = 0;
@@ -259,11 +261,11 @@ TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
 
 TEST(FiniteShape, TheForceDrivenEndIsRefused) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn({});
+  const Entity person = *simulation.spawn({});
   LegMuscles choice;
   choice.drive = Drive::force;
   choice.finite_shape = true;
-  EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "Drive::displacement"));
+  EXPECT_TRUE(is_refused(simulation.set_muscles(person, choice), "Drive::displacement"));
 }
 
 }  // namespace

@@ -33,13 +33,13 @@ Bytes saved(const Simulation& simulation) {
 
 /// One person with muscles of every method, some ticks old.
 void people(Simulation& simulation) {
-  for (const Method method : {Method::reduced, Method::ecd, Method::caa, Method::statics}) {
-    const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
-    ASSERT_TRUE(human);
+  for (const Method method : {Method::modal, Method::explicit_central, Method::newmark, Method::statics}) {
+    const auto person = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
+    ASSERT_TRUE(person);
     LegMuscles choice;
     choice.method = method;
     choice.inertia = true;
-    ASSERT_TRUE(simulation.set_muscles(*human, choice));
+    ASSERT_TRUE(simulation.set_muscles(*person, choice));
   }
   for (int i = 0; i < 20; ++i) simulation.tick();
 }
@@ -68,9 +68,9 @@ TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
   LegMuscles choice;
   choice.cells = {4, 4, 20};
   choice.muscles = MuscleSet(1);
-  choice.method = Method::ecd;
-  const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
-  ASSERT_TRUE(simulation.set_muscles(*human, choice));
+  choice.method = Method::explicit_central;
+  const auto person = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
+  ASSERT_TRUE(simulation.set_muscles(*person, choice));
   const Bytes bytes = saved(simulation);
 
   Simulation other;  // that has nothing yet
@@ -95,20 +95,20 @@ TEST(RestoreLimitsOf, StepsOfATickAreCounted) {
   LegMuscles choice;
   choice.muscles.reset();
   choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
-  choice.method = Method::ecd;
+  choice.method = Method::explicit_central;
   choice.dt_s = simulation.tick_s() / 3000;
-  const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
-  ASSERT_TRUE(simulation.set_muscles(*human, choice));
+  const auto person = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
+  ASSERT_TRUE(simulation.set_muscles(*person, choice));
   const Bytes bytes = saved(simulation);
   expect_refused(other.restore(bytes, {.seconds = any_time}), "3000 steps a tick");
   EXPECT_EQ(other.state_hash(), before);
   ASSERT_TRUE(other.restore(bytes, {.seconds = any_time, .steps = 3000}));
   // the choice that somebody compact keeps, by which their muscles may be stepped later
-  choice.method = Method::reduced;
-  choice.reduced.control_points = false;
-  ASSERT_TRUE(simulation.set_muscles(*human, choice));
-  ASSERT_TRUE(simulation.set_state({&*human, 1}, PersonState::compact));
-  EXPECT_TRUE(simulation.muscles(*human).empty());
+  choice.method = Method::modal;
+  choice.modal.control_points = false;
+  ASSERT_TRUE(simulation.set_muscles(*person, choice));
+  ASSERT_TRUE(simulation.set_state({&*person, 1}, PersonState::compact));
+  EXPECT_TRUE(simulation.muscles(*person).empty());
   expect_refused(other.restore(saved(simulation), {.seconds = any_time}), "3000 steps a tick");
 }
 
@@ -139,9 +139,9 @@ TEST(RestoreLimitsOf, NumbersThatAreNotFiniteAreRefused) {
     }
     // What is not looked at is no float that anything is computed from.
     for (int i = 0; i < 5; ++i) simulation.tick();
-    for (const Entity human : simulation.people()) {
-      EXPECT_TRUE(std::isfinite(simulation.get<Pose>(human)->position_m[0].x));
-      for (const OwnMuscle& own : simulation.muscles(human)) {
+    for (const Entity person : simulation.people()) {
+      EXPECT_TRUE(std::isfinite(simulation.get<Pose>(person)->position_m[0].x));
+      for (const MuscleRef& own : simulation.muscles(person)) {
         const NodalView shown = nodal_displacement(simulation.world(), own.entity[Side::right]);
         for (std::size_t n = 0; shown.first != nullptr && n < shown.nodes; ++n) {
           EXPECT_TRUE(std::isfinite(shown.first[3 * n * lane_count])) << round;
@@ -204,7 +204,8 @@ TEST(Posed, WildPosesAreRefusedOrFinite) {
   const auto calm = *simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
   Simulation alone(sharing());
   const auto twin = *alone.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
-  for (const Method method : {Method::reduced, Method::ecd, Method::icd, Method::caa, Method::statics}) {
+  for (const Method method :
+       {Method::modal, Method::explicit_central, Method::implicit_central, Method::newmark, Method::statics}) {
     LegMuscles choice;
     choice.method = method;
     choice.inertia = true;
@@ -247,7 +248,7 @@ TEST(Posed, WildPosesAreRefusedOrFinite) {
     }
     const auto shown = [](const Simulation& of, Entity who) {
       std::vector<float> all;
-      for (const OwnMuscle& own : of.muscles(who)) {
+      for (const MuscleRef& own : of.muscles(who)) {
         const NodalView view = nodal_displacement(of.world(), own.entity[Side::left]);
         for (std::size_t n = 0; view.first != nullptr && n < view.nodes; ++n) {
           all.push_back(view.first[(3 * n + 1) * lane_count]);
@@ -258,7 +259,7 @@ TEST(Posed, WildPosesAreRefusedOrFinite) {
     for (const float y : shown(simulation, wild)) {
       EXPECT_TRUE(std::isfinite(y)) << static_cast<int>(method);
       // What rings faster than ticks the trapezoidal rule hardly damps.
-      if (method == Method::caa) continue;
+      if (method == Method::newmark) continue;
       EXPECT_LT(std::fabs(y), 0.5F) << static_cast<int>(method);
     }
     EXPECT_EQ(shown(simulation, calm), shown(alone, twin)) << static_cast<int>(method);

@@ -18,15 +18,16 @@
 
 namespace mobil {
 
-inline constexpr std::array methods = {Method::ecd, Method::icd, Method::caa, Method::statics};
+inline constexpr std::array methods = {Method::explicit_central, Method::implicit_central, Method::newmark,
+                                       Method::statics};
 
 inline std::string name(Method method) {
   return std::string(method_name[static_cast<std::size_t>(method)]);
 }
 
-inline std::vector<Entity> muscles_of(const Simulation& simulation, Entity human) {
+inline std::vector<Entity> muscles_of(const Simulation& simulation, Entity person) {
   std::vector<Entity> all;
-  for (const auto& own : simulation.muscles(human)) {
+  for (const auto& own : simulation.muscles(person)) {
     all.insert(all.end(), own.entity.begin(), own.entity.end());
   }
   return all;
@@ -39,11 +40,11 @@ inline std::vector<float> displacement(const Simulation& simulation, Entity musc
   return u;
 }
 
-inline Entity join_with(Simulation& simulation, const Person& p, const LegMuscles& choice) {
-  const Entity human = join(simulation, p, false);
-  const auto added = simulation.set_muscles(human, choice);
+inline Entity join_with(Simulation& simulation, const SamplePerson& p, const LegMuscles& choice) {
+  const Entity person = join(simulation, p, false);
+  const auto added = simulation.set_muscles(person, choice);
   EXPECT_TRUE(added) << added.error().message;
-  return human;
+  return person;
 }
 
 /// Largest nodal displacement (m) of a person's muscles, and the largest difference from another's.

@@ -9,7 +9,7 @@
 
 #include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
@@ -23,26 +23,26 @@ namespace mobil::leg_muscles_change_test {
 TEST(Change, OfMaterialMakesStepsAnewAndKeepsTheState) {
   for (const Method method : methods) {
     Simulation simulation(sharing());
-    const Entity human = join_with(simulation, person(6), {.method = method});
+    const Entity person = join_with(simulation, sample_person(6), {.method = method});
     for (int i = 0; i < 30; ++i) simulation.tick();
-    const auto muscles = muscles_of(simulation, human);
+    const auto muscles = muscles_of(simulation, person);
     std::uint64_t steps_before = 0;
     for (const double young : {4e4, 2e5, 5e3}) {
       std::vector<std::vector<float>> before;
       for (const Entity muscle : muscles) before.push_back(displacement(simulation, muscle));
-      const auto changed = simulation.set_muscles(human, {.method = method, .material = {1000, young, 0.4}});
+      const auto changed = simulation.set_muscles(person, {.method = method, .material = {1000, young, 0.4}});
       ASSERT_TRUE(changed) << changed.error().message;
-      EXPECT_EQ(muscles_of(simulation, human), muscles);
+      EXPECT_EQ(muscles_of(simulation, person), muscles);
       for (std::size_t m = 0; m < muscles.size(); ++m) EXPECT_EQ(displacement(simulation, muscles[m]), before[m]);
       for (const Entity muscle : muscles) {
         EXPECT_EQ(simulation.world().shared<MuscleTemplate>(muscle)->material.young_pa, young);
-        const auto n = method == Method::ecd ? simulation.world().get<Substeps>(muscle)
-                                             : simulation.world().get<SolvedSteps>(muscle);
-        if (method == Method::ecd || method == Method::icd) {
+        const auto n = method == Method::explicit_central ? simulation.world().get<Substeps>(muscle)
+                                                          : simulation.world().get<SolvedSteps>(muscle);
+        if (method == Method::explicit_central || method == Method::implicit_central) {
           EXPECT_LE(simulation.tick_s() / static_cast<double>(*n), 0.9 * limit_of(simulation, muscle) * (1 + 1e-9));
         }
       }
-      if (method == Method::ecd) {
+      if (method == Method::explicit_central) {
         const auto n = *simulation.world().get<Substeps>(muscles[0]);
         EXPECT_NE(n, steps_before);
         steps_before = n;
@@ -50,59 +50,59 @@ TEST(Change, OfMaterialMakesStepsAnewAndKeepsTheState) {
       for (int i = 0; i < 20; ++i) {
         simulation.tick();
         Difference d;
-        compare(simulation, human, simulation, human, d);
+        compare(simulation, person, simulation, person, d);
         EXPECT_LT(d.most, 0.12) << name(method) << " " << young;
       }
     }
   }
 }
 
-bool operator==(const std::vector<KeyPart>& a, const TableKey& b) {
+bool operator==(const std::vector<ComponentId>& a, const Archetype& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
-std::vector<KeyPart> key_of(const Simulation& simulation, Entity entity) {
+std::vector<ComponentId> key_of(const Simulation& simulation, Entity entity) {
   const auto& key = simulation.world().find(entity).table->key();
   return {key.begin(), key.end()};
 }
 
 TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
   Simulation simulation(sharing());
-  const Entity human = join_with(simulation, person(9), {});
+  const Entity person = join_with(simulation, sample_person(9), {});
   for (int i = 0; i < 20; ++i) simulation.tick();
-  const auto muscles = muscles_of(simulation, human);
+  const auto muscles = muscles_of(simulation, person);
   const auto key = key_of(simulation, muscles[0]);
   const auto& world = simulation.world();
   for (const bool inertia : {true, false}) {
-    for (const Method method : {Method::caa, Method::statics, Method::icd, Method::ecd}) {
+    for (const Method method : {Method::newmark, Method::statics, Method::implicit_central, Method::explicit_central}) {
       const auto before = displacement(simulation, muscles[3]);
-      ASSERT_TRUE(simulation.set_muscles(human, {.method = method, .inertia = inertia}));
-      EXPECT_EQ(simulation.human(human)->leg_muscles.method, method);
-      EXPECT_EQ(muscles_of(simulation, human), muscles);
+      ASSERT_TRUE(simulation.set_muscles(person, {.method = method, .inertia = inertia}));
+      EXPECT_EQ(simulation.person(person)->leg_muscles.method, method);
+      EXPECT_EQ(muscles_of(simulation, person), muscles);
       EXPECT_EQ(displacement(simulation, muscles[3]), before);
       EXPECT_EQ(rows(world), 1 + 2 * muscle_group_count);
       for (const Entity muscle : muscles) {
-        EXPECT_EQ(world.has<Substeps>(muscle), method == Method::ecd);
-        EXPECT_EQ(world.has<SolvedSteps>(muscle), method == Method::icd || method == Method::caa);
+        EXPECT_EQ(world.has<Substeps>(muscle), method == Method::explicit_central);
+        EXPECT_EQ(world.has<SolvedSteps>(muscle), method == Method::implicit_central || method == Method::newmark);
         EXPECT_EQ(world.has<StaticSteps>(muscle), method == Method::statics);
         EXPECT_EQ(world.has<NodalVelocity>(muscle), method != Method::statics);
-        EXPECT_EQ(world.has<BellySolver>(muscle), method != Method::ecd);
+        EXPECT_EQ(world.has<BellySolver>(muscle), method != Method::explicit_central);
         EXPECT_EQ(world.has<FrameLoad>(muscle), inertia);
         EXPECT_EQ(world.has<FrameHistory>(muscle), inertia);
       }
       for (int i = 0; i < 15; ++i) simulation.tick();
       Difference d;
-      compare(simulation, human, simulation, human, d);
+      compare(simulation, person, simulation, person, d);
       EXPECT_LT(d.most, 0.12);
     }
   }
   EXPECT_TRUE(key == world.find(muscles[0]).table->key());
   EXPECT_EQ(rows_with<FrameLoad>(world) + rows_with<FrameHistory>(world), 0U);
-  ASSERT_TRUE(simulation.set_muscles(human, {.drive = Drive::force, .cells = {1, 1, 4}}));
+  ASSERT_TRUE(simulation.set_muscles(person, {.drive = Drive::force, .cells = {1, 1, 4}}));
   EXPECT_EQ(world.get<FarEnd>(muscles[0]), static_cast<std::uint64_t>(FarEnd::sliding));
   EXPECT_EQ(nodal_displacement(simulation.world(), muscles[0]).nodes, 20U);
   for (int i = 0; i < 15; ++i) simulation.tick();
-  EXPECT_EQ(simulation.set_muscles(human, std::nullopt), Status::ok);
+  EXPECT_EQ(simulation.set_muscles(person, std::nullopt), Status::ok);
   EXPECT_EQ(rows(world), 1U);
 }
 
@@ -118,13 +118,13 @@ TEST(Change, OfDriveLeavesTheBellyWhereItIs) {
                                                           {drawn, pulled_close}}};
   for (std::size_t way = 0; way < ways.size(); ++way) {
     Simulation simulation(sharing());
-    const Entity human = join_with(simulation, person(9), ways[way][0]);
+    const Entity person = join_with(simulation, sample_person(9), ways[way][0]);
     for (int i = 0; i < 40; ++i) simulation.tick();
-    ASSERT_TRUE(simulation.set_muscles(human, ways[way][1]));
+    ASSERT_TRUE(simulation.set_muscles(person, ways[way][1]));
     for (int i = 0; i < 30; ++i) {
       simulation.tick();
       float most = 0, fastest = 0;
-      for (const Entity muscle : muscles_of(simulation, human)) {
+      for (const Entity muscle : muscles_of(simulation, person)) {
         for (const float at_m : displacement(simulation, muscle)) most = std::max(most, std::abs(at_m));
         std::vector<float> velocity(simulation.world().get<NodalVelocity>(muscle).value_or(0));
         simulation.world().get_field<NodalVelocity>(muscle, velocity);
@@ -138,7 +138,8 @@ TEST(Change, OfDriveLeavesTheBellyWhereItIs) {
 
 TEST(Change, ARefusedChangeChangesNothing) {
   Simulation simulation(sharing());
-  const Entity human = join_with(simulation, person(9), {.inertia = true}), bare = join(simulation, person(1), false);
+  const Entity person = join_with(simulation, sample_person(9), {.inertia = true}),
+               bare = join(simulation, sample_person(1), false);
   for (int i = 0; i < 20; ++i) simulation.tick();
   const auto before = hash_world(simulation);
   const std::size_t tables = simulation.world().tables().size();
@@ -158,9 +159,9 @@ TEST(Change, ARefusedChangeChangesNothing) {
                             {.dt_s = -1.0},
                             {.dt_s = NAN},
                             {.dt_s = INFINITY},
-                            {.method = Method::caa, .dt_s = 1e-12}};
+                            {.method = Method::newmark, .dt_s = 1e-12}};
   for (const LegMuscles& choice : bad) {
-    const auto changed = simulation.set_muscles(human, choice);
+    const auto changed = simulation.set_muscles(person, choice);
     ASSERT_FALSE(changed);
     EXPECT_TRUE(changed.error().message.starts_with("set_muscles: ")) << changed.error().message;
     EXPECT_EQ(changed.error().message.find('\n'), std::string::npos) << changed.error().message;
@@ -169,36 +170,36 @@ TEST(Change, ARefusedChangeChangesNothing) {
   }
   EXPECT_FALSE(simulation.set_muscles(Entity{}, {}));
   EXPECT_EQ(simulation.world().tables().size(), tables);
-  EXPECT_TRUE(simulation.human(human)->leg_muscles.inertia);
+  EXPECT_TRUE(simulation.person(person)->leg_muscles.inertia);
 }
 
 TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
   Simulation simulation(sharing());
-  const Entity human = join_with(simulation, person(3), {});
+  const Entity person = join_with(simulation, sample_person(3), {});
   for (int i = 0; i < 30; ++i) simulation.tick();
-  const Entity stays = simulation.muscle(human, Muscle::hamstrings, Side::left),
-               goes = simulation.muscle(human, Muscle::quadriceps, Side::right);
+  const Entity stays = simulation.muscle(person, Muscle::hamstrings, Side::left),
+               goes = simulation.muscle(person, Muscle::quadriceps, Side::right);
   const auto before = displacement(simulation, stays);
 
   const Muscle soleus = find_muscle("soleus").value();
   LegMuscles choice;
   choice.muscles = 0;
   choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings)).set(static_cast<std::size_t>(soleus));
-  ASSERT_TRUE(simulation.set_muscles(human, choice));
-  EXPECT_EQ(simulation.muscle(human, Muscle::hamstrings, Side::left), stays);
+  ASSERT_TRUE(simulation.set_muscles(person, choice));
+  EXPECT_EQ(simulation.muscle(person, Muscle::hamstrings, Side::left), stays);
   EXPECT_EQ(displacement(simulation, stays), before);
   EXPECT_FALSE(simulation.world().alive(goes));
-  EXPECT_EQ(simulation.human(human)->muscles.size(), 2U);
+  EXPECT_EQ(simulation.person(person)->muscles.size(), 2U);
   EXPECT_EQ(rows(simulation.world()), 5U);
   simulation.tick();
-  const auto line = *simulation.get<LineOfAction>(simulation.muscle(human, soleus, Side::right));
-  const auto belly = *simulation.get<BellyReport>(simulation.muscle(human, soleus, Side::right));
+  const auto line = *simulation.get<LineOfAction>(simulation.muscle(person, soleus, Side::right));
+  const auto belly = *simulation.get<BellyReport>(simulation.muscle(person, soleus, Side::right));
   EXPECT_NEAR(belly.elongation_m, line.length_m - line.rest_length_m, 1e-6F);
 
   const auto hash = hash_world(simulation);
   for (const unsigned long none_or_beyond : {0UL, 1UL << 31}) {
     choice.muscles = none_or_beyond;
-    EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "muscle_groups()"));
+    EXPECT_TRUE(is_refused(simulation.set_muscles(person, choice), "muscle_groups()"));
     EXPECT_EQ(hash_world(simulation), hash);
   }
 }

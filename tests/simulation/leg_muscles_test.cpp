@@ -12,7 +12,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
 #include <mobil/systems/surfaces/nodal_view.h>
-#include "systems/bellies/choice_words.h"
+#include "systems/bellies/leg_muscles_io.h"
 #include "tests/labels.h"
 #include "tests/refused.h"
 
@@ -20,7 +20,7 @@ MOBIL_TEST_LABELS("long");
 
 namespace mobil::leg_muscles_test {
 /// The same person with two sets of muscles, in two simulations.
-Difference walk_both(const Person& p, const LegMuscles& one, const LegMuscles& other, int ticks) {
+Difference walk_both(const SamplePerson& p, const LegMuscles& one, const LegMuscles& other, int ticks) {
   Simulation a(sharing()), b(sharing());
   const Entity in_a = join_with(a, p, one), in_b = join_with(b, p, other);
   Difference d;
@@ -41,13 +41,13 @@ TEST(Methods, AgreeWhereTheStepIsShort) {
   MOBIL_SLOW();
   for (const int who : {0, 12}) {
     for (const bool inertia : {false, true}) {
-      const auto lumped = walk_both(person(who), {.inertia = inertia, .dt_s = fine_s},
-                                    {.method = Method::caa, .inertia = inertia, .dt_s = fine_s}, 50);
+      const auto lumped = walk_both(sample_person(who), {.inertia = inertia, .dt_s = fine_s},
+                                    {.method = Method::newmark, .inertia = inertia, .dt_s = fine_s}, 50);
       EXPECT_GT(lumped.most, 0.03);
       EXPECT_LT(lumped.apart, 0.01 * lumped.most) << who << inertia;
       const auto consistent =
-          walk_both(person(who), {.method = Method::icd, .inertia = inertia, .dt_s = fine_s},
-                    {.method = Method::caa, .mass = Mass::consistent, .inertia = inertia, .dt_s = fine_s}, 50);
+          walk_both(sample_person(who), {.method = Method::implicit_central, .inertia = inertia, .dt_s = fine_s},
+                    {.method = Method::newmark, .mass = Mass::consistent, .inertia = inertia, .dt_s = fine_s}, 50);
       EXPECT_LT(consistent.apart, 0.015 * consistent.most) << who << inertia;
     }
   }
@@ -59,14 +59,15 @@ TEST(Methods, RestInTheSameShapeUnderAStandingPerson) {
     Simulation simulation(sharing());
     std::vector<Entity> people;
     for (const Method method : methods) {
-      people.push_back(join_with(simulation, person(7), {.method = method, .damping_per_s = 20, .inertia = inertia}));
+      people.push_back(
+          join_with(simulation, sample_person(7), {.method = method, .damping_per_s = 20, .inertia = inertia}));
       ASSERT_TRUE(simulation.change_gait(people.back(), {.speed_m_s = 0.0F}));
     }
     for (int i = 0; i < 360; ++i) simulation.tick();
     for (std::size_t m = 1; m < people.size(); ++m) {
       Difference d;
       compare(simulation, people[0], simulation, people[m], d);
-      const bool other_load = inertia && methods[m] == Method::icd;  // by the consistent mass
+      const bool other_load = inertia && methods[m] == Method::implicit_central;  // by the consistent mass
       EXPECT_LT(d.apart, other_load ? 1e-3 : 1e-4) << name(methods[m]) << (inertia ? " with inertia" : "");
     }
   }
@@ -80,11 +81,11 @@ TEST(Methods, OfEveryKindFollowTheLineExactlyOrArePulled) {
         Simulation simulation(sharing());
         LegMuscles choice{.drive = drive, .method = method, .element = element, .inertia = true};
         if (element != Element::full) choice.muscles = MuscleSet(0b0101);  // templates take their time
-        const Entity human = join_with(simulation, person(3), choice);
+        const Entity person = join_with(simulation, sample_person(3), choice);
         double missed = 0;
         for (int i = 0; i < 40; ++i) {
           simulation.tick();
-          for (const Entity muscle : muscles_of(simulation, human)) {
+          for (const Entity muscle : muscles_of(simulation, person)) {
             const auto line = *simulation.get<LineOfAction>(muscle);
             const auto report = *simulation.get<BellyReport>(muscle);
             ASSERT_TRUE(std::isfinite(report.elongation_m));
@@ -110,13 +111,13 @@ TEST(Methods, OtherCellsDampingAndMassWalkToo) {
   Simulation simulation(sharing());
   const LegMuscles choices[] = {
       {.stiffness_damping_s = 0.003, .cells = {1, 2, 5}},
-      {.method = Method::icd, .stiffness_damping_s = 0.001, .foundation_hz = 12.0},
-      {.method = Method::caa, .mass = Mass::consistent, .damping_per_s = 0, .cells = {2, 2, 10}},
+      {.method = Method::implicit_central, .stiffness_damping_s = 0.001, .foundation_hz = 12.0},
+      {.method = Method::newmark, .mass = Mass::consistent, .damping_per_s = 0, .cells = {2, 2, 10}},
       {.material = {1060, 5e4, 0.45}, .element = Element::bbar, .inertia = true}};
   for (const LegMuscles& choice : choices) {
-    const Entity human = join_with(simulation, person(2), choice);
+    const Entity person = join_with(simulation, sample_person(2), choice);
     for (int i = 0; i < 40; ++i) simulation.tick();
-    for (const Entity muscle : muscles_of(simulation, human)) {
+    for (const Entity muscle : muscles_of(simulation, person)) {
       EXPECT_EQ(nodal_displacement(simulation.world(), muscle).nodes, node_count(choice.cells));
       for (const float u : displacement(simulation, muscle)) ASSERT_LT(std::abs(u), 0.2F);  // not true of NaN
     }
@@ -128,14 +129,14 @@ TEST(Methods, OtherCellsDampingAndMassWalkToo) {
 TEST(Steps, AreTheLongestThatStayWithinNineTenthsOfEachLimit) {
   Simulation simulation(sharing());
   for (const LegMuscles& choice :
-       {LegMuscles{}, LegMuscles{.method = Method::icd}, LegMuscles{.method = Method::finite},
+       {LegMuscles{}, LegMuscles{.method = Method::implicit_central}, LegMuscles{.method = Method::finite},
         LegMuscles{.stiffness_damping_s = 0.002, .inertia = true}}) {
-    const Entity human = join_with(simulation, person(4), choice);
-    for (const Entity muscle : muscles_of(simulation, human)) {
+    const Entity person = join_with(simulation, sample_person(4), choice);
+    for (const Entity muscle : muscles_of(simulation, person)) {
       const auto& world = simulation.world();
-      const auto n = choice.method == Method::ecd      ? *world.get<Substeps>(muscle)
-                     : choice.method == Method::finite ? *world.get<FiniteSteps>(muscle)
-                                                       : *world.get<SolvedSteps>(muscle);
+      const auto n = choice.method == Method::explicit_central ? *world.get<Substeps>(muscle)
+                     : choice.method == Method::finite         ? *world.get<FiniteSteps>(muscle)
+                                                               : *world.get<SolvedSteps>(muscle);
       const double limit = 0.9 * limit_of(simulation, muscle), tick = simulation.tick_s();
       EXPECT_LE(tick / static_cast<double>(n), limit * (1 + 1e-9));
       if (n > 1) {
@@ -148,11 +149,11 @@ TEST(Steps, AreTheLongestThatStayWithinNineTenthsOfEachLimit) {
 TEST(Steps, AreTakenAsAsked) {
   Simulation simulation(sharing());
   const double tick = simulation.tick_s();
-  const Entity explicitly = join_with(simulation, person(0), {.dt_s = tick / 20}),
-               hardly_less = join_with(simulation, person(0), {.dt_s = tick / 20 * 0.999}),
-               once = join_with(simulation, person(0), {.method = Method::caa}),
-               long_ones = join_with(simulation, person(0), {.method = Method::caa, .dt_s = 1.0}),
-               thrice = join_with(simulation, person(0), {.method = Method::caa, .dt_s = tick / 2.5});
+  const Entity explicitly = join_with(simulation, sample_person(0), {.dt_s = tick / 20}),
+               hardly_less = join_with(simulation, sample_person(0), {.dt_s = tick / 20 * 0.999}),
+               once = join_with(simulation, sample_person(0), {.method = Method::newmark}),
+               long_ones = join_with(simulation, sample_person(0), {.method = Method::newmark, .dt_s = 1.0}),
+               thrice = join_with(simulation, sample_person(0), {.method = Method::newmark, .dt_s = tick / 2.5});
   const auto& world = simulation.world();
   for (std::size_t g = 0; g < muscle_group_count; ++g) {
     const auto group = static_cast<Muscle>(g);
@@ -165,10 +166,10 @@ TEST(Steps, AreTakenAsAsked) {
 }
 
 TEST(Steps, AboveTheLimitAreRefusedByName) {
-  for (const Method method : {Method::ecd, Method::icd}) {
+  for (const Method method : {Method::explicit_central, Method::implicit_central}) {
     Simulation simulation(sharing());
-    const Entity other = join_with(simulation, person(1), {.method = method});
-    const Entity probe = join_with(simulation, person(2), {.method = method});
+    const Entity other = join_with(simulation, sample_person(1), {.method = method});
+    const Entity probe = join_with(simulation, sample_person(2), {.method = method});
     std::array<double, muscle_group_count> limit{};
     for (std::size_t g = 0; g < muscle_group_count; ++g) {
       limit[g] = limit_of(simulation, simulation.muscle(probe, static_cast<Muscle>(g), Side::right));
@@ -199,11 +200,11 @@ double size(const Vec3<float>& v) {
 TEST(Inertia, BeginsAsAWalkThatWasUnderWay) {
   for (const float speed : {0.7F, 1.5F}) {
     Simulation simulation(sharing());
-    const Entity human = join_with(simulation, {{}, {.speed_m_s = speed}}, {.inertia = true});
+    const Entity person = join_with(simulation, {{}, {.speed_m_s = speed}}, {.inertia = true});
     double first = 0, most = 0;
     for (int i = 0; i < 150; ++i) {
       simulation.tick();
-      for (const Entity muscle : muscles_of(simulation, human)) {
+      for (const Entity muscle : muscles_of(simulation, person)) {
         const auto load = *simulation.get<FrameLoad>(muscle);
         most = std::max(most, size(load.constant_to));
         if (i < 3) first = std::max(first, size(load.constant_to));
@@ -217,12 +218,12 @@ TEST(Inertia, BeginsAsAWalkThatWasUnderWay) {
 
 TEST(Inertia, ShanksTurnAsFastAsTheyDo) {
   Simulation simulation(sharing());
-  const Entity human = join_with(simulation, {{}, {.speed_m_s = 1.4F}}, {.method = Method::statics, .inertia = true});
+  const Entity person = join_with(simulation, {{}, {.speed_m_s = 1.4F}}, {.method = Method::statics, .inertia = true});
   for (const Side side : {Side::right, Side::left}) {
     double turning = 0, swinging = 0;  // ω² and α times 0.4 m
     for (int i = 0; i < 90; ++i) {
       simulation.tick();
-      const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, side);
+      const Entity muscle = simulation.muscle(person, Muscle::triceps_surae, side);
       const auto g = simulation.get<FrameLoad>(muscle)->gradient_to;
       turning = std::max(turning, 0.4 * static_cast<double>(g.x.x + g.y.y + g.z.z) / 2);
       swinging = std::max(swinging, 0.2 * size({g.z.y - g.y.z, g.x.z - g.z.x, g.y.x - g.x.y}));
@@ -238,7 +239,7 @@ TEST(Inertia, TenSecondsStayWithinAFewCentimetres) {
   MOBIL_SLOW();
   for (const Method method : methods) {
     Simulation simulation(sharing());
-    const Person p = {{}, {.speed_m_s = 1.5F}};
+    const SamplePerson p = {{}, {.speed_m_s = 1.5F}};
     const Entity with = join_with(simulation, p, {.method = method, .inertia = true}),
                  without = join_with(simulation, p, {.method = method});
     Difference d;
@@ -253,17 +254,17 @@ TEST(Inertia, TenSecondsStayWithinAFewCentimetres) {
 
 // ------------------------------------------------------------------------------------------------- a choice as words
 
-TEST(ChoiceWords, EachIsAFieldsAndComesBack) {
+TEST(LegMusclesWords, EachIsAFieldsAndComesBack) {
   const LegMuscles usual;
-  const ChoiceWords words = choice_words(usual);
+  const LegMusclesWords words = leg_muscles_words(usual);
   EXPECT_EQ(choice_of(words), usual);
   std::size_t changed = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    ChoiceWords other = words;
+    LegMusclesWords other = words;
     other[i] ^= 1;
     const auto choice = choice_of(other);
     ASSERT_TRUE(choice) << i;
-    if (choice_words(*choice) != other) continue;  // a number that is left out counts for nothing
+    if (leg_muscles_words(*choice) != other) continue;  // a number that is left out counts for nothing
     ++changed;
     EXPECT_NE(*choice, usual) << i;
     EXPECT_NE(hash_of(*choice), hash_of(usual)) << i;
@@ -271,11 +272,11 @@ TEST(ChoiceWords, EachIsAFieldsAndComesBack) {
   EXPECT_EQ(changed, words.size() - 2);  // foundation and step are left out
 }
 
-TEST(ChoiceWords, WhatNoFieldCanBeIsRefused) {
-  const ChoiceWords words = choice_words({});
+TEST(LegMusclesWords, WhatNoFieldCanBeIsRefused) {
+  const LegMusclesWords words = leg_muscles_words({});
   std::size_t refused = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    ChoiceWords other = words;
+    LegMusclesWords other = words;
     other[i] = ~std::uint64_t{0};
     refused += choice_of(other) ? 0 : 1;
   }

@@ -12,7 +12,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/retarget.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
 
@@ -103,23 +103,23 @@ TEST(Limbs, MusclesAreAtRestWhereTheirBonesAre) {
     BodyRequest plain = own;
     plain.limbs = {};
     const Entity does_not = *simulation.spawn_posed(plain);
-    const Pose<float> pose = crouching(simulation.human(knows)->body, 0, 0);
-    double most_mm = 0;
-    for (const Entity human : {knows, does_not}) {
-      ASSERT_EQ(simulation.set_pose(human, pose), Status::ok);
-      ASSERT_TRUE(simulation.set_muscles(human, {.muscles = muscle_members()}));
+    const Pose<float> pose = crouching(simulation.person(knows)->body, 0, 0);
+    double max_mm = 0;
+    for (const Entity person : {knows, does_not}) {
+      ASSERT_EQ(simulation.set_pose(person, pose), Status::ok);
+      ASSERT_TRUE(simulation.set_muscles(person, {.muscles = muscle_members()}));
       simulation.tick();
-      for (const Entity muscle : muscles_of(simulation, human)) {
+      for (const Entity muscle : muscles_of(simulation, person)) {
         const auto line = *simulation.get<LineOfAction>(muscle);
         const double off_mm = 1000 * std::abs(static_cast<double>(line.length_m - line.rest_length_m));
-        if (human == does_not) {
-          most_mm = std::max(most_mm, off_mm);
+        if (person == does_not) {
+          max_mm = std::max(max_mm, off_mm);
         } else {
           EXPECT_LT(off_mm, 0.01);
         }
       }
     }
-    EXPECT_GT(most_mm, 50) << factor;
+    EXPECT_GT(max_mm, 50) << factor;
   }
 }
 
@@ -130,29 +130,29 @@ TEST(Limbs, WhatLiesAcrossABoneIsAsTheHeightHasIt) {
   BodyRequest plain = own;
   plain.limbs = {};
   std::vector<LegScale<float>> scale;
-  std::vector<Human> humans;
+  std::vector<Person> people;
   for (const BodyRequest& body : {own, plain}) {
-    const Entity human = *simulation.spawn_posed(body);
-    ASSERT_TRUE(simulation.set_muscles(human));
-    scale.push_back(*simulation.get<LegScale>(simulation.muscle(human, Muscle::hamstrings, Side::right)));
-    humans.push_back(*simulation.human(human));
+    const Entity person = *simulation.spawn_posed(body);
+    ASSERT_TRUE(simulation.set_muscles(person));
+    scale.push_back(*simulation.get<LegScale>(simulation.muscle(person, Muscle::hamstrings, Side::right)));
+    people.push_back(*simulation.person(person));
   }
   EXPECT_NEAR(scale[0].across, scale[1].across, 1e-6F);
   EXPECT_NEAR(scale[0].thigh, 1.3F * scale[1].thigh, 1e-5F);
   EXPECT_NEAR(scale[0].shank, 1.2F * scale[1].shank, 1e-5F);
   // Where the hamstrings begin is on the pelvis: as far from the hip in either body.
-  const auto from_hip = [](const Human& human) {
-    const Pose<float> pose = standing_pose(human.body);
-    const auto made = *make_muscle_plan(human.body, Muscle::hamstrings);
+  const auto from_hip = [](const Person& person) {
+    const Pose<float> pose = standing_pose(person.body);
+    const auto made = *make_muscle_plan(person.body, Muscle::hamstrings);
     return length(made.start_m - to_double(pose.position_m[index(thigh_right)]));
   };
-  EXPECT_NEAR(from_hip(humans[0]), from_hip(humans[1]), 0.02);
+  EXPECT_NEAR(from_hip(people[0]), from_hip(people[1]), 0.02);
 }
 
 TEST(Limbs, TheCentreOfMassIsTheBodys) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn_posed(long_limbed(1.3F, 0.8F, 1.4F, 1.2F));
-  const Body body = simulation.human(human)->body;
+  const Entity person = *simulation.spawn_posed(long_limbed(1.3F, 0.8F, 1.4F, 1.2F));
+  const Body body = simulation.person(person)->body;
   const auto expect = [&](const Pose<float>& pose) {
     Vec3<double> sum{};
     for (std::size_t s = 0; s < segment_count; ++s) {
@@ -160,31 +160,31 @@ TEST(Limbs, TheCentreOfMassIsTheBodys) {
           to_double(pose.position_m[s]) + rotated(to_double(pose.rotation[s]), to_double(body.centre_of_mass_m[s]));
       sum = sum + (static_cast<double>(body.mass_kg[s]) / static_cast<double>(body.request.mass_kg)) * at;
     }
-    const auto centre = to_double(simulation.get<CentreOfMass>(human)->position_m);
+    const auto centre = to_double(simulation.get<CentreOfMass>(person)->position_m);
     EXPECT_LT(length(centre - sum), 1e-5);
   };
-  expect(*simulation.get<Pose>(human));
+  expect(*simulation.get<Pose>(person));
   for (const float bent : {0.0F, 30.0F, 80.0F}) {
     const Pose<float> pose = crouching(body, bent, 1.5F * bent);
-    ASSERT_EQ(simulation.set_pose(human, pose), Status::ok);
+    ASSERT_EQ(simulation.set_pose(person, pose), Status::ok);
     simulation.tick();
     expect(pose);
   }
 }
 
-TEST(Limbs, AreKeptBySnapshotsAndToldByHuman) {
+TEST(Limbs, AreKeptBySnapshotsAndToldByPerson) {
   Simulation simulation(sharing()), other(sharing());
   const BodyRequest asked = long_limbed(1.2F, 1.1F);
-  const Entity human = *simulation.spawn_posed(asked);
-  ASSERT_TRUE(simulation.set_muscles(human));
+  const Entity person = *simulation.spawn_posed(asked);
+  ASSERT_TRUE(simulation.set_muscles(person));
   simulation.tick();
-  EXPECT_EQ(simulation.human(human)->body.request.limbs.thigh_m, asked.limbs.thigh_m);
+  EXPECT_EQ(simulation.person(person)->body.request.limbs.thigh_m, asked.limbs.thigh_m);
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
   const auto restored = other.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(restored) << restored.error().message;
   EXPECT_EQ(other.state_hash(), simulation.state_hash());
-  EXPECT_EQ(other.human(human)->body.request.limbs.shank_m, asked.limbs.shank_m);
+  EXPECT_EQ(other.person(person)->body.request.limbs.shank_m, asked.limbs.shank_m);
 }
 
 /// The bones of a skeleton of other proportions, as a game has them: joints then lie upon the game's.
@@ -212,7 +212,7 @@ TEST(Limbs, ARetargetedSkeletonKeepsItsJoints) {
   BodyRequest request{.height_m = 1.75F, .mass_kg = 72, .limbs = *limbs};
   Simulation simulation(sharing());
   const Entity puppet = *simulation.spawn_posed(request);
-  const auto map = Retarget::make(simulation.human(puppet)->body, numbers, rest);
+  const auto map = Retarget::make(simulation.person(puppet)->body, numbers, rest);
   ASSERT_TRUE(map) << map.error().message;
   const Pose<float> now = crouching(game, 50, 70);
   const auto pose = map->pose(bones_of(now));
@@ -231,12 +231,12 @@ TEST(Limbs, SurfacesOfUsualBodiesFit) {
   const Body usual = *make_body({.height_m = 1.70F, .mass_kg = 68});
   Simulation simulation(sharing());
   const Entity puppet = *simulation.spawn_posed(long_limbed(1.15F, 0.92F, 1.1F, 1.2F));
-  ASSERT_EQ(simulation.set_pose(puppet, crouching(simulation.human(puppet)->body, 20, 30)), Status::ok);
+  ASSERT_EQ(simulation.set_pose(puppet, crouching(simulation.person(puppet)->body, 20, 30)), Status::ok);
   ASSERT_TRUE(simulation.set_muscles(puppet));
   simulation.tick();
-  const Human human = *simulation.human(puppet);
+  const Person person = *simulation.person(puppet);
   std::vector<SurfaceMuscle> muscles;
-  for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+  for (const PersonMuscle& own : person.muscles) muscles.push_back({own.plan.muscle, own.entity});
   SurfaceWriter writer;
   const auto show = [&](const BodySurfaces& surfaces, const SurfaceFit* fit, std::vector<Vec3<float>>& normal) {
     std::vector<Vec3<float>> position(surfaces.vertices);
@@ -251,8 +251,8 @@ TEST(Limbs, SurfacesOfUsualBodiesFit) {
     EXPECT_TRUE(done) << done.error().message;
     return position;
   };
-  const BodySurfaces shared = *bind_surfaces(usual), own = *bind_surfaces(human.body);
-  const SurfaceFit fit = fit_surfaces(shared, human.body);
+  const BodySurfaces shared = *bind_surfaces(usual), own = *bind_surfaces(person.body);
+  const SurfaceFit fit = fit_surfaces(shared, person.body);
   std::vector<Vec3<float>> normal, own_normal;
   const auto fitted = show(shared, &fit, normal), drawn = show(own, nullptr, own_normal);
   double sum[2] = {}, most[2] = {}, count[2] = {};

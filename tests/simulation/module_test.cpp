@@ -19,7 +19,7 @@ namespace mobil::module_test {
 /// A number of the host's on a row, one more each tick.
 template <class F>
 struct Counter {
-  Whole<F> ticks, key;
+  UInt32<F> ticks, key;
 };
 struct Trace {};  // a field
 struct Palette {  // a resource
@@ -36,7 +36,7 @@ void count(Counter<Lanes<float>>& counter, Field<Trace> trace) {
 Module counting(std::uint32_t version = 1, std::shared_ptr<const Palette> palette = nullptr) {
   Module module{.name = "counting",
                 .version = version,
-                .parts = {component_part<Counter>(), key_part(FieldWidth<Trace>{}), key_part(Shared<Palette>{})},
+                .parts = {component_id<Counter>(), component_id(FieldWidth<Trace>{}), component_id(Shared<Palette>{})},
                 .systems = [](ScheduleBuilder& systems) { systems.add("count", &count); }};
   if (palette != nullptr) module.resources = {named_resource("palette", std::move(palette))};
   return module;
@@ -57,16 +57,16 @@ void expect_marked(const Simulation& simulation, Entity entity, std::uint32_t ke
 }
 
 struct Marked {
-  Entity human, muscle;
+  Entity person, muscle;
 };
 
 /// A walker with coarse muscles who bears the host's parts, as does one of the muscles.
 Marked marked_walker(Simulation& simulation) {
   Marked made;
-  made.human = *simulation.spawn({});
-  EXPECT_TRUE(simulation.set_muscles(made.human, {.cells = play::coarse}));
-  made.muscle = simulation.muscle(made.human, Muscle::hamstrings, Side::left);
-  mark(simulation, made.human, 11);
+  made.person = *simulation.spawn({});
+  EXPECT_TRUE(simulation.set_muscles(made.person, {.cells = play::coarse}));
+  made.muscle = simulation.muscle(made.person, Muscle::hamstrings, Side::left);
+  mark(simulation, made.person, 11);
   mark(simulation, made.muscle, 22);
   return made;
 }
@@ -77,18 +77,18 @@ TEST(Modules, PartsOfAHostStayThroughEveryChangeOfAMuscle) {
   std::uint32_t ticks = 0;
   const auto run = [&] {
     simulation.tick();
-    expect_marked(simulation, marked.human, 11, ++ticks);
+    expect_marked(simulation, marked.person, 11, ++ticks);
     expect_marked(simulation, marked.muscle, 22, ticks);
   };
   for (const MuscleMethod& method : play::every_method()) {
-    ASSERT_TRUE(simulation.set_method(marked.human, Muscle::hamstrings, method));
+    ASSERT_TRUE(simulation.set_method(marked.person, Muscle::hamstrings, method));
     run();
   }
   for (std::uint64_t draw = 0; draw < 27; ++draw) {
-    ASSERT_TRUE(simulation.set_muscles(marked.human, play::choice_of(draw)));
+    ASSERT_TRUE(simulation.set_muscles(marked.person, play::choice_of(draw)));
     run();
   }
-  EXPECT_EQ(simulation.enable(marked.human, Feature::forces), Status::ok);
+  EXPECT_EQ(simulation.enable(marked.person, Feature::forces), Status::ok);
   run();
   for (int i = 0; i < 30; ++i) run();  // fades end
 }
@@ -104,7 +104,7 @@ TEST(Modules, PartsOfAHostStayWhileOthersComeAndGo) {
     simulation.tick();
     expect_marked(simulation, others[50], 33, 1);
     EXPECT_EQ(simulation.despawn(others), Status::ok);
-    expect_marked(simulation, marked.human, 11, round + 1);
+    expect_marked(simulation, marked.person, 11, round + 1);
     expect_marked(simulation, marked.muscle, 22, round + 1);
   }
 }
@@ -113,7 +113,7 @@ TEST(Modules, SnapshotsAndRollbackKeepWhatModulesName) {
   const auto palette = std::make_shared<const Palette>(Palette{7});
   Simulation simulation({.modules = {counting(1, palette)}});
   const Marked marked = marked_walker(simulation);
-  simulation.parts().add(marked.human, simulation.parts().share(palette));
+  simulation.parts().add(marked.person, simulation.parts().share(palette));
   simulation.tick();
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
@@ -131,9 +131,9 @@ TEST(Modules, SnapshotsAndRollbackKeepWhatModulesName) {
   Simulation other({.modules = {counting(1, palette)}});
   ASSERT_TRUE(other.restore(bytes, RestoreLimits::none())) << other.restore(bytes).error().message;
   EXPECT_EQ(other.state_hash(), then);
-  expect_marked(other, marked.human, 11, 1);
-  ASSERT_NE(other.world().shared<Palette>(marked.human), nullptr);
-  EXPECT_EQ(other.world().shared<Palette>(marked.human)->colours, 7);
+  expect_marked(other, marked.person, 11, 1);
+  ASSERT_NE(other.world().shared<Palette>(marked.person), nullptr);
+  EXPECT_EQ(other.world().shared<Palette>(marked.person)->colours, 7);
   for (int i = 0; i < 5; ++i) other.tick();
   EXPECT_EQ(other.state_hash(), later);
 }
@@ -158,8 +158,8 @@ TEST(Modules, SnapshotsOfOtherModulesOrVersionsAreRefused) {
 
   // A resource that no module names cannot be saved; one that is named cannot be restored without its module.
   const auto palette = std::make_shared<const Palette>(Palette{7});
-  const Entity human = *simulation.spawn({});
-  simulation.parts().add(human, simulation.parts().share(palette));
+  const Entity person = *simulation.spawn({});
+  simulation.parts().add(person, simulation.parts().share(palette));
   const auto unnamed = simulation.save(bytes);
   EXPECT_FALSE(unnamed);
   Simulation named({.modules = {counting(1, palette)}});
@@ -172,7 +172,7 @@ TEST(Modules, SnapshotsOfOtherModulesOrVersionsAreRefused) {
 TEST(Modules, ThatDoNotFitAreRefused) {
   EXPECT_THROW(Simulation({.modules = {counting(), counting()}}), std::invalid_argument);
   EXPECT_THROW(Simulation({.modules = {Module{}}}), std::invalid_argument);
-  EXPECT_THROW(Simulation({.modules = {Module{.name = "mine", .parts = {component_part<Pose>()}}}}),
+  EXPECT_THROW(Simulation({.modules = {Module{.name = "mine", .parts = {component_id<Pose>()}}}}),
                std::invalid_argument);
   const Module late{.name = "late",
                     .systems = [](ScheduleBuilder& systems) { systems.add("late", &count).after("no such system"); }};
@@ -187,10 +187,10 @@ TEST(Modules, TogetherKnowEveryPartThatACrowdEverHas) {
     crowd.tick();
     const Simulation& simulation = crowd.simulation();
     for (const Table& table : simulation.world().tables()) {
-      for (const KeyPart& part : table.key()) {
+      for (const ComponentId& part : table.key()) {
         EXPECT_NE(module_of(simulation.modules(), part.id), nullptr) << part.name << " is no module's";
       }
-      if (find_part(table.key(), type_id<MuscleOwner<float>>()) == nullptr) continue;
+      if (find_component(table.key(), type_id<MuscleOwner<float>>()) == nullptr) continue;
       EXPECT_TRUE(muscle_kind(table.key(), simulation.world())) << "tick " << tick;
       muscles += table.row_count();
     }

@@ -37,12 +37,12 @@ double off(const Pair& of) {
 /// Activation takes 10 to 40 ms to follow, so they are a little late.
 TEST(Moments, MusclesMakeThoseOfTheWalk) {
   Simulation simulation(sharing());
-  const Entity human = walker(simulation);
-  ASSERT_TRUE(simulation.enable(human, Feature::forces));
+  const Entity person = walker(simulation);
+  ASSERT_TRUE(simulation.enable(person, Feature::forces));
   LegMuscles choice = following();
   choice.muscles = muscle_members();
   choice.line_motion = true;
-  ASSERT_TRUE(simulation.set_muscles(human, choice));
+  ASSERT_TRUE(simulation.set_muscles(person, choice));
   for (const Side side : {Side::right, Side::left}) {
     Pair ankle, knee;
     float reserve_nm = 0;
@@ -50,15 +50,15 @@ TEST(Moments, MusclesMakeThoseOfTheWalk) {
       simulation.tick();
       if (tick < 60) continue;
       float ankle_nm = 0, knee_nm = 0;
-      for (const OwnMuscle& own : simulation.muscles(human)) {
+      for (const MuscleRef& own : simulation.muscles(person)) {
         const float force_n = simulation.get<Musculotendon>(own.entity[side])->force_n;
         const auto arms = *simulation.get<LineMotion>(own.entity[side]);
         ankle_nm -= force_n * arms.ankle_dorsiflexion_arm_m, knee_nm -= force_n * arms.knee_flexion_arm_m;
       }
-      const auto moments = *simulation.get<JointMoments>(human);
+      const auto moments = *simulation.get<JointMoments>(person);
       ankle.muscles.push_back(ankle_nm), ankle.joint.push_back(moments.ankle_nm[side]);
       knee.muscles.push_back(knee_nm), knee.joint.push_back(moments.knee_nm[side]);
-      const auto reserve = *simulation.get<MomentReserve>(human);
+      const auto reserve = *simulation.get<MomentReserve>(person);
       reserve_nm = std::max({reserve_nm, std::abs(reserve.knee_nm[side]), std::abs(reserve.ankle_nm[side])});
     }
     EXPECT_LT(off(ankle), 0.15);
@@ -69,52 +69,52 @@ TEST(Moments, MusclesMakeThoseOfTheWalk) {
 
 TEST(Moments, NeedForces) {
   Simulation simulation(sharing());
-  const Entity human = walker(simulation);
-  const auto refused = simulation.set_muscles(human, following());
+  const Entity person = walker(simulation);
+  const auto refused = simulation.set_muscles(person, following());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().status, Status::missing);
   EXPECT_NE(refused.error().message.find("Feature::forces"), std::string::npos) << refused.error().message;
-  EXPECT_TRUE(simulation.muscles(human).empty());
+  EXPECT_TRUE(simulation.muscles(person).empty());
   SpawnRequest request;
   request.muscles = following();
   Entity none;
   const auto spawned = simulation.spawn({&request, 1}, {&none, 1});
   ASSERT_FALSE(spawned);
-  ASSERT_TRUE(simulation.enable(human, Feature::forces));
-  EXPECT_TRUE(simulation.set_muscles(human, following()));
+  ASSERT_TRUE(simulation.enable(person, Feature::forces));
+  EXPECT_TRUE(simulation.set_muscles(person, following()));
 }
 
 /// The parts that they are asked by come and go with them, and with the forces that they are of.
 TEST(Moments, ComeAndGo) {
   Simulation simulation(sharing());
-  const Entity human = walker(simulation);
-  ASSERT_TRUE(simulation.enable(human, Feature::forces));
-  ASSERT_TRUE(simulation.set_muscles(human, following(Method::reduced)));
-  EXPECT_TRUE(simulation.get<MomentReserve>(human));
-  LegMuscles phase = following(Method::reduced);
+  const Entity person = walker(simulation);
+  ASSERT_TRUE(simulation.enable(person, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(person, following(Method::modal)));
+  EXPECT_TRUE(simulation.get<MomentReserve>(person));
+  LegMuscles phase = following(Method::modal);
   phase.activation = ExcitationSource::phase;
-  ASSERT_TRUE(simulation.set_muscles(human, phase));
-  EXPECT_FALSE(simulation.get<MomentReserve>(human));
-  ASSERT_TRUE(simulation.set_muscles(human, following(Method::reduced)));
-  EXPECT_TRUE(simulation.get<MomentReserve>(human));
+  ASSERT_TRUE(simulation.set_muscles(person, phase));
+  EXPECT_FALSE(simulation.get<MomentReserve>(person));
+  ASSERT_TRUE(simulation.set_muscles(person, following(Method::modal)));
+  EXPECT_TRUE(simulation.get<MomentReserve>(person));
   for (int tick = 0; tick < 60; ++tick) simulation.tick();
-  ASSERT_TRUE(simulation.enable(human, Feature::forces, false));
-  EXPECT_FALSE(simulation.get<MomentReserve>(human));
+  ASSERT_TRUE(simulation.enable(person, Feature::forces, false));
+  EXPECT_FALSE(simulation.get<MomentReserve>(person));
   for (int tick = 0; tick < 60; ++tick) simulation.tick();
-  const Entity calf = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+  const Entity calf = simulation.muscle(person, Muscle::triceps_surae, Side::right);
   EXPECT_LT(simulation.get<Activation>(calf)->activation, 0.02F) << "nothing is asked of them";
-  ASSERT_FALSE(simulation.set_muscles(human, following(Method::none)));
-  ASSERT_TRUE(simulation.enable(human, Feature::forces));
-  ASSERT_TRUE(simulation.set_muscles(human, following(Method::none)));
-  ASSERT_TRUE(simulation.set_muscles(human, std::nullopt));
-  EXPECT_FALSE(simulation.get<MomentReserve>(human));
+  ASSERT_FALSE(simulation.set_muscles(person, following(Method::none)));
+  ASSERT_TRUE(simulation.enable(person, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(person, following(Method::none)));
+  ASSERT_TRUE(simulation.set_muscles(person, std::nullopt));
+  EXPECT_FALSE(simulation.get<MomentReserve>(person));
 }
 
 TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
   Simulation simulation(sharing());
-  LegMuscles plain = following(Method::reduced);
+  LegMuscles plain = following(Method::modal);
   plain.activation = ExcitationSource::none;
-  plain.reduced.control_points = false;
+  plain.modal.control_points = false;
   for (const bool compact : {false, true}) {
     const Entity with = walker(simulation), without = walker(simulation);
     ASSERT_TRUE(simulation.set_muscles(with, plain));
@@ -123,21 +123,21 @@ TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
     const PersonState state = compact ? PersonState::compact : PersonState::asleep;
     ASSERT_EQ(simulation.set_state(both, state).value(), 2U) << compact;
     const std::uint64_t before = simulation.state_hash();
-    EXPECT_EQ(simulation.set_muscles(with, following(Method::reduced)).error().status, Status::missing);
+    EXPECT_EQ(simulation.set_muscles(with, following(Method::modal)).error().status, Status::missing);
     LegMuscles wild = plain;
-    wild.reduced.vectors = 9999;
+    wild.modal.modes = 9999;
     EXPECT_FALSE(simulation.set_muscles(with, wild));
     EXPECT_EQ(simulation.state_hash(), before);
-    for (const Entity human : both) EXPECT_EQ(simulation.state(human), state);
+    for (const Entity person : both) EXPECT_EQ(simulation.state(person), state);
     ASSERT_TRUE(simulation.despawn(both));
   }
 }
 
 TEST(Moments, GoOnFromASnapshot) {
   Simulation simulation(sharing()), other(sharing());
-  const Entity human = walker(simulation);
-  ASSERT_TRUE(simulation.enable(human, Feature::forces));
-  ASSERT_TRUE(simulation.set_muscles(human, following(Method::reduced)));
+  const Entity person = walker(simulation);
+  ASSERT_TRUE(simulation.enable(person, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(person, following(Method::modal)));
   for (int tick = 0; tick < 40; ++tick) simulation.tick();
   std::vector<std::byte> saved(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(saved));

@@ -36,7 +36,7 @@ void look(Simulation& simulation) {
   camera.half_angle_rad = 0.4F;
   camera.near_m = 3;
   camera.reach_m = 12;
-  SceneNeeds needs{.camera = camera, .tolerance_px = 2, .asleep_beyond_m = 4, .compact_unseen = true};
+  LodScene needs{.camera = camera, .tolerance_px = 2, .asleep_beyond_m = 4, .compact_unseen = true};
   needs.muscles = MuscleSet(3);
   ASSERT_TRUE(simulation.lod().set_scene(needs));
 }
@@ -55,7 +55,7 @@ std::unique_ptr<Simulation> equipped(int threads = 1) {
 void populate(Simulation& simulation) {
   std::vector<SpawnRequest> requests(crowd_size);
   for (std::size_t i = 0; i < crowd_size; ++i) {
-    const Person one = person(static_cast<int>(i));
+    const SamplePerson one = sample_person(static_cast<int>(i));
     requests[i].body = one.body;
     requests[i].gait = {.speed_m_s = 0.7F + 0.01F * static_cast<float>(i % 60)};
     requests[i].x_m = 3.0F * (static_cast<float>(i % 10) - 4.5F);
@@ -77,8 +77,8 @@ void play(Simulation& simulation, std::uint32_t to_tick) {
     const std::uint32_t now = simulation.ticks();
     const auto people = simulation.people();
     const Entity one = *std::ranges::min_element(people, {}, [&](Entity e) { return (e.index * 7919U + now) % 101U; });
-    if (simulation.world().has<Course>(one))
-      (void)simulation.avoidance().want({{{one, 1.1F, 0.01F * static_cast<float>(now)}}});
+    if (simulation.world().has<AvoidanceState>(one))
+      (void)simulation.avoidance().set_desired_velocity({{{one, 1.1F, 0.01F * static_cast<float>(now)}}});
     else
       (void)simulation.turn_to(one, 0.01F * static_cast<float>(now));
     simulation.tick(now % 3 == 0 && now + 2 <= to_tick ? 2 : 1);

@@ -18,25 +18,25 @@ inline SimulationOptions sharing(SimulationOptions options = {}) {
   return options;
 }
 
-/// From the least to the most that a living body of that height weighs, kg: `part` 0 to 1.
+/// From the least to the most that a real body of that height weighs, kg: `part` 0 to 1.
 inline float living_mass(float height_m, double part) {
   const auto [low, high] = living_mass_kg(static_cast<double>(height_m));
   return static_cast<float>(low + part * (high - low));
 }
 
-struct Person {
+struct SamplePerson {
   BodyRequest body;
   GaitRequest gait;
 };
 
-/// Person `i` of a crowd: the same for ever, unlike the others, and able to walk as asked.
-inline Person person(int i) {
+/// SamplePerson `i` of a crowd: the same for ever, unlike the others, and able to walk as asked.
+inline SamplePerson sample_person(int i) {
   // Golden-ratio steps through [0, 1), another stride for each quantity.
   const auto part = [i](int stride) {
     const double x = (i + 1) * stride * 0.6180339887498949;
     return static_cast<float>(x - std::floor(x));
   };
-  Person p;
+  SamplePerson p;
   p.body.height_m = 1.45F + 0.55F * part(1);
   p.body.mass_kg = (19.0F + 10.0F * part(2)) * p.body.height_m * p.body.height_m;
   p.body.biotype = {1 + 5 * part(3), 2 + 4 * part(5), 1 + 4 * part(7)};

@@ -71,8 +71,8 @@ struct Stage {
     if (muscles) {
       LegMuscles choice;
       choice.muscles = MuscleSet(1);
-      choice.method = Method::reduced;
-      choice.reduced.control_points = false;
+      choice.method = Method::modal;
+      choice.modal.control_points = false;
       if (call == "set_excitation" && state != PersonState::compact) choice.activation = ExcitationSource::host;
       EXPECT_TRUE(simulation.set_muscles(person, choice));
     }
@@ -105,7 +105,7 @@ const std::map<std::string, Call>& calls() {
       {"turn_to", [](Simulation& s, Entity p) { return s.turn_to(p, 0.5F).has_value(); }},
       {"change_gait_many",
        [](Simulation& s, Entity p) {
-         const WalkChange change{.human = p, .heading_rad = 0.5F};
+         const WalkChange change{.person = p, .heading_rad = 0.5F};
          return s.change_gait(std::span(&change, 1)).has_value();  // which counts who cannot
        }},
       {"step_aside", [](Simulation& s, Entity p) { return s.step_aside(p, 0.1F, 0).has_value(); }},

@@ -17,7 +17,7 @@ using geometry::operator-, geometry::operator+;
 
 LegMuscles with_inertia(Method method) {
   return {
-      .muscles = MuscleSet(3), .method = method, .reduced = {.cells = {2, 2, 8}}, .inertia = true, .line_motion = true};
+      .muscles = MuscleSet(3), .method = method, .modal = {.cells = {2, 2, 8}}, .inertia = true, .line_motion = true};
 }
 
 /// Of a walker who was put elsewhere, and of one who was not: the way between them.
@@ -49,9 +49,9 @@ void expect_along(const Way& way, const Simulation& here, Entity stays, const Si
 TEST(Place, PoseAndMusclesGoAlongAndWalkOn) {
   std::mt19937 random(9);
   auto draw = [&](float low, float high) { return low + (high - low) * static_cast<float>(random() % 1000) / 1000; };
-  for (const Method method : {Method::ecd, Method::reduced}) {
+  for (const Method method : {Method::explicit_central, Method::modal}) {
     Simulation here(sharing()), there(sharing());
-    const Person person = mobil::person(3);
+    const SamplePerson person = mobil::sample_person(3);
     const Entity stays = join_with(here, person, with_inertia(method)),
                  placed = join_with(there, person, with_inertia(method));
     for (Simulation* simulation : {&here, &there}) {
@@ -82,19 +82,19 @@ TEST(Place, PoseAndMusclesGoAlongAndWalkOn) {
 TEST(Place, APosedPersonFeelsAWayAndNoJump) {
   for (const auto arrival : {Arrival::jumped, Arrival::moved}) {
     Simulation simulation(sharing());
-    const Entity human = simulation.spawn_posed(person(2).body).value();
-    ASSERT_TRUE(simulation.set_muscles(human, with_inertia(Method::reduced)));
-    auto pose = *simulation.get<Pose>(human);
+    const Entity person = simulation.spawn_posed(sample_person(2).body).value();
+    ASSERT_TRUE(simulation.set_muscles(person, with_inertia(Method::modal)));
+    auto pose = *simulation.get<Pose>(person);
     const auto most = [&] {
       double all = 0;
-      for (const Entity muscle : muscles_of(simulation, human))
+      for (const Entity muscle : muscles_of(simulation, person))
         for (const float u : displacement(simulation, muscle)) all = std::max(all, static_cast<double>(std::abs(u)));
       return all;
     };
     for (int t = 0; t < 60; ++t) simulation.tick();
     const double before = most();
     for (auto& at : pose.position_m) at.x += 10;
-    ASSERT_EQ(simulation.set_pose(human, pose, arrival), Status::ok);
+    ASSERT_EQ(simulation.set_pose(person, pose, arrival), Status::ok);
     double after = 0;
     for (int t = 0; t < 30; ++t) {
       simulation.tick();
@@ -110,12 +110,13 @@ TEST(Place, APosedPersonFeelsAWayAndNoJump) {
 
 TEST(Place, WhatIsNoPlaceIsRefused) {
   Simulation simulation(sharing());
-  const Entity walker = join(simulation, person(1), false), posed = simulation.spawn_posed(person(2).body).value();
+  const Entity walker = join(simulation, sample_person(1), false),
+               posed = simulation.spawn_posed(sample_person(2).body).value();
   simulation.tick();
   const std::uint64_t before = simulation.state_hash();
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  auto complaint = [&](Entity human, float x, float z, float heading) {
-    const auto done = simulation.place(human, x, z, heading);
+  auto complaint = [&](Entity person, float x, float z, float heading) {
+    const auto done = simulation.place(person, x, z, heading);
     return done ? std::string() : done.error().message;
   };
   EXPECT_NE(complaint(walker, nan, 0, 0).find("not within"), std::string::npos);
@@ -133,7 +134,7 @@ TEST(Place, IsAsIfSpawnedThere) {
   std::vector<PlaceRequest> to(12);
   std::vector<Entity> spawned(12), people(12);
   for (std::size_t i = 0; i < 12; ++i) {
-    Person who = person(static_cast<int>(i));
+    SamplePerson who = sample_person(static_cast<int>(i));
     who.gait.style = snapped(who.gait.style);
     if (i % 4 == 3) who.gait = {.speed_m_s = 0.0F};
     const auto n = static_cast<float>(i);
@@ -164,7 +165,7 @@ TEST(Place, SleepersGoAlong) {
   Simulation awake(sharing()), asleep(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 8; ++i) {
-    Person who = person(i);
+    SamplePerson who = sample_person(i);
     who.gait.style = snapped(who.gait.style);
     people.push_back(*awake.spawn(who.body, who.gait));
     ASSERT_EQ(*asleep.spawn(who.body, who.gait), people.back());
@@ -173,20 +174,21 @@ TEST(Place, SleepersGoAlong) {
   ASSERT_EQ(*asleep.set_state(people, PersonState::asleep), 8U);
   const auto put = [&](float x_m) {
     std::vector<PlaceRequest> to;
-    for (const Entity human : people) to.push_back({human, x_m + static_cast<float>(human.index), -x_m, 0.01F * x_m});
+    for (const Entity person : people)
+      to.push_back({person, x_m + static_cast<float>(person.index), -x_m, 0.01F * x_m});
     ASSERT_TRUE(awake.place(to));
     ASSERT_TRUE(asleep.place(to));
   };
   put(25);
   for (int t = 0; t < 50; ++t) awake.tick(), asleep.tick();
-  for (const Entity human : people) EXPECT_TRUE(walk_alike(awake, human, asleep, human));
+  for (const Entity person : people) EXPECT_TRUE(walk_alike(awake, person, asleep, person));
   // Now some turn and some stop, and are put elsewhere at once, on the way and after.
-  for (const Entity human : people) {
+  for (const Entity person : people) {
     for (Simulation* const simulation : {&awake, &asleep}) {
-      if (human.index % 2 == 0) {
-        ASSERT_TRUE(simulation->turn_to(human, 1.5F));
+      if (person.index % 2 == 0) {
+        ASSERT_TRUE(simulation->turn_to(person, 1.5F));
       } else {
-        ASSERT_TRUE(simulation->change_gait(human, {.speed_m_s = 0.0F}));
+        ASSERT_TRUE(simulation->change_gait(person, {.speed_m_s = 0.0F}));
       }
     }
   }
@@ -194,9 +196,9 @@ TEST(Place, SleepersGoAlong) {
   for (const float x_m : {60.0F, 80.0F, -30.0F}) {
     put(x_m);
     for (int t = 0; t < 40; ++t) awake.tick(), asleep.tick();
-    for (const Entity human : people) {
-      EXPECT_EQ(asleep.state(human), PersonState::asleep);
-      const auto a = *awake.get<GaitState>(human), b = *asleep.get<GaitState>(human);
+    for (const Entity person : people) {
+      EXPECT_EQ(asleep.state(person), PersonState::asleep);
+      const auto a = *awake.get<GaitState>(person), b = *asleep.get<GaitState>(person);
       EXPECT_EQ(a.time_s, b.time_s);
       EXPECT_EQ(a.steps, b.steps);
       EXPECT_NEAR(a.line_x_m, b.line_x_m, 1e-4);
@@ -205,8 +207,8 @@ TEST(Place, SleepersGoAlong) {
     }
   }
   ASSERT_TRUE(asleep.set_state(people, PersonState::full));
-  for (const Entity human : people) {
-    const auto a = *awake.get<Pose>(human), b = *asleep.get<Pose>(human);
+  for (const Entity person : people) {
+    const auto a = *awake.get<Pose>(person), b = *asleep.get<Pose>(person);
     for (std::size_t s = 0; s < segment_count; ++s)
       EXPECT_LT(geometry::length(a.position_m[s] - b.position_m[s]), 2e-4) << segment_name[s];
   }
@@ -217,10 +219,10 @@ TEST(Place, ManyOrNobody) {
   std::vector<PlaceRequest> to;
   for (int i = 0; i < 6; ++i) {
     const auto n = static_cast<float>(i);
-    to.push_back({join(simulation, person(i), false), n, 2 * n, n});
+    to.push_back({join(simulation, sample_person(i), false), n, 2 * n, n});
   }
   ASSERT_EQ(*simulation.set_state({&to[2].person, 1}, PersonState::asleep), 1U);
-  const Entity posed = *simulation.spawn_posed(person(2).body), last = join(simulation, person(9), false);
+  const Entity posed = *simulation.spawn_posed(sample_person(2).body), last = join(simulation, sample_person(9), false);
   for (int t = 0; t < 20; ++t) simulation.tick();
   const std::uint64_t before = simulation.state_hash();
   const auto refused = [&](const PlaceRequest& one) {
@@ -242,12 +244,12 @@ TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
   Simulation here(sharing()), there(sharing());
   std::vector<Entity> walkers;
   for (int i = 0; i < 3; ++i) {
-    const Person person = mobil::person(i);
-    walkers.push_back(join_with(here, person, with_inertia(i == 0 ? Method::ecd : Method::reduced)));
-    join_with(there, person, with_inertia(i == 0 ? Method::ecd : Method::reduced));
+    const SamplePerson person = mobil::sample_person(i);
+    walkers.push_back(join_with(here, person, with_inertia(i == 0 ? Method::explicit_central : Method::modal)));
+    join_with(there, person, with_inertia(i == 0 ? Method::explicit_central : Method::modal));
   }
-  const Entity posed = *here.spawn_posed(person(4).body);
-  ASSERT_EQ(posed, *there.spawn_posed(person(4).body));
+  const Entity posed = *here.spawn_posed(sample_person(4).body);
+  ASSERT_EQ(posed, *there.spawn_posed(sample_person(4).body));
   Vec3<float> off{0, 0, 0};
   for (int t = 0; t < 150; ++t) {
     if (t % 40 == 20) {
@@ -285,12 +287,12 @@ TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
 /// A hundred kilometres on, by an origin that goes along: feet stand and bones are as long as at home.
 TEST(ShiftOrigin, AHundredKilometresOnNothingIsLost) {
   Simulation home(sharing()), far(sharing());
-  const Person who = person(1);
-  const Entity stays = join_with(home, who, with_inertia(Method::reduced)),
-               goes = join_with(far, who, with_inertia(Method::reduced));
-  const Entity posed = *far.spawn_posed(person(4).body);
+  const SamplePerson who = sample_person(1);
+  const Entity stays = join_with(home, who, with_inertia(Method::modal)),
+               goes = join_with(far, who, with_inertia(Method::modal));
+  const Entity posed = *far.spawn_posed(sample_person(4).body);
   ASSERT_TRUE(far.enable(posed, Feature::forces));
-  Person other = person(2);
+  SamplePerson other = sample_person(2);
   other.gait.style = snapped(other.gait.style);
   const Entity sleeper = *far.spawn(other.body, other.gait), small = *far.spawn(other.body, other.gait),
                twin = *home.spawn(other.body, other.gait);
@@ -337,7 +339,7 @@ TEST(ShiftOrigin, AHundredKilometresOnNothingIsLost) {
   EXPECT_LT(behind_m, 1.0);
   const auto ground = far.get<GroundReaction>(posed);
   ASSERT_TRUE(ground);
-  EXPECT_NEAR(ground->force_n[0].y + ground->force_n[1].y, 9.81F * person(4).body.mass_kg, 5);
+  EXPECT_NEAR(ground->force_n[0].y + ground->force_n[1].y, 9.81F * sample_person(4).body.mass_kg, 5);
   Difference difference;
   compare(home, stays, far, goes, difference);
   EXPECT_GT(difference.most, 1e-3);

@@ -92,7 +92,7 @@ TEST(PoseWriter, AfterATickWritesWhatTheTablesHold) {
 TEST(PoseWriter, BetweenTicksPeopleAreWhereFinerTicksPutThem) {
   constexpr int finer = 8;
   Scene coarse(1.0 / 60), fine(1.0 / (60 * finer));
-  double furthest_m = 0, most_turned = 0;
+  double furthest_m = 0, max_turned = 0;
   for (int t = 0; t < 400; ++t) {
     if (t % 40 == 10) {
       coarse.wish();
@@ -108,13 +108,13 @@ TEST(PoseWriter, BetweenTicksPeopleAreWhereFinerTicksPutThem) {
         const Eigen::Map<const Eigen::Vector3f> a(&at[row]), b(&is[row]);
         const Eigen::Map<const Eigen::Vector4f> p(&at[row + 3]), q(&is[row + 3]);
         furthest_m = std::fmax(furthest_m, static_cast<double>((a - b).norm()));
-        most_turned = std::fmax(most_turned, static_cast<double>(std::min((p - q).norm(), (p + q).norm())));
+        max_turned = std::fmax(max_turned, static_cast<double>(std::min((p - q).norm(), (p + q).norm())));
       }
     }
     if (t % 3 != 0) coarse.simulation.tick();
   }
   EXPECT_LT(furthest_m, 2e-4);
-  EXPECT_LT(most_turned, 2e-3);
+  EXPECT_LT(max_turned, 2e-3);
 }
 
 /// Against matrices in double precision: M R Mᵀ, M p.

@@ -34,7 +34,7 @@ Pose<float> moved(Pose<float> pose, const Vec3<float>& by) {
 TEST(PosedForces, AWalkersPosesGiveTheWalkersForces) {
   for (const float speed : {0.9F, 1.3F, 1.8F}) {
     Simulation walking, posed;
-    const Person who = person(1);
+    const SamplePerson who = sample_person(1);
     const Entity walker = *walking.spawn(who.body, {.speed_m_s = speed});
     const Entity puppet = *posed.spawn_posed(who.body);
     ASSERT_EQ(walking.enable(walker, Feature::forces), Status::ok);
@@ -81,7 +81,7 @@ TEST(PosedForces, AWalkersPosesGiveTheWalkersForces) {
 TEST(PosedForces, WhoStandsIsBorneByBothFeet) {
   for (const float floor_m : {0.0F, 3.0F, -2.0F}) {
     Simulation simulation;
-    const Person who = person(2);
+    const SamplePerson who = sample_person(2);
     const Entity puppet = *simulation.spawn_posed(who.body);
     const Pose<float> standing = moved(*simulation.get<Pose>(puppet), {5, floor_m, -7});
     ASSERT_EQ(simulation.set_pose(puppet, standing, Arrival::jumped), Status::ok);
@@ -115,7 +115,7 @@ TEST(PosedForces, WhoStandsIsBorneByBothFeet) {
 /// Who stands on one leg is borne by it, whatever the other one does.
 TEST(PosedForces, AFootInTheAirBearsNothing) {
   Simulation simulation;
-  const Person who = person(2);
+  const SamplePerson who = sample_person(2);
   const Entity puppet = *simulation.spawn_posed(who.body);
   ASSERT_EQ(simulation.enable(puppet, Feature::forces), Status::ok);
   Pose<float> pose = *simulation.get<Pose>(puppet);
@@ -133,7 +133,7 @@ TEST(PosedForces, AFootInTheAirBearsNothing) {
 /// A jump through the world is not felt; one through the air is.
 TEST(PosedForces, JumpsAndFalls) {
   Simulation simulation;
-  const Person who = person(0);
+  const SamplePerson who = sample_person(0);
   const float weight = who.body.mass_kg * gravity;
   const Entity puppet = *simulation.spawn_posed(who.body);
   const Pose<float> standing = *simulation.get<Pose>(puppet);
@@ -166,7 +166,7 @@ TEST(PosedForces, JumpsAndFalls) {
 /// An elevator that starts presses harder, in the proportion of its acceleration.
 TEST(PosedForces, WhatAcceleratesPressesHarder) {
   Simulation simulation;
-  const Person who = person(0);
+  const SamplePerson who = sample_person(0);
   const Entity puppet = *simulation.spawn_posed(who.body);
   const Pose<float> standing = *simulation.get<Pose>(puppet);
   ASSERT_EQ(simulation.enable(puppet, Feature::forces), Status::ok);
@@ -186,7 +186,7 @@ TEST(PosedForces, WhatAcceleratesPressesHarder) {
 /// The past is state: it is saved, restored and shifted with the world.
 TEST(PosedForces, GoOnAfterASnapshotAndAShiftOfTheOrigin) {
   Simulation walking, posed, other, shifted;
-  const Person who = person(4);
+  const SamplePerson who = sample_person(4);
   const Entity walker = *walking.spawn(who.body, {.speed_m_s = 1.4F});
   std::vector<Entity> puppets;
   for (Simulation* simulation : {&posed, &shifted}) {

@@ -9,24 +9,24 @@
 #include <mobil/anthropometry.h>
 #include <mobil/engine/world.h>
 #include <mobil/step_report.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
 
 namespace mobil::posed_test {
 Entity pose_person(Simulation& simulation, int i) {
-  const auto human = simulation.spawn_posed(person(i).body);
-  EXPECT_TRUE(human) << human.error().message;
-  return human.value_or(Entity{});
+  const auto person = simulation.spawn_posed(sample_person(i).body);
+  EXPECT_TRUE(person) << person.error().message;
+  return person.value_or(Entity{});
 }
 
 TEST(Posed, StandsInTheAnatomicalPosition) {
   for (int i = 0; i < 6; ++i) {
     Simulation simulation(sharing());
-    const Entity human = pose_person(simulation, i);
-    const Human made = *simulation.human(human);
+    const Entity person = pose_person(simulation, i);
+    const Person made = *simulation.person(person);
     EXPECT_TRUE(made.posed);
-    const auto pose = *simulation.get<Pose>(human);
+    const auto pose = *simulation.get<Pose>(person);
     for (std::size_t s = 0; s < segment_count; ++s) {
       const auto& [x, y, z, w] = pose.rotation[s];
       EXPECT_TRUE(x == 0 && y == 0 && z == 0 && w == 1) << segment_name[s];
@@ -43,24 +43,24 @@ TEST(Posed, StandsInTheAnatomicalPosition) {
 /// One number that no skeleton can have, in any segment: the pose stays.
 TEST(Posed, APoseThatIsNoneIsRefused) {
   Simulation simulation(sharing());
-  const Entity human = pose_person(simulation, 0);
-  const auto sound = *simulation.get<Pose>(human);
-  ASSERT_EQ(simulation.set_pose(human, sound), Status::ok);
+  const Entity person = pose_person(simulation, 0);
+  const auto sound = *simulation.get<Pose>(person);
+  ASSERT_EQ(simulation.set_pose(person, sound), Status::ok);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   for (std::size_t s = 0; s < segment_count; ++s) {
     for (const float bad : {nan, inf, -inf}) {
       Pose<float> pose = sound;
       (s % 3 == 0 ? pose.position_m[s].x : s % 3 == 1 ? pose.position_m[s].y : pose.rotation[s].w) = bad;
-      EXPECT_EQ(simulation.set_pose(human, pose), Status::not_valid) << segment_name[s];
+      EXPECT_EQ(simulation.set_pose(person, pose), Status::not_valid) << segment_name[s];
     }
     for (const Quat<float>& q :
          {Quat<float>{0, 0, 0, 0}, Quat<float>{0, 0, 0, 2}, Quat<float>{0.1F, 0.2F, 0.3F, 0.4F}}) {
       Pose<float> pose = sound;
       pose.rotation[s] = q;
-      EXPECT_EQ(simulation.set_pose(human, pose), Status::not_valid) << segment_name[s];
+      EXPECT_EQ(simulation.set_pose(person, pose), Status::not_valid) << segment_name[s];
     }
   }
-  const auto now = *simulation.get<Pose>(human);
+  const auto now = *simulation.get<Pose>(person);
   EXPECT_EQ(std::memcmp(&now, &sound, sizeof now), 0);
 }
 
@@ -69,7 +69,8 @@ struct Couple {
   Simulation walking{sharing()}, posed{sharing()};
   Entity walker, puppet;
 
-  Couple(int i, const LegMuscles& choice) : walker(join(walking, person(i), false)), puppet(pose_person(posed, i)) {
+  Couple(int i, const LegMuscles& choice)
+      : walker(join(walking, sample_person(i), false)), puppet(pose_person(posed, i)) {
     EXPECT_EQ(posed.set_pose(puppet, *walking.get<Pose>(walker)), Status::ok);
     EXPECT_TRUE(walking.set_muscles(walker, choice));
     EXPECT_TRUE(posed.set_muscles(puppet, choice));
@@ -84,8 +85,9 @@ struct Couple {
 const std::vector<LegMuscles>& choices() {
   static const std::vector<LegMuscles> all = [] {
     std::vector<LegMuscles> some;
-    for (const Method method : {Method::ecd, Method::caa, Method::statics, Method::reduced, Method::none}) {
-      some.push_back({.method = method, .reduced = {.cells = {2, 2, 8}}, .line_motion = true});
+    for (const Method method :
+         {Method::explicit_central, Method::newmark, Method::statics, Method::modal, Method::none}) {
+      some.push_back({.method = method, .modal = {.cells = {2, 2, 8}}, .line_motion = true});
     }
     return some;
   }();
@@ -126,16 +128,16 @@ TEST(Posed, WithInertiaTheWalkersPastIsSoonForgotten) {
 
 TEST(Posed, BeginsWithGravityAloneWhateverItsHostDoesLater) {
   Simulation simulation(sharing());
-  const Entity human = pose_person(simulation, 2);
-  ASSERT_TRUE(simulation.set_muscles(human, {.inertia = true}));
-  for (const Entity muscle : muscles_of(simulation, human)) {
+  const Entity person = pose_person(simulation, 2);
+  ASSERT_TRUE(simulation.set_muscles(person, {.inertia = true}));
+  for (const Entity muscle : muscles_of(simulation, person)) {
     const auto load = *simulation.get<FrameLoad>(muscle);
     const auto& [x, y, z] = load.constant_to;
     EXPECT_NEAR(std::sqrt(x * x + y * y + z * z), 9.81F, 1e-4F);
     EXPECT_NEAR(load.gradient_to.x.x, 0, 1e-9F);
   }
   for (int i = 0; i < 240; ++i) simulation.tick();  // stands still
-  for (const Entity muscle : muscles_of(simulation, human)) {
+  for (const Entity muscle : muscles_of(simulation, person)) {
     EXPECT_LT(simulation.get<BellyReport>(muscle)->kinetic_energy_j, 1e-6F);
   }
 }
@@ -143,8 +145,8 @@ TEST(Posed, BeginsWithGravityAloneWhateverItsHostDoesLater) {
 TEST(Posed, RunsNoGaitAndNoKinematics) {
   Simulation simulation(sharing());
   for (int i = 0; i < 3; ++i) {
-    const Entity human = pose_person(simulation, i);
-    ASSERT_TRUE(simulation.set_muscles(human));
+    const Entity person = pose_person(simulation, i);
+    ASSERT_TRUE(simulation.set_muscles(person));
   }
   for (int i = 0; i < 3; ++i) simulation.tick();
   for (const SystemReport& system : simulation.report().systems) {
@@ -158,27 +160,28 @@ TEST(Posed, RunsNoGaitAndNoKinematics) {
 
 TEST(Posed, RequestsForAGaitAreRefusedAndChangeNothing) {
   Simulation simulation(sharing());
-  const Entity human = pose_person(simulation, 1), walker = join(simulation, person(2), false);
+  const Entity person = pose_person(simulation, 1), walker = join(simulation, sample_person(2), false);
   simulation.tick();
   const auto before = hash_world(simulation);
-  EXPECT_TRUE(is_refused(simulation.change_gait(human, {.speed_m_s = 1.0F}), "host"));
-  EXPECT_TRUE(is_refused(simulation.turn_to(human, 1), "host"));
-  EXPECT_EQ(simulation.enable(human, Feature::step_events), Status::missing);
+  EXPECT_TRUE(is_refused(simulation.change_gait(person, {.speed_m_s = 1.0F}), "host"));
+  EXPECT_TRUE(is_refused(simulation.turn_to(person, 1), "host"));
+  EXPECT_EQ(simulation.enable(person, Feature::step_events), Status::missing);
   EXPECT_EQ(simulation.set_pose(walker, {}), Status::missing);
   EXPECT_EQ(simulation.set_pose({}, {}), Status::stale_entity);
   EXPECT_TRUE(is_refused(simulation.spawn_posed({.height_m = 9.0F})));
   EXPECT_EQ(hash_world(simulation), before);
-  EXPECT_EQ(simulation.despawn(human), Status::ok);
-  EXPECT_EQ(simulation.set_pose(human, {}), Status::stale_entity);
+  EXPECT_EQ(simulation.despawn(person), Status::ok);
+  EXPECT_EQ(simulation.set_pose(person, {}), Status::stale_entity);
   EXPECT_EQ(rows(simulation.world()), 1U);
 }
 
 TEST(Posed, WithChangedMethodsHasTheWalkersMusclesAtEveryTick) {
   Couple two(5, {.line_motion = true});
   for (int i = 0; i < 4; ++i) two.tick();
-  for (const Method method : {Method::none, Method::statics, Method::none, Method::reduced, Method::caa, Method::ecd}) {
+  for (const Method method :
+       {Method::none, Method::statics, Method::none, Method::modal, Method::newmark, Method::explicit_central}) {
     for (std::size_t m = 0; m < muscle_group_count; ++m) {
-      const MuscleMethod wanted{method, {.vectors = 10, .cells = {2, 2, 8}}};
+      const MuscleMethod wanted{method, {.modes = 10, .cells = {2, 2, 8}}};
       ASSERT_TRUE(two.walking.set_method(two.walker, static_cast<Muscle>(m), wanted)) << name(method);
       ASSERT_TRUE(two.posed.set_method(two.puppet, static_cast<Muscle>(m), wanted)) << name(method);
     }
@@ -202,10 +205,11 @@ TEST(Posed, WithChangedMethodsHasTheWalkersMusclesAtEveryTick) {
 TEST(Posed, StandingComesToTheSameRestAfterAnyMethods) {
   Simulation changed(sharing()), steady(sharing());
   const Entity a = pose_person(changed, 5), b = pose_person(steady, 5);
-  const ReducedChoice coarse = {.vectors = 10, .cells = {2, 2, 8}};
+  const ModalOptions coarse = {.modes = 10, .cells = {2, 2, 8}};
   ASSERT_TRUE(changed.set_muscles(a, {.inertia = true}));
-  ASSERT_TRUE(steady.set_muscles(b, {.method = Method::caa, .inertia = true}));
-  for (const Method method : {Method::none, Method::statics, Method::reduced, Method::ecd, Method::caa}) {
+  ASSERT_TRUE(steady.set_muscles(b, {.method = Method::newmark, .inertia = true}));
+  for (const Method method :
+       {Method::none, Method::statics, Method::modal, Method::explicit_central, Method::newmark}) {
     for (std::size_t m = 0; m < muscle_group_count; ++m) {
       ASSERT_TRUE(changed.set_method(a, static_cast<Muscle>(m), {method, coarse})) << name(method);
     }

@@ -36,7 +36,7 @@ void poison(Poison<Lanes<float>>& poison, EndDrive<Lanes<float>>& end) {
 }
 
 Module poisoning() {
-  return {.name = "poisoning", .parts = {component_part<Poison>()}, .systems = [](ScheduleBuilder& systems) {
+  return {.name = "poisoning", .parts = {component_id<Poison>()}, .systems = [](ScheduleBuilder& systems) {
             systems.add("poison", &poison).after("lines of action").after("activation");
           }};
 }
@@ -50,8 +50,8 @@ std::vector<Way> ways() {
   LegMuscles plain;
   plain.muscles = MuscleSet{3};
   std::vector<Way> all;
-  for (const Method method :
-       {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
+  for (const Method method : {Method::explicit_central, Method::implicit_central, Method::newmark, Method::statics,
+                              Method::modal, Method::finite}) {
     LegMuscles choice = plain;
     choice.method = method;
     all.push_back({std::string(method_name[static_cast<std::size_t>(method)]), choice});
@@ -60,14 +60,14 @@ std::vector<Way> ways() {
     all.push_back({all.back().name + ", inertia and activation", choice});
   }
   LegMuscles pulled = plain;
-  pulled.method = Method::ecd;
+  pulled.method = Method::explicit_central;
   pulled.drive = Drive::force;
-  all.push_back({"ecd, pulled", pulled});
+  all.push_back({"explicit-central, pulled", pulled});
   LegMuscles tuned = plain;
-  tuned.method = Method::reduced;
-  tuned.reduced.tuned = true;
+  tuned.method = Method::modal;
+  tuned.modal.tuned = true;
   tuned.activation = ExcitationSource::phase;
-  all.push_back({"reduced, tuned", tuned});
+  all.push_back({"modal, tuned", tuned});
   return all;
 }
 
@@ -81,7 +81,7 @@ struct Scene {
       people.push_back(*simulation.spawn({.height_m = 1.8F, .mass_kg = 80}));
       const auto added = simulation.set_muscles(people.back(), choice);
       EXPECT_TRUE(added) << added.error().message;
-      for (const OwnMuscle& own : simulation.muscles(people.back()))
+      for (const MuscleRef& own : simulation.muscles(people.back()))
         for (const Entity one : own.entity) EXPECT_EQ(simulation.parts().add(one, Poison<float>{0}), Status::ok);
     }
     for (int i = 0; i < 30; ++i) simulation.tick();
@@ -100,7 +100,7 @@ struct Scene {
   std::vector<float> shown_of_others() const {
     std::vector<float> all;
     for (const Entity person : people) {
-      for (const OwnMuscle& own : simulation.muscles(person)) {
+      for (const MuscleRef& own : simulation.muscles(person)) {
         for (const Entity one : own.entity) {
           if (one == muscle()) continue;
           const std::vector<float> points = shown(one);
@@ -177,8 +177,8 @@ TEST(Restart, ABellyThatIsNotFiniteBeginsAnew) {
     Scene scene(way.choice), twin(way.choice);
     for (const float value : no_numbers) {
       const std::string what = way.name + ", " + std::to_string(value);
-      if (way.choice.method == Method::reduced) {
-        write_state<ReducedState>(scene, random, value);
+      if (way.choice.method == Method::modal) {
+        write_state<ModalState>(scene, random, value);
       } else if (way.choice.method == Method::statics || random() % 2 == 0) {
         write_state<NodalDisplacement>(scene, random, value);
       } else {

@@ -11,7 +11,7 @@
 #include <mobil/engine/geometry.h>
 #include <mobil/retarget.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "systems/poses/pose_axes.h"
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
@@ -102,10 +102,10 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
                               PoseAxes::y_up_z_back}) {
     const BoneUnits units{axes, axes == PoseAxes::y_up ? 1.0F : 100.0F};
     Simulation walking(sharing()), posed(sharing());
-    const Entity walker = *walking.spawn(person(1).body, {.speed_m_s = 1.3F});
-    const Entity puppet = *posed.spawn_posed(person(1).body);
-    const auto map =
-        Retarget::make(posed.human(puppet)->body, numbers(), bones_of(t_pose(posed.human(puppet)->body), units), units);
+    const Entity walker = *walking.spawn(sample_person(1).body, {.speed_m_s = 1.3F});
+    const Entity puppet = *posed.spawn_posed(sample_person(1).body);
+    const auto map = Retarget::make(posed.person(puppet)->body, numbers(),
+                                    bones_of(t_pose(posed.person(puppet)->body), units), units);
     ASSERT_TRUE(map) << map.error().message;
     ASSERT_TRUE(walking.set_muscles(walker));
     ASSERT_TRUE(posed.set_muscles(puppet));
@@ -130,8 +130,8 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
       }
       for (std::size_t m = 0; m < muscle_group_count; ++m) {
         for (const Side side : {Side::right, Side::left}) {
-          const auto of = [&](const Simulation& simulation, Entity human) {
-            return simulation.get<LineOfAction>(simulation.muscle(human, static_cast<Muscle>(m), side))->length_m;
+          const auto of = [&](const Simulation& simulation, Entity person) {
+            return simulation.get<LineOfAction>(simulation.muscle(person, static_cast<Muscle>(m), side))->length_m;
           };
           EXPECT_NEAR(of(posed, puppet), of(walking, walker), 3e-4F) << muscle_name(static_cast<Muscle>(m));
         }
@@ -144,8 +144,8 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
 /// What a pose alone tells of joints, soles and the centre of mass is what walkers have.
 TEST(Retarget, PosedPeopleHaveAnglesSolesAndACentreOfMass) {
   Simulation walking(sharing()), posed(sharing());
-  const Entity walker = *walking.spawn(person(2).body, {.speed_m_s = 1.5F});
-  const Entity puppet = *posed.spawn_posed(person(2).body);
+  const Entity walker = *walking.spawn(sample_person(2).body, {.speed_m_s = 1.5F});
+  const Entity puppet = *posed.spawn_posed(sample_person(2).body);
   constexpr float degree = 0.01745F;
   for (int tick = 0; tick < 90; ++tick) {
     walking.tick();
@@ -172,7 +172,7 @@ TEST(Retarget, PosedPeopleHaveAnglesSolesAndACentreOfMass) {
 
 TEST(Retarget, SkeletonsThatAreNoneAreRefused) {
   Simulation simulation(sharing());
-  const Body body = simulation.human(*simulation.spawn_posed({}))->body;
+  const Body body = simulation.person(*simulation.spawn_posed({}))->body;
   const std::vector<BonePlace> rest = bones_of(t_pose(body), {});
   const auto says = [&](const SkeletonBones& bones, const std::vector<BonePlace>& at, const char* what,
                         const BoneUnits& units = {}) {
@@ -215,7 +215,7 @@ TEST(Retarget, SkeletonsThatAreNoneAreRefused) {
 TEST(Retarget, AFewBonesAreEnough) {
   Simulation simulation(sharing());
   const Entity puppet = *simulation.spawn_posed({});
-  const Body body = simulation.human(puppet)->body;
+  const Body body = simulation.person(puppet)->body;
   const std::vector<BonePlace> rest = bones_of(t_pose(body), {});
   SkeletonBones few;
   few.pelvis = 0;

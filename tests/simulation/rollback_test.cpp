@@ -17,7 +17,7 @@ namespace mobil::rollback_test {
 std::vector<Entity> fill(Simulation& simulation, int count, const LegMuscles& choice) {
   std::vector<Entity> people;
   for (int i = 0; i < count; ++i) {
-    people.push_back(*simulation.spawn(person(i).body, person(i).gait));
+    people.push_back(*simulation.spawn(sample_person(i).body, sample_person(i).gait));
     EXPECT_TRUE(simulation.set_muscles(people.back(), choice));
   }
   return people;
@@ -98,12 +98,12 @@ TEST(Rollback, KeepingAndGoingBackTakesNoMemoryWithTheSamePeople) {
 
 TEST(Rollback, ChoosingOfMethodsGoesBackWithIt) {
   Simulation simulation;
-  Lod relevance = lod_of(simulation, {.switches = 3, .stagger = 3, .machine_factor = 1});
+  Lod lod = lod_of(simulation, {.switches = 3, .stagger = 3, .machine_factor = 1});
   for (int i = 0; i < 40; ++i) {
-    const Entity human = *simulation.spawn(person(i).body, person(i).gait);
-    ASSERT_TRUE(relevance.manage(human, {.muscles = 1}));
+    const Entity person = *simulation.spawn(sample_person(i).body, sample_person(i).gait);
+    ASSERT_TRUE(lod.manage(person, {.muscles = 1}));
   }
-  SceneNeeds scene;
+  LodScene scene;
   scene.tolerance_m = 0.004F;
   scene.budget_s = 2e-5;
   const auto run = [&] {
@@ -114,10 +114,10 @@ TEST(Rollback, ChoosingOfMethodsGoesBackWithIt) {
     }
     return hashes;
   };
-  ASSERT_TRUE(relevance.set_scene(scene));
+  ASSERT_TRUE(lod.set_scene(scene));
   run();
   scene.budget_s = 5e-5;
-  ASSERT_TRUE(relevance.set_scene(scene));
+  ASSERT_TRUE(lod.set_scene(scene));
   Rollback window(1);
   ASSERT_TRUE(window.keep(simulation));
   const auto first = run();

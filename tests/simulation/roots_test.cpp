@@ -15,21 +15,21 @@ namespace mobil::roots_test {
 
 constexpr double tick_s = 1.0 / 60;
 
-Root root(const Simulation& simulation, Entity human, double ahead_s = 0) {
+Root root(const Simulation& simulation, Entity person, double ahead_s = 0) {
   Root out;
-  EXPECT_TRUE(simulation.roots({&human, 1}, {&out, 1}, ahead_s));
+  EXPECT_TRUE(simulation.roots({&person, 1}, {&out, 1}, ahead_s));
   return out;
 }
 
 /// Frames that end with a tick leave rounding over, of which a clock would have too many units.
 TEST(Roots, AnInstantAfterTheTickIsTheTick) {
   Simulation simulation;
-  const Entity human = *simulation.spawn({});
+  const Entity person = *simulation.spawn({});
   for (int frame = 0; frame < 50; ++frame) {
     simulation.advance(1.0 / 24);
-    const Root now = root(simulation, human);
+    const Root now = root(simulation, person);
     for (const double ahead_s : {1e-18, 9e-16, 1e-9, 1e-7}) {
-      const Root then = root(simulation, human, ahead_s);
+      const Root then = root(simulation, person, ahead_s);
       ASSERT_NEAR(then.x_m, now.x_m, 1e-5);
       ASSERT_NEAR(then.z_m, now.z_m, 1e-5);
     }
@@ -39,25 +39,25 @@ TEST(Roots, AnInstantAfterTheTickIsTheTick) {
 TEST(Roots, SteadyWalkersGoStraightAtTheirSpeed) {
   Simulation simulation;
   for (int i = 0; i < 5; ++i) {
-    const Person who = person(i);
+    const SamplePerson who = sample_person(i);
     const SpawnRequest request{.body = who.body, .gait = who.gait, .x_m = 2, .z_m = -3, .heading_rad = 0.7F};
-    Entity human;
-    ASSERT_TRUE(simulation.spawn({&request, 1}, {&human, 1}));
-    Root before = root(simulation, human);
-    double most = 0, most_aside = 0;
+    Entity person;
+    ASSERT_TRUE(simulation.spawn({&request, 1}, {&person, 1}));
+    Root before = root(simulation, person);
+    double most = 0, max_aside = 0;
     for (int t = 0; t < 120; ++t) {
       simulation.tick();
-      const Root now = root(simulation, human);
+      const Root now = root(simulation, person);
       const RootMotion way = root_motion(before, now);
       most = std::max(most,
                       std::abs(static_cast<double>(way.ahead_m) - static_cast<double>(*who.gait.speed_m_s) * tick_s));
-      most_aside = std::max(most_aside, static_cast<double>(std::abs(way.left_m)));
+      max_aside = std::max(max_aside, static_cast<double>(std::abs(way.left_m)));
       EXPECT_NEAR(static_cast<double>(way.turn_rad), 0, 1e-6);
       before = now;
     }
-    std::printf("%.6f m off the speed's way in a tick, %.6f m aside\n", most, most_aside);
+    std::printf("%.6f m off the speed's way in a tick, %.6f m aside\n", most, max_aside);
     EXPECT_LT(most, 2e-5);
-    EXPECT_LT(most_aside, 3e-6);
+    EXPECT_LT(max_aside, 3e-6);
   }
 }
 
@@ -65,28 +65,28 @@ TEST(Roots, SteadyWalkersGoStraightAtTheirSpeed) {
 TEST(Roots, GoSmoothlyThroughTurnsAndStops) {
   for (int i = 0; i < 4; ++i) {
     Simulation simulation;
-    const Person who = person(i);
-    const Entity human = *simulation.spawn(who.body, who.gait);
-    const Root first = root(simulation, human);
+    const SamplePerson who = sample_person(i);
+    const Entity person = *simulation.spawn(who.body, who.gait);
+    const Root first = root(simulation, person);
     Root before = first, put_together = first;
     RootMotion last{0, *who.gait.speed_m_s * static_cast<float>(tick_s), 0};
     double jerk = 0, spin = 0, off_hips = 0, off_facing = 0;
     for (int t = 0; t < 960; ++t) {
       Result<void> done;
-      if (t == 90) done = simulation.turn_to(human, 1.4F);
-      if (t == 240) done = simulation.change_gait(human, {.speed_m_s = 0.0F});
-      if (t == 480) done = simulation.turn_to(human, -0.5F);
-      if (t == 660) done = simulation.step_aside(human, -0.15F, 0.1F);
-      if (t == 800) done = simulation.change_gait(human, {.speed_m_s = 1.4F});
+      if (t == 90) done = simulation.turn_to(person, 1.4F);
+      if (t == 240) done = simulation.change_gait(person, {.speed_m_s = 0.0F});
+      if (t == 480) done = simulation.turn_to(person, -0.5F);
+      if (t == 660) done = simulation.step_aside(person, -0.15F, 0.1F);
+      if (t == 800) done = simulation.change_gait(person, {.speed_m_s = 1.4F});
       ASSERT_TRUE(done);
       simulation.tick();
-      const Root now = root(simulation, human);
+      const Root now = root(simulation, person);
       const RootMotion way = root_motion(before, now);
       jerk = std::max({jerk, std::abs(static_cast<double>(way.ahead_m - last.ahead_m)),
                        std::abs(static_cast<double>(way.left_m - last.left_m))});
       spin = std::max(spin, std::abs(static_cast<double>(way.turn_rad - last.turn_rad)));
       put_together = moved(put_together, way);
-      const auto pose = *simulation.get<Pose>(human);
+      const auto pose = *simulation.get<Pose>(person);
       const Vec3<float> hips = pose.position_m[index(Segment::pelvis)];
       off_hips =
           std::max(off_hips, std::hypot(static_cast<double>(hips.x) - now.x_m, static_cast<double>(hips.z) - now.z_m));
@@ -133,7 +133,7 @@ TEST(Roots, CompactPeopleAndSleepersAreWhereTheOthersAre) {
   Simulation whole, mixed;
   std::vector<Entity> people;
   for (int i = 0; i < 30; ++i) {
-    Person who = person(i);
+    SamplePerson who = sample_person(i);
     who.gait.style = snapped(who.gait.style);
     people.push_back(*whole.spawn(who.body, who.gait));
     ASSERT_EQ(*mixed.spawn(who.body, who.gait), people.back());
@@ -143,9 +143,9 @@ TEST(Roots, CompactPeopleAndSleepersAreWhereTheOthersAre) {
   std::vector<Root> a(people.size()), b(people.size());
   for (int t = 0; t < 90; ++t) {
     if (t == 40) {
-      for (const Entity human : people) {
-        ASSERT_TRUE(whole.turn_to(human, 0.8F));
-        ASSERT_TRUE(mixed.turn_to(human, 0.8F));
+      for (const Entity person : people) {
+        ASSERT_TRUE(whole.turn_to(person, 0.8F));
+        ASSERT_TRUE(mixed.turn_to(person, 0.8F));
       }
     }
     whole.tick();
@@ -175,12 +175,12 @@ TEST(Roots, PosedPeopleHaveTheirPelvis) {
 
 TEST(Roots, WhatCannotBeAskedIsRefused) {
   Simulation simulation;
-  const Entity human = *simulation.spawn({});
+  const Entity person = *simulation.spawn({});
   std::array<Root, 2> out{};
-  EXPECT_FALSE(simulation.roots({&human, 1}, out));
-  EXPECT_FALSE(simulation.roots({&human, 1}, {out.data(), 1}, 0.21));
-  EXPECT_FALSE(simulation.roots({&human, 1}, {out.data(), 1}, std::numeric_limits<double>::quiet_NaN()));
-  EXPECT_EQ(simulation.roots(std::array{human, Entity{}}, out), Status::stale_entity);
+  EXPECT_FALSE(simulation.roots({&person, 1}, out));
+  EXPECT_FALSE(simulation.roots({&person, 1}, {out.data(), 1}, 0.21));
+  EXPECT_FALSE(simulation.roots({&person, 1}, {out.data(), 1}, std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_EQ(simulation.roots(std::array{person, Entity{}}, out), Status::stale_entity);
   EXPECT_EQ(out[0].x_m, 0);
 }
 

@@ -24,14 +24,14 @@ std::uint64_t solved(const Simulation& simulation) {
 template <template <class> class C>
 bool has_column(const Simulation& simulation, Entity entity) {
   const auto place = simulation.world().find(entity);
-  return place && find_part(place.table->key(), type_id<C<float>>()) != nullptr;
+  return place && find_component(place.table->key(), type_id<C<float>>()) != nullptr;
 }
 
 // --------------------------------------------------------------------------------------------------- refusals
 
 TEST(Change, StaleHandlesChangeNothing) {
   Simulation simulation;
-  const Entity gone = join(simulation, person(0)), stays = join(simulation, person(1));
+  const Entity gone = join(simulation, sample_person(0)), stays = join(simulation, sample_person(1));
   simulation.tick(10);
   ASSERT_EQ(simulation.despawn(gone), Status::ok);
   const Entity muscle = simulation.muscle(stays, Muscle::quadriceps, Side::left);
@@ -48,7 +48,7 @@ TEST(Change, StaleHandlesChangeNothing) {
 
 TEST(Change, RequestsOutOfRangeChangeNothing) {
   Simulation simulation;
-  const Entity human = join(simulation, person(2)), other = join(simulation, person(3), false);
+  const Entity person = join(simulation, sample_person(2)), other = join(simulation, sample_person(3), false);
   simulation.tick(45);
   const auto before = hash_world(simulation);
   const std::size_t tables = simulation.world().tables().size();
@@ -68,7 +68,7 @@ TEST(Change, RequestsOutOfRangeChangeNothing) {
     }
   }
   for (const GaitRequest& request : bad) {
-    const auto changed = simulation.set_gait(human, request);
+    const auto changed = simulation.set_gait(person, request);
     ASSERT_FALSE(changed);
     EXPECT_EQ(changed.error().message.find('\n'), std::string::npos) << changed.error().message;
     ASSERT_EQ(hash_world(simulation), before) << changed.error().message;
@@ -77,36 +77,36 @@ TEST(Change, RequestsOutOfRangeChangeNothing) {
 
   // Nor does it show later.
   Simulation unasked;
-  const Entity same = join(unasked, person(2)), beside = join(unasked, person(3), false);
+  const Entity same = join(unasked, sample_person(2)), beside = join(unasked, sample_person(3), false);
   unasked.tick(45);
   simulation.tick(60);
   unasked.tick(60);
-  EXPECT_EQ(hash_human(simulation, human), hash_human(unasked, same));
-  EXPECT_EQ(hash_human(simulation, other), hash_human(unasked, beside));
+  EXPECT_EQ(hash_person(simulation, person), hash_person(unasked, same));
+  EXPECT_EQ(hash_person(simulation, other), hash_person(unasked, beside));
 }
 
 // ------------------------------------------------------------------------------------------------------- costs
 
 TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
   Simulation simulation;
-  const Entity human = join(simulation, person(0), false), other = join(simulation, person(1), false);
-  const auto bare = simulation.world().find(human).table;
+  const Entity person = join(simulation, sample_person(0), false), other = join(simulation, sample_person(1), false);
+  const auto bare = simulation.world().find(person).table;
   for (int round = 0; round < 3; ++round) {
-    EXPECT_EQ(simulation.enable(human, Feature::forces), Status::ok);
-    EXPECT_EQ(simulation.enable(human, Feature::forces), Status::ok);  // there already
-    EXPECT_TRUE(has_column<BodyMotion>(simulation, human));
-    EXPECT_TRUE(has_column<GroundReaction>(simulation, human));
-    EXPECT_TRUE(has_column<JointMoments>(simulation, human));
+    EXPECT_EQ(simulation.enable(person, Feature::forces), Status::ok);
+    EXPECT_EQ(simulation.enable(person, Feature::forces), Status::ok);  // there already
+    EXPECT_TRUE(has_column<BodyMotion>(simulation, person));
+    EXPECT_TRUE(has_column<GroundReaction>(simulation, person));
+    EXPECT_TRUE(has_column<JointMoments>(simulation, person));
     EXPECT_FALSE(has_column<JointMoments>(simulation, other));
     simulation.tick(20);
-    EXPECT_TRUE(simulation.get<GroundReaction>(human).has_value());
+    EXPECT_TRUE(simulation.get<GroundReaction>(person).has_value());
     EXPECT_EQ(simulation.get<GroundReaction>(other).error(), Status::missing);
-    EXPECT_EQ(simulation.enable(human, Feature::forces, false), Status::ok);
-    EXPECT_EQ(simulation.enable(human, Feature::forces, false), Status::ok);  // gone already
-    EXPECT_FALSE(has_column<BodyMotion>(simulation, human));
-    EXPECT_FALSE(has_column<GroundReaction>(simulation, human));
-    EXPECT_FALSE(has_column<JointMoments>(simulation, human));
-    EXPECT_EQ(simulation.world().find(human).table, bare);
+    EXPECT_EQ(simulation.enable(person, Feature::forces, false), Status::ok);
+    EXPECT_EQ(simulation.enable(person, Feature::forces, false), Status::ok);  // gone already
+    EXPECT_FALSE(has_column<BodyMotion>(simulation, person));
+    EXPECT_FALSE(has_column<GroundReaction>(simulation, person));
+    EXPECT_FALSE(has_column<JointMoments>(simulation, person));
+    EXPECT_EQ(simulation.world().find(person).table, bare);
     EXPECT_EQ(rows_with<JointMoments>(simulation.world()), 0U);
   }
 }
@@ -114,7 +114,7 @@ TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
 TEST(Change, SteadyWalkersAreNotSolvedAgain) {
   Simulation simulation;
   std::vector<Entity> crowd;
-  for (int i = 0; i < 40; ++i) crowd.push_back(join(simulation, person(i), false));
+  for (int i = 0; i < 40; ++i) crowd.push_back(join(simulation, sample_person(i), false));
   simulation.tick(120);  // the first step was solved at spawn; one may show that the next is like it
   EXPECT_LE(solved(simulation), 2 * crowd.size());
   auto before = solved(simulation);
@@ -155,7 +155,7 @@ TEST(Change, SteadyWalkersAreNotSolvedAgain) {
 
 TEST(Change, ARequestShowsFromTheNextStepOn) {
   Simulation changed, unchanged;
-  const Entity a = join(changed, person(4), false), b = join(unchanged, person(4), false);
+  const Entity a = join(changed, sample_person(4), false), b = join(unchanged, sample_person(4), false);
   changed.tick(50);
   unchanged.tick(50);
   ASSERT_TRUE(changed.change_gait(a, {.speed_m_s = 0.7F}));

@@ -21,7 +21,7 @@ inline std::uint64_t fnv(std::uint64_t hash, std::uint32_t word) {
 inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t hash) {
   const auto place = world.find(entity);
   if (!place) return fnv(hash, 0xdead);
-  for (const KeyPart& part : place.table->key()) {
+  for (const ComponentId& part : place.table->key()) {
     const bool steps =
         part.id == type_id<Substeps>() || part.id == type_id<SolvedSteps>() || part.id == type_id<FiniteSteps>();
     if (steps) hash = fnv(hash, static_cast<std::uint32_t>(part.value));
@@ -34,17 +34,17 @@ inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t h
   return hash;
 }
 
-inline std::uint64_t hash_human(const Simulation& simulation, Entity human) {
-  std::uint64_t hash = hash_row(simulation.world(), human, 0xcbf29ce484222325);
-  if (simulation.state(human) == PersonState::asleep) {  // whose row stays as it is
-    const GaitState<float> state = *simulation.get<GaitState>(human);
+inline std::uint64_t hash_person(const Simulation& simulation, Entity person) {
+  std::uint64_t hash = hash_row(simulation.world(), person, 0xcbf29ce484222325);
+  if (simulation.state(person) == PersonState::asleep) {  // whose row stays as it is
+    const GaitState<float> state = *simulation.get<GaitState>(person);
     std::uint32_t words[sizeof(state) / 4];
     std::memcpy(words, &state, sizeof(state));
     for (const std::uint32_t word : words) hash = fnv(hash, word);
   }
   for (std::size_t g = 0; g < muscle_group_count; ++g) {
     for (const Side side : {Side::right, Side::left}) {
-      hash = hash_row(simulation.world(), simulation.muscle(human, static_cast<Muscle>(g), side), hash);
+      hash = hash_row(simulation.world(), simulation.muscle(person, static_cast<Muscle>(g), side), hash);
     }
   }
   return hash;
@@ -58,7 +58,7 @@ inline std::size_t rows(const World& world) {
 
 inline std::size_t rows_with(const World& world, std::uint64_t part) {
   std::size_t sum = 0;
-  for (const Table& table : world.tables()) sum += find_part(table.key(), part) != nullptr ? table.row_count() : 0;
+  for (const Table& table : world.tables()) sum += find_component(table.key(), part) != nullptr ? table.row_count() : 0;
   return sum;
 }
 template <template <class> class C>
@@ -89,15 +89,15 @@ inline bool walk_alike(const Simulation& a, Entity in_a, const Simulation& b, En
                                                                                                           in_b);
 }
 
-inline Entity join(Simulation& simulation, const Person& person, bool muscles = true) {
-  const auto human = simulation.spawn(person.body, person.gait);
-  EXPECT_TRUE(human) << human.error().message;
-  if (!human) return {};
+inline Entity join(Simulation& simulation, const SamplePerson& sample, bool muscles = true) {
+  const auto person = simulation.spawn(sample.body, sample.gait);
+  EXPECT_TRUE(person) << person.error().message;
+  if (!person) return {};
   if (muscles) {
-    const auto added = simulation.set_muscles(*human);
+    const auto added = simulation.set_muscles(*person);
     EXPECT_TRUE(added) << added.error().message;
   }
-  return *human;
+  return *person;
 }
 
 }  // namespace mobil

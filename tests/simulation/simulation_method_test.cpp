@@ -26,15 +26,15 @@ MOBIL_TEST_LABELS("threads");
 namespace mobil::simulation_method_test {
 using play::coarse, play::every_method;
 
-MuscleMethod reduced(std::uint32_t vectors, bool moving, bool control_points) {
-  return {Method::reduced, play::reduced(vectors, moving, control_points)};
+MuscleMethod modal(std::uint32_t modes, bool moving, bool control_points) {
+  return {Method::modal, play::modal(modes, moving, control_points)};
 }
 
 std::string text(const MuscleMethod& method) {
   std::string all = name(method.method);
-  if (method.method != Method::reduced) return all;
-  const ReducedChoice& r = method.reduced;
-  return all + " " + std::to_string(r.vectors) + (r.moving ? "" : " static") + (r.control_points ? "" : " unseen");
+  if (method.method != Method::modal) return all;
+  const ModalOptions& r = method.modal;
+  return all + " " + std::to_string(r.modes) + (r.moving ? "" : " static") + (r.control_points ? "" : " unseen");
 }
 
 double apart(const std::vector<float>& a, const std::vector<float>& b) {
@@ -59,8 +59,8 @@ struct Twins {
     choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
     choice.muscles.set(static_cast<std::size_t>(Muscle::tibialis_anterior));
     for (int i = 0; i < people; ++i) {
-      who.push_back(join_with(switched, person(i), choice));
-      twin.push_back(join_with(steady, person(i), choice));
+      who.push_back(join_with(switched, sample_person(i), choice));
+      twin.push_back(join_with(steady, sample_person(i), choice));
     }
     tick(100);
   }
@@ -74,7 +74,7 @@ Twins& twins(bool inertia) {
   return both[inertia ? 1 : 0];
 }
 
-/// The vectors' own static answer is another method than their motion, though they are the same vectors; and methods
+/// The modes' own static answer is another method than their motion, though they are the same modes; and methods
 /// may change twice between two ticks.
 TEST(Switching, FromMotionToItsOwnStaticAnswerAndOnInOneTickShowsNoJump) {
   Twins& t = twins(false);
@@ -84,25 +84,26 @@ TEST(Switching, FromMotionToItsOwnStaticAnswerAndOnInOneTickShowsNoJump) {
   const auto change = [&](const MuscleMethod& to) {
     ASSERT_TRUE(t.switched.set_method(t.who[0], Muscle::hamstrings, to));
   };
-  change(reduced(12, true, true));
+  change(modal(12, true, true));
   double step = 0;  // of a tick, unswitched
   for (int i = 0; i < 400; ++i) {
     const auto before = at();
     t.tick();
     step = std::max(step, apart(before, at()));
   }
-  for (const MuscleMethod& next : {MuscleMethod{Method::ecd}, reduced(5, true, true), reduced(12, true, true)}) {
+  for (const MuscleMethod& next :
+       {MuscleMethod{Method::explicit_central}, modal(5, true, true), modal(12, true, true)}) {
     const auto before = at();
-    change(reduced(12, false, true));
+    change(modal(12, false, true));
     EXPECT_LT(apart(before, at()), 1.1e-5);
     t.tick();
     EXPECT_LT(apart(before, at()), 2 * step);
     const auto still = at();
-    change(reduced(12, true, true));
-    change(reduced(12, false, true));
+    change(modal(12, true, true));
+    change(modal(12, false, true));
     change(next);
     EXPECT_LT(apart(still, at()), 1.1e-5) << text(next);
-    change(reduced(12, true, true));
+    change(modal(12, true, true));
     t.tick(400);
   }
 }
@@ -110,7 +111,7 @@ TEST(Switching, FromMotionToItsOwnStaticAnswerAndOnInOneTickShowsNoJump) {
 RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
   const bool inertia = *rc::gen::arbitrary<bool>();
   Twins& t = twins(inertia);
-  const auto human = *rc::gen::inRange<std::size_t>(0, Twins::people);
+  const auto person = *rc::gen::inRange<std::size_t>(0, Twins::people);
   const Muscle muscle = *rc::gen::element(Muscle::hamstrings, Muscle::tibialis_anterior);
   const MuscleMethod to = *rc::gen::elementOf(every_method());
   t.tick(*rc::gen::inRange(0, 300));  // now and then while the last change still fades
@@ -121,8 +122,8 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
   std::array<Frames, 2> shown, unswitched;
   const auto record = [&](std::size_t frame) {
     for (const Side side : {Side::right, Side::left}) {
-      shown[side][frame] = displacement(t.switched, t.switched.muscle(t.who[human], muscle, side));
-      unswitched[side][frame] = displacement(t.steady, t.steady.muscle(t.twin[human], muscle, side));
+      shown[side][frame] = displacement(t.switched, t.switched.muscle(t.who[person], muscle, side));
+      unswitched[side][frame] = displacement(t.steady, t.steady.muscle(t.twin[person], muscle, side));
     }
   };
   record(0);
@@ -130,12 +131,12 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
     t.tick();
     record(frame);
   }
-  const auto done = t.switched.set_method(t.who[human], muscle, to);
+  const auto done = t.switched.set_method(t.who[person], muscle, to);
   RC_ASSERT(done.has_value());
-  RC_ASSERT(t.switched.method(t.who[human], muscle).method == to.method);
-  const bool seen = to.method != Method::none && (to.method != Method::reduced || to.reduced.control_points);
+  RC_ASSERT(t.switched.method(t.who[person], muscle).method == to.method);
+  const bool seen = to.method != Method::none && (to.method != Method::modal || to.modal.control_points);
   for (const Side side : {Side::right, Side::left}) {
-    const auto now = displacement(t.switched, t.switched.muscle(t.who[human], muscle, side));
+    const auto now = displacement(t.switched, t.switched.muscle(t.who[person], muscle, side));
     RC_ASSERT(now.empty() != seen);
     if (seen && !shown[side][last].empty()) RC_ASSERT(apart(now, shown[side][last]) < 1.1e-5);
   }
@@ -145,7 +146,7 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
   }
   for (const Side side : {Side::right, Side::left}) {
     // A static answer has the velocity of its load, which changes as it likes.
-    const bool still = to.method == Method::statics || (to.method == Method::reduced && !to.reduced.moving);
+    const bool still = to.method == Method::statics || (to.method == Method::modal && !to.modal.moving);
     if (!seen || still || shown[side][last].empty()) continue;
     // Change of velocity about the change, and what the methods' own motion makes of it before, then and later. (What
     // earlier changes left in an implicit method can ring at a few ticks a period.)
@@ -168,11 +169,11 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
 
 TEST(Switching, IsForgottenAfterTheFade) {
   Simulation simulation(sharing()), whole(sharing());
-  const Entity human = join_with(simulation, person(5), {}),
-               same = join_with(whole, person(5), {.method = Method::statics});
+  const Entity person = join_with(simulation, sample_person(5), {}),
+               same = join_with(whole, sample_person(5), {.method = Method::statics});
   for (int i = 0; i < 40; ++i) simulation.tick(), whole.tick();
   for (std::size_t m = 0; m < muscle_group_count; ++m) {
-    ASSERT_TRUE(simulation.set_method(human, static_cast<Muscle>(m), {Method::statics}));
+    ASSERT_TRUE(simulation.set_method(person, static_cast<Muscle>(m), {Method::statics}));
   }
   EXPECT_GT(rows_with<Fade>(simulation.world()), 0U);
   for (int i = 0; i < 15; ++i) {
@@ -184,7 +185,7 @@ TEST(Switching, IsForgottenAfterTheFade) {
   EXPECT_EQ(rows_with(simulation.world(), type_id<FadeStart>()), 0U);
   EXPECT_EQ(rows_with(simulation.world(), type_id<ShownDisplacement>()), 0U);
   Difference d;
-  compare(simulation, human, whole, same, d);
+  compare(simulation, person, whole, same, d);
   EXPECT_LT(d.apart, 2e-5);  // what the solver leaves
   EXPECT_GT(d.most, 1e-3);
 }
@@ -192,16 +193,16 @@ TEST(Switching, IsForgottenAfterTheFade) {
 TEST(Switching, PlacingControlPointsChangesNoState) {
   for (const bool inertia : {false, true}) {
     Simulation looked(sharing()), unseen(sharing());
-    const LegMuscles choice{.method = Method::reduced, .reduced = {.cells = coarse}, .inertia = inertia};
-    const Entity a = join_with(looked, person(7), choice), b = join_with(unseen, person(7), choice);
+    const LegMuscles choice{.method = Method::modal, .modal = {.cells = coarse}, .inertia = inertia};
+    const Entity a = join_with(looked, sample_person(7), choice), b = join_with(unseen, sample_person(7), choice);
     for (int i = 0; i < 60; ++i) {
       if (i % 5 == 0) {
-        ASSERT_TRUE(unseen.set_method(b, Muscle::hamstrings, reduced(12, true, i % 2 == 0)));
+        ASSERT_TRUE(unseen.set_method(b, Muscle::hamstrings, modal(12, true, i % 2 == 0)));
       }
       looked.tick();
       unseen.tick();
     }
-    ASSERT_TRUE(unseen.set_method(b, Muscle::hamstrings, reduced(12, true, true)));
+    ASSERT_TRUE(unseen.set_method(b, Muscle::hamstrings, modal(12, true, true)));
     looked.tick();
     unseen.tick();
     for (const Side side : {Side::right, Side::left}) {
@@ -210,20 +211,20 @@ TEST(Switching, PlacingControlPointsChangesNoState) {
       EXPECT_FALSE(displacement(unseen, y).empty());
     }
     EXPECT_EQ(rows_with<Fade>(unseen.world()), 0U);
-    EXPECT_EQ(hash_human(looked, a), hash_human(unseen, b));
+    EXPECT_EQ(hash_person(looked, a), hash_person(unseen, b));
   }
 }
 
 TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
   for (const bool inertia : {false, true}) {
     Simulation simulation(sharing());
-    const Entity human = join_with(simulation, person(2), {.inertia = inertia});
+    const Entity person = join_with(simulation, sample_person(2), {.inertia = inertia});
     for (int i = 0; i < 30; ++i) simulation.tick();
     for (const MuscleMethod& to : every_method()) {
-      ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none}));
+      ASSERT_TRUE(simulation.set_method(person, Muscle::hamstrings, {Method::none}));
       for (int i = 0; i < 3; ++i) simulation.tick();
-      ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, to)) << text(to);
-      const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::left);
+      ASSERT_TRUE(simulation.set_method(person, Muscle::hamstrings, to)) << text(to);
+      const Entity muscle = simulation.muscle(person, Muscle::hamstrings, Side::left);
       EXPECT_FALSE(simulation.world().has<Fade>(muscle));
       for (int i = 0; i < 20; ++i) simulation.tick();
       const auto u = displacement(simulation, muscle);
@@ -236,9 +237,10 @@ TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
 
 TEST(SetMethod, ARefusedChangeChangesNothing) {
   Simulation simulation(sharing());
-  const Entity human = join_with(simulation, person(9), {.method = Method::caa, .inertia = true, .dt_s = 1.0 / 60}),
-               damped = join_with(simulation, person(4), {.stiffness_damping_s = 0.001}),
-               bare = join(simulation, person(1), false);
+  const Entity person = join_with(simulation, sample_person(9),
+                                  {.method = Method::newmark, .inertia = true, .dt_s = 1.0 / 60}),
+               damped = join_with(simulation, sample_person(4), {.stiffness_damping_s = 0.001}),
+               bare = join(simulation, sample_person(1), false);
   for (int i = 0; i < 10; ++i) simulation.tick();
   const auto before = hash_world(simulation);
   const std::size_t tables = simulation.world().tables().size();
@@ -254,33 +256,33 @@ TEST(SetMethod, ARefusedChangeChangesNothing) {
   const Muscle soleus = find_muscle("soleus").value();
   refused(Entity{}, Muscle::hamstrings, {Method::none}, "spawn one first");
   refused(bare, Muscle::hamstrings, {Method::none}, "no such muscle");
-  refused(human, soleus, {Method::none}, "no such muscle");
-  refused(human, Muscle::hamstrings, {static_cast<Method>(9)}, "hamstrings");
-  refused(human, Muscle::hamstrings, {Method::ecd}, "critical step");
-  refused(human, Muscle::hamstrings, reduced(0, true, true), "1 to 32");
-  refused(human, Muscle::hamstrings, reduced(33, false, true), "1 to 32");
-  refused(human, Muscle::hamstrings, {Method::reduced, {.cells = {3, 3, 12}}}, "cells");
-  refused(human, Muscle::hamstrings, {Method::reduced, {.cells = {0, 4, 16}}}, "cells");
-  refused(damped, Muscle::quadriceps, reduced(12, true, true), "stiffness damping");
-  EXPECT_EQ(simulation.method(human, Muscle::hamstrings).method, Method::caa);
-  EXPECT_EQ(simulation.method(human, soleus).method, Method::none);
+  refused(person, soleus, {Method::none}, "no such muscle");
+  refused(person, Muscle::hamstrings, {static_cast<Method>(9)}, "hamstrings");
+  refused(person, Muscle::hamstrings, {Method::explicit_central}, "critical step");
+  refused(person, Muscle::hamstrings, modal(0, true, true), "1 to 32");
+  refused(person, Muscle::hamstrings, modal(33, false, true), "1 to 32");
+  refused(person, Muscle::hamstrings, {Method::modal, {.cells = {3, 3, 12}}}, "cells");
+  refused(person, Muscle::hamstrings, {Method::modal, {.cells = {0, 4, 16}}}, "cells");
+  refused(damped, Muscle::quadriceps, modal(12, true, true), "stiffness damping");
+  EXPECT_EQ(simulation.method(person, Muscle::hamstrings).method, Method::newmark);
+  EXPECT_EQ(simulation.method(person, soleus).method, Method::none);
   EXPECT_EQ(simulation.method(bare, Muscle::hamstrings).method, Method::none);
 }
 
 TEST(SetMethod, IsForgottenByAChangeOfLegMuscles) {
   Simulation simulation(sharing());
-  const Entity human = join_with(simulation, person(8), {});
+  const Entity person = join_with(simulation, sample_person(8), {});
   for (int i = 0; i < 10; ++i) simulation.tick();
-  ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none}));
-  ASSERT_TRUE(simulation.set_method(human, Muscle::quadriceps, reduced(9, true, true)));
-  ASSERT_TRUE(simulation.set_method(human, Muscle::triceps_surae, {Method::statics}));
-  EXPECT_EQ(simulation.method(human, Muscle::tibialis_anterior).method, Method::ecd);
+  ASSERT_TRUE(simulation.set_method(person, Muscle::hamstrings, {Method::none}));
+  ASSERT_TRUE(simulation.set_method(person, Muscle::quadriceps, modal(9, true, true)));
+  ASSERT_TRUE(simulation.set_method(person, Muscle::triceps_surae, {Method::statics}));
+  EXPECT_EQ(simulation.method(person, Muscle::tibialis_anterior).method, Method::explicit_central);
   simulation.tick();
-  const auto muscles = muscles_of(simulation, human);
-  ASSERT_TRUE(simulation.set_muscles(human, {.method = Method::caa}));
-  EXPECT_EQ(muscles_of(simulation, human), muscles);
+  const auto muscles = muscles_of(simulation, person);
+  ASSERT_TRUE(simulation.set_muscles(person, {.method = Method::newmark}));
+  EXPECT_EQ(muscles_of(simulation, person), muscles);
   for (std::size_t m = 0; m < muscle_group_count; ++m) {
-    EXPECT_EQ(simulation.method(human, static_cast<Muscle>(m)).method, Method::caa);
+    EXPECT_EQ(simulation.method(person, static_cast<Muscle>(m)).method, Method::newmark);
   }
   for (const Entity muscle : muscles) EXPECT_TRUE(simulation.world().has<SolvedSteps>(muscle));
   for (int i = 0; i < 30; ++i) simulation.tick();
@@ -305,7 +307,7 @@ std::uint64_t worked(const Simulation& simulation, std::string_view begins) {
 TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
   Simulation simulation(sharing());
   std::vector<Entity> crowd;
-  for (int i = 0; i < 5; ++i) crowd.push_back(join(simulation, person(i), false));
+  for (int i = 0; i < 5; ++i) crowd.push_back(join(simulation, sample_person(i), false));
   simulation.tick();
   EXPECT_EQ(worked(simulation, "gait"), 5U);
   EXPECT_EQ(worked(simulation, "kinematics"), 5U);
@@ -328,18 +330,18 @@ TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
   EXPECT_EQ(nodal_displacement(simulation.world(), simulation.muscle(crowd[0], Muscle::hamstrings, Side::left)).first,
             nullptr);
 
-  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, reduced(8, false, false)));
+  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, modal(8, false, false)));
   simulation.tick();
   for (const char* system : {"frame motion", "deformation", "control points", "fade"}) {
     EXPECT_EQ(worked(simulation, system), 0U) << system;
   }
-  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, reduced(8, true, false)));
+  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, modal(8, true, false)));
   simulation.tick();
   EXPECT_EQ(worked(simulation, "frame motion"), 2U);
-  EXPECT_EQ(worked(simulation, "deformation, reduced"), 2U);
+  EXPECT_EQ(worked(simulation, "deformation, modal"), 2U);
   EXPECT_EQ(worked(simulation, "deformation"), 2U);
   EXPECT_EQ(worked(simulation, "control points"), 0U);
-  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, reduced(8, false, true)));
+  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, modal(8, false, true)));
   simulation.tick();
   EXPECT_EQ(worked(simulation, "deformation"), 0U);
   EXPECT_EQ(worked(simulation, "control points, static"), 2U);
@@ -349,8 +351,8 @@ TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
 
 TEST(Cost, LinesAreTheSameWhateverTheBelliesDo) {
   Simulation all(sharing()), none(sharing());
-  const Entity a = join_with(all, person(3), {.line_motion = true}),
-               b = join_with(none, person(3), {.method = Method::none, .line_motion = true});
+  const Entity a = join_with(all, sample_person(3), {.line_motion = true}),
+               b = join_with(none, sample_person(3), {.method = Method::none, .line_motion = true});
   for (int i = 0; i < 20; ++i) all.tick(), none.tick();
   for (std::size_t m = 0; m < muscle_group_count; ++m) {
     const Entity x = all.muscle(a, static_cast<Muscle>(m), Side::left),
@@ -366,34 +368,38 @@ TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
   std::map<std::string, std::uint32_t> bytes;
   for (const bool inertia : {false, true}) {
     Simulation simulation(sharing());
-    const Entity human = join_with(simulation, person(3), {.inertia = inertia});
+    const Entity person = join_with(simulation, sample_person(3), {.inertia = inertia});
     for (const MuscleMethod& method : every_method()) {
-      ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, method));
+      ASSERT_TRUE(simulation.set_method(person, Muscle::hamstrings, method));
       for (int i = 0; i < 20; ++i) simulation.tick();  // the fade is over
-      const auto place = simulation.world().find(simulation.muscle(human, Muscle::hamstrings, Side::left));
+      const auto place = simulation.world().find(simulation.muscle(person, Muscle::hamstrings, Side::left));
       bytes[text(method) + (inertia ? ", inertia" : "")] = 4 * place.table->words();
     }
   }
   for (const auto& [what, size] : bytes) std::cout << what << ": " << size << " bytes a muscle\n";
-  EXPECT_LE(bytes["reduced 12 unseen"], 448U);
+  EXPECT_LE(bytes["modal 12 unseen"], 448U);
   EXPECT_LE(bytes["none"], 200U);
-  EXPECT_LT(4 * bytes["reduced 12 unseen"], bytes["ecd"]);
+  EXPECT_LT(4 * bytes["modal 12 unseen"], bytes["explicit-central"]);
 }
 
 /// What fades is no motion: handed over from change to change it grew until it was no number, within a quarter of a
 /// second.
 TEST(Switching, InEveryTickStaysStable) {
   Simulation simulation(sharing());
-  const Entity human = join_with(simulation, person(2), {.reduced = {.cells = {2, 2, 8}}});
-  constexpr std::array order = {Method::ecd,     Method::icd,     Method::caa,
-                                Method::statics, Method::reduced, Method::finite};
+  const Entity person = join_with(simulation, sample_person(2), {.modal = {.cells = {2, 2, 8}}});
+  constexpr std::array order = {Method::explicit_central,
+                                Method::implicit_central,
+                                Method::newmark,
+                                Method::statics,
+                                Method::modal,
+                                Method::finite};
   for (int tick = 0; tick < 240; ++tick) {
     for (std::size_t g = 0; g < muscle_group_count; ++g) {
       const Method to = order[(static_cast<std::size_t>(tick) + g) % order.size()];
-      ASSERT_TRUE(simulation.set_method(human, static_cast<Muscle>(g), {to, {.cells = {2, 2, 8}}}));
+      ASSERT_TRUE(simulation.set_method(person, static_cast<Muscle>(g), {to, {.cells = {2, 2, 8}}}));
     }
     simulation.tick();
-    for (const Entity muscle : muscles_of(simulation, human)) {
+    for (const Entity muscle : muscles_of(simulation, person)) {
       for (const float u : displacement(simulation, muscle)) ASSERT_LT(std::abs(u), 0.15F) << tick;
     }
   }

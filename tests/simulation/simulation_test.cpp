@@ -1,7 +1,7 @@
 // The facade: bodies and gaits of all kinds, effects that come and go without a trace, time, memory.
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ double turn(const Quat<float>& a, const Quat<float>& b) {
   return 2 * std::acos(std::min(1.0, dot));
 }
 
-void check_muscles(const Simulation& simulation, const Human& human) {
-  for (const auto& own : human.muscles) {
+void check_muscles(const Simulation& simulation, const Person& person) {
+  for (const auto& own : person.muscles) {
     for (const Entity muscle : own.entity) {
       const auto line = *simulation.get<LineOfAction>(muscle);
       const auto report = *simulation.get<BellyReport>(muscle);
@@ -70,12 +70,12 @@ void check_step(const Pose<float>& first, const Pose<float>& before, const Pose<
 }
 
 /// Somebody within the ranges of body and gait; not everybody of those can walk as asked.
-Person any_person() {
+SamplePerson any_person() {
   const auto uniform = [](double low, double high) {
     return static_cast<float>(low +
                               (high - low) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 10001)) / 10000.0);
   };
-  Person p;
+  SamplePerson p;
   p.body.height_m = uniform(1.2, 2.2);
   p.body.mass_kg = living_mass(p.body.height_m, static_cast<double>(uniform(0, 1)));
   p.body.biotype = {uniform(0.1, 12), uniform(0.1, 12), uniform(0.1, 12)};
@@ -94,34 +94,34 @@ Person any_person() {
 TEST(Simulation, BodiesOfAllKindsWalkAndTheirMusclesFollow) {
   Simulation simulation(sharing());  // templates are made once
   EXPECT_TRUE(rc::check("walks", [&] {
-    const Person p = any_person();
-    const auto human = simulation.spawn(p.body, p.gait);
-    RC_PRE(human.has_value());
-    const auto added = simulation.set_muscles(*human);
+    const SamplePerson p = any_person();
+    const auto person = simulation.spawn(p.body, p.gait);
+    RC_PRE(person.has_value());
+    const auto added = simulation.set_muscles(*person);
     if (!added) RC_FAIL(added.error().message);
-    const bool clamped = simulation.get<StepPlan>(*human)->clamped != 0;  // what is reported as no walk
-    Pose<float> first = *simulation.get<Pose>(*human), before = first;
+    const bool clamped = simulation.get<StepPlan>(*person)->clamped != 0;  // what is reported as no walk
+    Pose<float> first = *simulation.get<Pose>(*person), before = first;
     for (int i = 0; i < 90; ++i) {
       simulation.tick();
-      const Pose<float> now = *simulation.get<Pose>(*human);
-      if (i > 0 && !clamped) check_step(first, before, now, simulation.human(*human)->gait);
-      check_muscles(simulation, *simulation.human(*human));
+      const Pose<float> now = *simulation.get<Pose>(*person);
+      if (i > 0 && !clamped) check_step(first, before, now, simulation.person(*person)->gait);
+      check_muscles(simulation, *simulation.person(*person));
       first = before;
       before = now;
     }
-    RC_ASSERT(simulation.despawn(*human) == Status::ok);
+    RC_ASSERT(simulation.despawn(*person) == Status::ok);
   }));
 }
 
 TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
   Simulation simulation(sharing());
   for (const int who : {0, 7, 19}) {
-    const auto human = *simulation.spawn(person(who).body, person(who).gait);
-    ASSERT_TRUE(simulation.set_muscles(human, {.drive = Drive::force}));
+    const auto person = *simulation.spawn(sample_person(who).body, sample_person(who).gait);
+    ASSERT_TRUE(simulation.set_muscles(person, {.drive = Drive::force}));
     double asked = 0, missed = 0;
     for (int i = 0; i < 300; ++i) {
       simulation.tick();
-      for (const auto& own : simulation.muscles(human)) {
+      for (const auto& own : simulation.muscles(person)) {
         for (const Entity muscle : own.entity) {
           const auto line = *simulation.get<LineOfAction>(muscle);
           const auto report = *simulation.get<BellyReport>(muscle);
@@ -136,7 +136,7 @@ TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
     }
     EXPECT_GT(missed, 0.02 * asked);  // the elongation is not simply prescribed
     EXPECT_LT(missed, 2 * asked);
-    EXPECT_EQ(simulation.despawn(human), Status::ok);
+    EXPECT_EQ(simulation.despawn(person), Status::ok);
   }
 }
 
@@ -149,9 +149,9 @@ TEST(Effects, EveryBodyInRangeGetsMuscles) {
       for (const float meso : {0.1F, 12.0F}) {
         for (const auto build :
              {Constitution::thin, Constitution::average, Constitution::athletic, Constitution::heavy}) {
-          const auto human = simulation.spawn({height, mass, {3, meso, 3}, build}, {.speed_m_s = 1.1F});
-          ASSERT_TRUE(human) << human.error().message;
-          const auto added = simulation.set_muscles(*human);
+          const auto person = simulation.spawn({height, mass, {3, meso, 3}, build}, {.speed_m_s = 1.1F});
+          ASSERT_TRUE(person) << person.error().message;
+          const auto added = simulation.set_muscles(*person);
           EXPECT_TRUE(added) << added.error().message;
         }
       }
@@ -161,40 +161,40 @@ TEST(Effects, EveryBodyInRangeGetsMuscles) {
 
 TEST(Effects, MusclesComeAndGoWithTheirRows) {
   Simulation simulation(sharing());
-  const Entity human = join(simulation, person(0), false);
-  const Entity other = join(simulation, person(1), false);
+  const Entity person = join(simulation, sample_person(0), false);
+  const Entity other = join(simulation, sample_person(1), false);
   EXPECT_EQ(rows(simulation.world()), 2U);
   EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 0U);
   simulation.tick();
   for (int round = 0; round < 3; ++round) {
-    ASSERT_TRUE(simulation.set_muscles(human));
+    ASSERT_TRUE(simulation.set_muscles(person));
     EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 2 * muscle_group_count);
     EXPECT_EQ(rows_with<Pose>(simulation.world()), 2U);
     std::vector<Entity> muscles;
-    for (const auto& own : simulation.muscles(human))
+    for (const auto& own : simulation.muscles(person))
       muscles.insert(muscles.end(), own.entity.begin(), own.entity.end());
     for (const Entity muscle : muscles) {
       EXPECT_TRUE(simulation.world().alive(muscle));
-      EXPECT_EQ(simulation.get<MuscleOwner>(muscle)->index, human.index);
+      EXPECT_EQ(simulation.get<MuscleOwner>(muscle)->index, person.index);
       EXPECT_EQ(nodal_displacement(simulation.world(), muscle).nodes, 81U);
     }
     EXPECT_FALSE(simulation.world().alive(simulation.muscle(other, Muscle::quadriceps, Side::left)));
     simulation.tick();
-    EXPECT_EQ(simulation.set_muscles(human, std::nullopt), Status::ok);
+    EXPECT_EQ(simulation.set_muscles(person, std::nullopt), Status::ok);
     EXPECT_EQ(rows(simulation.world()), 2U);
     EXPECT_EQ(rows_with<BellyReport>(simulation.world()) + rows_with<LineOfAction>(simulation.world()), 0U);
     for (const Entity muscle : muscles) {
       EXPECT_EQ(simulation.get<LineOfAction>(muscle).error(), Status::stale_entity);
       EXPECT_EQ(nodal_displacement(simulation.world(), muscle).first, nullptr);
     }
-    EXPECT_TRUE(simulation.human(human)->muscles.empty());
+    EXPECT_TRUE(simulation.person(person)->muscles.empty());
     simulation.tick();
   }
 }
 
 TEST(Effects, MusclesDoNotChangeTheWalkNorATickBefore) {
   Simulation simulation(sharing());
-  const Entity with = join(simulation, person(5)), without = join(simulation, person(5), false);
+  const Entity with = join(simulation, sample_person(5)), without = join(simulation, sample_person(5), false);
   for (int i = 0; i < 40; ++i) simulation.tick();
   EXPECT_EQ(hash_row(simulation.world(), with, 1), hash_row(simulation.world(), without, 1));
   ASSERT_TRUE(simulation.set_muscles(without));  // in mid-stride
@@ -204,68 +204,68 @@ TEST(Effects, MusclesDoNotChangeTheWalkNorATickBefore) {
 
 TEST(Effects, TheSameMusclesAgainChangeNothing) {
   Simulation simulation(sharing());
-  const Entity human = join(simulation, person(2));
+  const Entity person = join(simulation, sample_person(2));
   for (int i = 0; i < 10; ++i) simulation.tick();
   const auto before = hash_world(simulation);
-  ASSERT_TRUE(simulation.set_muscles(human, simulation.human(human)->leg_muscles));
+  ASSERT_TRUE(simulation.set_muscles(person, simulation.person(person)->leg_muscles));
   EXPECT_EQ(hash_world(simulation), before);
 }
 
 TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
   Simulation simulation(sharing());
-  const Entity human = join(simulation, person(2), false);
+  const Entity person = join(simulation, sample_person(2), false);
   const auto before = hash_world(simulation);
   for (const Material& bad : {Material{1000, 1e4, 0.5}, Material{0, 1e4, 0.3}, Material{1000, NAN, 0.3},
                               Material{1000, 1e4, -1}, Material{INFINITY, 1e4, 0.3}}) {
-    EXPECT_FALSE(simulation.set_muscles(human, {.material = bad}));
+    EXPECT_FALSE(simulation.set_muscles(person, {.material = bad}));
     EXPECT_EQ(hash_world(simulation), before);
   }
-  EXPECT_TRUE(simulation.set_muscles(human));
+  EXPECT_TRUE(simulation.set_muscles(person));
 }
 
 TEST(Handles, OfTheGoneAreStaleEverywhere) {
   Simulation simulation(sharing());
-  const Entity human = join(simulation, person(0)), other = join(simulation, person(1));
-  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::right);
-  const auto before = hash_human(simulation, other);
-  ASSERT_EQ(simulation.despawn(human), Status::ok);
+  const Entity person = join(simulation, sample_person(0)), other = join(simulation, sample_person(1));
+  const Entity muscle = simulation.muscle(person, Muscle::hamstrings, Side::right);
+  const auto before = hash_person(simulation, other);
+  ASSERT_EQ(simulation.despawn(person), Status::ok);
   EXPECT_EQ(rows(simulation.world()), 1 + 2 * muscle_group_count);
-  EXPECT_EQ(hash_human(simulation, other), before);
-  const Entity next = join(simulation, person(2));  // takes the place of the first
-  for (const Entity gone : {human, Entity{}, Entity{~0U, 1}}) {
+  EXPECT_EQ(hash_person(simulation, other), before);
+  const Entity next = join(simulation, sample_person(2));  // takes the place of the first
+  for (const Entity gone : {person, Entity{}, Entity{~0U, 1}}) {
     EXPECT_EQ(simulation.despawn(gone), Status::stale_entity);
     EXPECT_EQ(simulation.set_muscles(gone, std::nullopt), Status::stale_entity);
     EXPECT_FALSE(simulation.set_muscles(gone));
-    EXPECT_FALSE(simulation.human(gone));
+    EXPECT_FALSE(simulation.person(gone));
     EXPECT_EQ(simulation.get<Pose>(gone).error(), Status::stale_entity);
     EXPECT_FALSE(simulation.world().alive(simulation.muscle(gone, Muscle::hamstrings, Side::right)));
   }
   EXPECT_EQ(simulation.get<BellyReport>(muscle).error(), Status::stale_entity);
   EXPECT_EQ(nodal_displacement(simulation.world(), muscle).first, nullptr);
-  EXPECT_FALSE(simulation.human(muscle));
+  EXPECT_FALSE(simulation.person(muscle));
   // A muscle is no person, though it lives.
-  const Entity living = simulation.muscle(next, Muscle::hamstrings, Side::left);
-  ASSERT_TRUE(simulation.world().alive(living));
-  EXPECT_FALSE(simulation.human(living));
-  EXPECT_EQ(simulation.despawn(living), Status::stale_entity);
-  EXPECT_TRUE(simulation.world().alive(living));
+  const Entity alive = simulation.muscle(next, Muscle::hamstrings, Side::left);
+  ASSERT_TRUE(simulation.world().alive(alive));
+  EXPECT_FALSE(simulation.person(alive));
+  EXPECT_EQ(simulation.despawn(alive), Status::stale_entity);
+  EXPECT_TRUE(simulation.world().alive(alive));
 }
 
 TEST(Handles, BadSpawnsChangeNothing) {
   Simulation simulation(sharing());
-  join(simulation, person(0));
+  join(simulation, sample_person(0));
   const auto before = hash_world(simulation);
   const std::size_t tables = simulation.world().tables().size();
-  const Person bad[] = {{{.height_m = 0}, {}},
-                        {{.height_m = NAN}, {}},
-                        {{.mass_kg = 5}, {}},
-                        {{.biotype = {-1, 3, 3}}, {}},
-                        {{.constitution = static_cast<Constitution>(9)}, {}},
-                        {{}, {.speed_m_s = 9.0F}},
-                        {{}, {.speed_m_s = NAN}},
-                        {{}, {.speed_m_s = 1.4F, .step_length_m = 0.7F, .step_frequency_hz = 3.0F}},
-                        {{}, {.style = {.swing_knee_deg = 500}}}};
-  for (const Person& p : bad) {
+  const SamplePerson bad[] = {{{.height_m = 0}, {}},
+                              {{.height_m = NAN}, {}},
+                              {{.mass_kg = 5}, {}},
+                              {{.biotype = {-1, 3, 3}}, {}},
+                              {{.constitution = static_cast<Constitution>(9)}, {}},
+                              {{}, {.speed_m_s = 9.0F}},
+                              {{}, {.speed_m_s = NAN}},
+                              {{}, {.speed_m_s = 1.4F, .step_length_m = 0.7F, .step_frequency_hz = 3.0F}},
+                              {{}, {.style = {.swing_knee_deg = 500}}}};
+  for (const SamplePerson& p : bad) {
     EXPECT_TRUE(is_refused(simulation.spawn(p.body, p.gait)));
     EXPECT_EQ(hash_world(simulation), before);
     EXPECT_EQ(simulation.world().tables().size(), tables);
@@ -276,7 +276,7 @@ TEST(Handles, BadSpawnsChangeNothing) {
 
 TEST(Time, AdvanceRunsWholeTicksAndReportsTheRest) {
   Simulation simulation(sharing());
-  const Entity human = join(simulation, person(0), false);
+  const Entity person = join(simulation, sample_person(0), false);
   EXPECT_EQ(simulation.advance(0.5 / 60).count, 0U);
   Ticks ticks = simulation.advance(1.0 / 60);
   EXPECT_EQ(ticks.count, 1U);
@@ -293,9 +293,9 @@ TEST(Time, AdvanceRunsWholeTicksAndReportsTheRest) {
     EXPECT_EQ(hash_world(simulation), before);
   }
   Simulation ticked(sharing());
-  const Entity same = join(ticked, person(0), false);
+  const Entity same = join(ticked, sample_person(0), false);
   for (int i = 0; i < 16; ++i) ticked.tick();
-  EXPECT_EQ(hash_human(simulation, human), hash_human(ticked, same));
+  EXPECT_EQ(hash_person(simulation, person), hash_person(ticked, same));
   EXPECT_THROW(Simulation({.tick_s = 0}), std::invalid_argument);
   EXPECT_THROW(Simulation({.max_frame_s = NAN}), std::invalid_argument);
 }

@@ -13,7 +13,7 @@
 #include <mobil/host_parts.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "demo/scene/crowd_people.h"
 #include "systems/gait/asleep.h"
@@ -41,8 +41,8 @@ struct Twins {
       if (!body || !resolve_gait(*body, request.gait)) continue;
       if (muscles) {
         request.muscles = LegMuscles{};
-        request.muscles->method = Method::reduced;
-        request.muscles->reduced.control_points = false;
+        request.muscles->method = Method::modal;
+        request.muscles->modal.control_points = false;
       }
       requests.push_back(request);
     }
@@ -144,46 +144,46 @@ TEST(Sleep, WhoHasWokenBeforeWakesWithoutTheHeap) {
 template <class F>
 struct Mark {
   F value;
-  Whole<F> count;
+  UInt32<F> count;
 };
 
 TEST(Sleep, AHostsOwnPartsStay) {
-  Simulation simulation({.modules = {{.name = "marks", .parts = {component_part<Mark>()}}}});
-  const Entity human = *simulation.spawn({});
-  ASSERT_TRUE(simulation.parts().add(human, Mark<float>{2.5F, 7}));
-  ASSERT_EQ(simulation.set_state({&human, 1}, PersonState::asleep).value(), 1U);
-  EXPECT_EQ(simulation.get<Mark>(human)->value, 2.5F);
-  ASSERT_TRUE(simulation.parts().set(human, Mark<float>{3.5F, 8}));
+  Simulation simulation({.modules = {{.name = "marks", .parts = {component_id<Mark>()}}}});
+  const Entity person = *simulation.spawn({});
+  ASSERT_TRUE(simulation.parts().add(person, Mark<float>{2.5F, 7}));
+  ASSERT_EQ(simulation.set_state({&person, 1}, PersonState::asleep).value(), 1U);
+  EXPECT_EQ(simulation.get<Mark>(person)->value, 2.5F);
+  ASSERT_TRUE(simulation.parts().set(person, Mark<float>{3.5F, 8}));
   simulation.tick();
-  ASSERT_TRUE(simulation.set_state({&human, 1}, PersonState::full));
-  EXPECT_NE(simulation.state(human), PersonState::asleep);
-  EXPECT_EQ(simulation.get<Mark>(human)->value, 3.5F);
-  EXPECT_EQ(simulation.get<Mark>(human)->count, 8U);
+  ASSERT_TRUE(simulation.set_state({&person, 1}, PersonState::full));
+  EXPECT_NE(simulation.state(person), PersonState::asleep);
+  EXPECT_EQ(simulation.get<Mark>(person)->value, 3.5F);
+  EXPECT_EQ(simulation.get<Mark>(person)->count, 8U);
 }
 
 TEST(Sleep, ForcesAndMusclesComeBack) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn({});
+  const Entity person = *simulation.spawn({});
   LegMuscles choice;
-  choice.method = Method::reduced;
+  choice.method = Method::modal;
   choice.inertia = true;
   choice.muscles = MuscleSet(5);
-  ASSERT_TRUE(simulation.enable(human, Feature::forces));
-  ASSERT_TRUE(simulation.set_muscles(human, choice));
-  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::right);
+  ASSERT_TRUE(simulation.enable(person, Feature::forces));
+  ASSERT_TRUE(simulation.set_muscles(person, choice));
+  const Entity muscle = simulation.muscle(person, Muscle::hamstrings, Side::right);
   for (int i = 0; i < 30; ++i) simulation.tick();
-  ASSERT_EQ(simulation.set_state({&human, 1}, PersonState::asleep).value(), 1U);
-  EXPECT_TRUE(simulation.is_person(human));
-  EXPECT_EQ(simulation.people(), std::vector{human});
-  EXPECT_TRUE(simulation.muscles(human).empty());
+  ASSERT_EQ(simulation.set_state({&person, 1}, PersonState::asleep).value(), 1U);
+  EXPECT_TRUE(simulation.is_person(person));
+  EXPECT_EQ(simulation.people(), std::vector{person});
+  EXPECT_TRUE(simulation.muscles(person).empty());
   EXPECT_FALSE(simulation.get<LineOfAction>(muscle));
-  EXPECT_EQ(simulation.human(human)->leg_muscles, choice);
+  EXPECT_EQ(simulation.person(person)->leg_muscles, choice);
   simulation.tick();
-  ASSERT_TRUE(simulation.set_state({&human, 1}, PersonState::full));
-  EXPECT_TRUE(simulation.get<GroundReaction>(human));
-  EXPECT_EQ(simulation.human(human)->leg_muscles, choice);
-  EXPECT_EQ(simulation.muscles(human).size(), 2U);
-  EXPECT_EQ(simulation.method(human, Muscle::hamstrings).method, Method::reduced);
+  ASSERT_TRUE(simulation.set_state({&person, 1}, PersonState::full));
+  EXPECT_TRUE(simulation.get<GroundReaction>(person));
+  EXPECT_EQ(simulation.person(person)->leg_muscles, choice);
+  EXPECT_EQ(simulation.muscles(person).size(), 2U);
+  EXPECT_EQ(simulation.method(person, Muscle::hamstrings).method, Method::modal);
 }
 
 /// One who sleeps, and one alike who never does, with muscles.
@@ -192,8 +192,8 @@ struct MuscleTwins {
   Entity sleeper, waker;
 
   MuscleTwins(const SpawnRequest& request) {
-    for (const auto& [simulation, human] : {std::pair{&dozes, &sleeper}, std::pair{&wakes, &waker}}) {
-      EXPECT_TRUE(simulation->spawn({&request, 1}, {human, 1}));
+    for (const auto& [simulation, person] : {std::pair{&dozes, &sleeper}, std::pair{&wakes, &waker}}) {
+      EXPECT_TRUE(simulation->spawn({&request, 1}, {person, 1}));
       for (int i = 0; i < 120; ++i) simulation->tick();
     }
     EXPECT_EQ(dozes.set_state({&sleeper, 1}, PersonState::asleep).value(), 1U);
@@ -205,7 +205,7 @@ struct MuscleTwins {
   /// How far apart a control point is at most, m.
   double off_m() const {
     double most = 0;
-    for (const OwnMuscle& own : wakes.muscles(waker)) {
+    for (const MuscleRef& own : wakes.muscles(waker)) {
       for (const Side side : {Side::right, Side::left}) {
         const NodalView a = nodal_displacement(dozes.world(), dozes.muscle(sleeper, own.muscle, side));
         const NodalView b = nodal_displacement(wakes.world(), own.entity[side]);
@@ -226,7 +226,7 @@ SpawnRequest with_muscles(std::uint64_t number, Method method) {
 }
 
 TEST(Sleep, MusclesThatBeginAtRestOnWakingAreSoonThoseOfWhoNeverSlept) {
-  MuscleTwins twins(with_muscles(1, Method::reduced));
+  MuscleTwins twins(with_muscles(1, Method::modal));
   ASSERT_TRUE(twins.dozes.set_state({&twins.sleeper, 1}, PersonState::full, 1));
   EXPECT_GT(twins.off_m(), 1e-4);
   EXPECT_LT(twins.off_m(), 0.015);
@@ -241,7 +241,7 @@ TEST(Sleep, MusclesThatBeginAtRestOnWakingAreSoonThoseOfWhoNeverSlept) {
 TEST(Sleep, MusclesWarmUpToWhatIsAsked) {
   for (const std::uint64_t number : {2U, 8U}) {
     for (const float within_m : {0.005F, 0.001F, 4e-6F}) {
-      MuscleTwins twins(with_muscles(number, Method::reduced));
+      MuscleTwins twins(with_muscles(number, Method::modal));
       ASSERT_TRUE(twins.dozes.set_state({&twins.sleeper, 1}, PersonState::full, within_m));
       EXPECT_LT(twins.off_m(), double{within_m}) << "person " << number;
       const double first = twins.off_m();
@@ -250,7 +250,7 @@ TEST(Sleep, MusclesWarmUpToWhatIsAsked) {
     }
   }
   // Any method: here the whole mesh, step by step.
-  MuscleTwins twins(with_muscles(4, Method::ecd));
+  MuscleTwins twins(with_muscles(4, Method::explicit_central));
   ASSERT_TRUE(twins.dozes.set_state({&twins.sleeper, 1}, PersonState::full, 0.001F));
   EXPECT_LT(twins.off_m(), 0.001);
 }
@@ -285,13 +285,13 @@ TEST(Sleep, WhoCannotSleepStaysAwake) {
   ASSERT_TRUE(simulation.turn_to(turning, 1));
   const Entity unlike = *simulation.spawn({});
   LegMuscles choice;
-  choice.method = Method::reduced;
+  choice.method = Method::modal;
   ASSERT_TRUE(simulation.set_muscles(unlike, choice));
   ASSERT_TRUE(simulation.set_method(unlike, Muscle::hamstrings, {Method::statics}));
   for (int i = 0; i < 3; ++i) simulation.tick();
   const std::vector<Entity> all = {posed, uneven, turning, unlike};
   EXPECT_EQ(simulation.set_state(all, PersonState::asleep).value(), 0U);
-  for (const Entity human : all) EXPECT_NE(simulation.state(human), PersonState::asleep);
+  for (const Entity person : all) EXPECT_NE(simulation.state(person), PersonState::asleep);
   const std::vector<Entity> twice = {turning, turning};
   EXPECT_FALSE(simulation.set_state(twice, PersonState::asleep));
   EXPECT_FALSE(simulation.set_state(twice, PersonState::full));
@@ -303,36 +303,36 @@ TEST(Sleep, WhoCannotSleepStaysAwake) {
 TEST(Sleep, WhatASleeperCannotFollowWakesThem) {
   Simulation simulation(sharing());
   const auto asleep = [&] {
-    const Entity human = *simulation.spawn({}, {.speed_m_s = 0.0F});
-    EXPECT_EQ(simulation.set_state({&human, 1}, PersonState::asleep).value(), 1U);
-    return human;
+    const Entity person = *simulation.spawn({}, {.speed_m_s = 0.0F});
+    EXPECT_EQ(simulation.set_state({&person, 1}, PersonState::asleep).value(), 1U);
+    return person;
   };
-  Entity human = asleep();
-  ASSERT_TRUE(simulation.step_aside(human, 0.1F, 0));
-  EXPECT_NE(simulation.state(human), PersonState::asleep);
-  human = asleep();
-  ASSERT_TRUE(simulation.place(human, 3, 4, 1));  // this they follow
-  EXPECT_EQ(simulation.state(human), PersonState::asleep);
-  human = asleep();
+  Entity person = asleep();
+  ASSERT_TRUE(simulation.step_aside(person, 0.1F, 0));
+  EXPECT_NE(simulation.state(person), PersonState::asleep);
+  person = asleep();
+  ASSERT_TRUE(simulation.place(person, 3, 4, 1));  // this they follow
+  EXPECT_EQ(simulation.state(person), PersonState::asleep);
+  person = asleep();
   GaitChange lopsided;
   lopsided.style = GaitStyle{.toe_out_deg = 9};
-  ASSERT_TRUE(simulation.change_gait(human, lopsided));
-  EXPECT_NE(simulation.state(human), PersonState::asleep);
-  human = asleep();
-  ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.2F}));
-  EXPECT_EQ(simulation.state(human), PersonState::asleep);
-  ASSERT_TRUE(simulation.turn_to(human, 1));  // at once: still the same request
-  EXPECT_EQ(simulation.state(human), PersonState::asleep);
+  ASSERT_TRUE(simulation.change_gait(person, lopsided));
+  EXPECT_NE(simulation.state(person), PersonState::asleep);
+  person = asleep();
+  ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 1.2F}));
+  EXPECT_EQ(simulation.state(person), PersonState::asleep);
+  ASSERT_TRUE(simulation.turn_to(person, 1));  // at once: still the same request
+  EXPECT_EQ(simulation.state(person), PersonState::asleep);
   simulation.tick();
-  ASSERT_TRUE(simulation.turn_to(human, 2));
-  EXPECT_NE(simulation.state(human), PersonState::asleep);
-  human = asleep();
-  ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.2F}));
-  EXPECT_FALSE(simulation.change_gait(human, {.speed_m_s = 12.0F}));
-  EXPECT_EQ(simulation.state(human), PersonState::asleep);
-  EXPECT_FLOAT_EQ(*simulation.gait_request(human)->speed_m_s, 1.2F);
-  ASSERT_TRUE(simulation.despawn(human));
-  EXPECT_FALSE(simulation.is_person(human));
+  ASSERT_TRUE(simulation.turn_to(person, 2));
+  EXPECT_NE(simulation.state(person), PersonState::asleep);
+  person = asleep();
+  ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 1.2F}));
+  EXPECT_FALSE(simulation.change_gait(person, {.speed_m_s = 12.0F}));
+  EXPECT_EQ(simulation.state(person), PersonState::asleep);
+  EXPECT_FLOAT_EQ(*simulation.gait_request(person)->speed_m_s, 1.2F);
+  ASSERT_TRUE(simulation.despawn(person));
+  EXPECT_FALSE(simulation.is_person(person));
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ class SnapshotFile : public ::testing::Test {
 
 void fill(Simulation& simulation) {
   for (int i = 0; i < 6; ++i) {
-    const auto human = simulation.spawn(person(i).body, person(i).gait);
-    ASSERT_TRUE(human);
-    ASSERT_TRUE(simulation.set_muscles(*human, play::choice_of(static_cast<std::uint64_t>(i))));
+    const auto person = simulation.spawn(sample_person(i).body, sample_person(i).gait);
+    ASSERT_TRUE(person);
+    ASSERT_TRUE(simulation.set_muscles(*person, play::choice_of(static_cast<std::uint64_t>(i))));
   }
 }
 

@@ -9,7 +9,7 @@
 #include <mobil/components/gait.h>
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "engine/snapshot.h"
 #include "engine/snapshot_bytes.h"
@@ -45,12 +45,12 @@ void disturb(Simulation& simulation, std::vector<Entity>& people, std::uint64_t 
   const std::uint64_t what = play::mixed(seed, simulation.ticks(), 1), how = play::mixed(seed, simulation.ticks(), 2);
   if (what % 3 == 0) {
     const auto who = static_cast<int>(how % 1000);
-    const auto human =
-        what % 4 == 0 ? simulation.spawn_posed(person(who).body) : simulation.spawn(person(who).body, person(who).gait);
-    ASSERT_TRUE(human);
-    people.push_back(*human);
+    const auto person = what % 4 == 0 ? simulation.spawn_posed(sample_person(who).body)
+                                      : simulation.spawn(sample_person(who).body, sample_person(who).gait);
+    ASSERT_TRUE(person);
+    people.push_back(*person);
     if (what % 5 != 0) {
-      ASSERT_TRUE(simulation.set_muscles(*human, play::choice_of(how / 7)));
+      ASSERT_TRUE(simulation.set_muscles(*person, play::choice_of(how / 7)));
     }
   }
   if (people.size() < 5) return;
@@ -60,7 +60,7 @@ void disturb(Simulation& simulation, std::vector<Entity>& people, std::uint64_t 
     std::erase(people, one);
   }
   if (!simulation.world().alive(other)) return;
-  const bool walks = !simulation.human(other)->posed;
+  const bool walks = !simulation.person(other)->posed;
   if (what % 6 == 1) (void)simulation.set_method(other, Muscle::hamstrings, play::every_method()[how % 9]);
   if (what % 6 == 2 && walks) {
     ASSERT_TRUE(simulation.change_gait(other, {.speed_m_s = how % 3 == 0 ? 0.0F : 1.2F}));
@@ -119,7 +119,7 @@ TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
 std::vector<Entity> few(Simulation& simulation) {
   std::vector<Entity> people;
   for (int i = 0; i < 9; ++i) {
-    people.push_back(join(simulation, person(i), false));
+    people.push_back(join(simulation, sample_person(i), false));
     EXPECT_TRUE(simulation.set_muscles(people.back(), play::choice_of(static_cast<std::uint64_t>(i))));
   }
   simulation.tick();
@@ -230,16 +230,16 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
   EXPECT_EQ(fresh.people().size(), 0U);
 }
 
-/// Control points of reduced muscles are left out, and made again with their bits: also of muscles that have just begun
+/// Control points of modal muscles are left out, and made again with their bits: also of muscles that have just begun
 /// or changed, before any tick.
 TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
   Simulation simulation(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 20; ++i) {
-    people.push_back(*simulation.spawn(person(1).body, person(i).gait));
+    people.push_back(*simulation.spawn(sample_person(1).body, sample_person(i).gait));
     LegMuscles choice;
-    choice.method = Method::reduced;
-    choice.reduced.moving = i % 3 != 0;
+    choice.method = Method::modal;
+    choice.modal.moving = i % 3 != 0;
     choice.inertia = i % 2 == 0;
     ASSERT_TRUE(simulation.set_muscles(people.back(), choice));
   }
@@ -257,15 +257,15 @@ TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
   simulation.tick(7);
   expect_same("after ticks");
   for (std::size_t i = 0; i < people.size(); i += 2) {
-    MuscleMethod method{Method::reduced, {}};
-    method.reduced.vectors = 8;
+    MuscleMethod method{Method::modal, {}};
+    method.modal.modes = 8;
     ASSERT_TRUE(simulation.set_method(people[i], Muscle::quadriceps, method));
   }
   expect_same("just changed");
   std::size_t rows = 0, points = 0;
   for (const Table& table : simulation.world().tables()) {
     rows += table.block_count() * table.words() * sizeof(Lanes<float>);
-    const KeyPart* const part = find_part(table.key(), type_id<NodalDisplacement>());
+    const ComponentId* const part = find_component(table.key(), type_id<NodalDisplacement>());
     if (part != nullptr) points += table.block_count() * part->value * sizeof(Lanes<float>);
   }
   EXPECT_GT(points, 100'000U);
@@ -275,9 +275,9 @@ TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
 /// A snapshot is refused if it marks a stored column as left out, or the left-out column as stored.
 TEST(Snapshot, OnlyWhatIsMadeAgainMayBeLeftOut) {
   Simulation simulation(sharing());
-  const Entity one = *simulation.spawn(person(1).body, person(1).gait);
+  const Entity one = *simulation.spawn(sample_person(1).body, sample_person(1).gait);
   LegMuscles choice;
-  choice.method = Method::reduced;
+  choice.method = Method::modal;
   ASSERT_TRUE(simulation.set_muscles(one, choice));
   simulation.tick(3);
   const Bytes bytes = saved(simulation);

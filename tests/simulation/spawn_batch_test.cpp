@@ -10,7 +10,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/muscle_library.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"
@@ -23,31 +23,31 @@ namespace mobil::spawn_batch_test {
 LegMuscles muscles_of_kind(int kind) {
   LegMuscles choice;
   choice.muscles = 0b1010;  // two will do
-  choice.method = kind == 0 ? Method::none : kind == 3 ? Method::ecd : Method::reduced;
-  choice.reduced.cells = {2, 2, 8};
-  choice.reduced.vectors = 6;
-  choice.reduced.control_points = kind != 1 && kind != 7;
-  choice.reduced.moving = kind != 4;
+  choice.method = kind == 0 ? Method::none : kind == 3 ? Method::explicit_central : Method::modal;
+  choice.modal.cells = {2, 2, 8};
+  choice.modal.modes = 6;
+  choice.modal.control_points = kind != 1 && kind != 7;
+  choice.modal.moving = kind != 4;
   choice.drive = kind == 4 ? Drive::force : Drive::displacement;
-  choice.reduced.tuned = choice.inertia = kind >= 6;
+  choice.modal.tuned = choice.inertia = kind >= 6;
   if (kind >= 6) choice.activation = ExcitationSource::phase;
   return choice;
 }
 
 SpawnRequest request(int i) {
-  const Person of = person(i);
+  const SamplePerson of = sample_person(i);
   SpawnRequest made{of.body, of.gait, 0, 0, 0, {}};
   if (i % 8 != 5) made.muscles = muscles_of_kind(i % 8);
   return made;
 }
 
 Entity spawn_alone(Simulation& simulation, const SpawnRequest& request) {
-  const auto human = simulation.spawn(request.body, request.gait);
-  EXPECT_TRUE(human) << human.error().message;
-  if (human && request.muscles) {
-    EXPECT_TRUE(simulation.set_muscles(*human, *request.muscles));
+  const auto person = simulation.spawn(request.body, request.gait);
+  EXPECT_TRUE(person) << person.error().message;
+  if (person && request.muscles) {
+    EXPECT_TRUE(simulation.set_muscles(*person, *request.muscles));
   }
-  return human.value_or(Entity{});
+  return person.value_or(Entity{});
 }
 
 /// Empty worlds, which keep the bases that are dear to make.
@@ -65,10 +65,10 @@ std::uint64_t hash_alone(int i) {
   static std::map<int, std::uint64_t> known;
   const auto at = known.find(i);
   if (at != known.end()) return at->second;
-  const Entity human = spawn_alone(simulation, request(i));
+  const Entity person = spawn_alone(simulation, request(i));
   for (int t = 0; t < 3; ++t) simulation.tick();
-  known[i] = hash_human(simulation, human);
-  EXPECT_EQ(simulation.despawn(human), Status::ok);
+  known[i] = hash_person(simulation, person);
+  EXPECT_EQ(simulation.despawn(person), Status::ok);
   return known[i];
 }
 
@@ -81,7 +81,7 @@ RC_GTEST_PROP(SpawnBatch, EverybodyIsWhoTheyWouldBeAloneInAnyOrderByAnyJobs, ())
   const auto spawned = simulation.spawn(people, made);
   RC_ASSERT(spawned.has_value());
   for (int t = 0; t < 3; ++t) simulation.tick();
-  for (std::size_t i = 0; i < who.size(); ++i) RC_ASSERT(hash_human(simulation, made[i]) == hash_alone(who[i]));
+  for (std::size_t i = 0; i < who.size(); ++i) RC_ASSERT(hash_person(simulation, made[i]) == hash_alone(who[i]));
 }
 
 TEST(SpawnBatch, PeopleStandWhereAndAsTheyWereAsked) {
@@ -104,7 +104,7 @@ TEST(SpawnBatch, PeopleStandWhereAndAsTheyWereAsked) {
     const float aside = dx * std::cos(heading) - dz * std::sin(heading);
     EXPECT_NEAR(ahead, *people[i].gait.speed_m_s * 4, 0.5F) << i;
     EXPECT_LT(std::abs(aside), 0.2F) << i;
-    EXPECT_EQ(simulation.human(made[i])->gait.heading_rad, heading);
+    EXPECT_EQ(simulation.person(made[i])->gait.heading_rad, heading);
   }
 }
 
@@ -141,7 +141,7 @@ TEST(SpawnBatch, OneWhoCannotBeKeepsAllAwayAndIsNamed) {
   wrong.muscles->muscles = 0;
   refused(33, wrong);
   wrong.muscles = muscles_of_kind(1);
-  wrong.muscles->reduced.vectors = 33;
+  wrong.muscles->modal.modes = 33;
   refused(34, wrong);
   wrong.muscles = muscles_of_kind(3);
   wrong.muscles->dt_s = 0.016;
@@ -163,7 +163,7 @@ TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
   for (const std::vector<Entity>& wrong : {std::vector<Entity>{made[1], made[2], made[1]}, {made[0], gone}, {muscle}}) {
     EXPECT_EQ(simulation.despawn(wrong), Status::stale_entity);
     EXPECT_EQ(hash_world(simulation), before);
-    for (const Entity human : made) EXPECT_TRUE(simulation.human(human));
+    for (const Entity person : made) EXPECT_TRUE(simulation.person(person));
   }
 }
 
@@ -176,7 +176,7 @@ TEST(SpawnBatch, PreparingChangesNobodysBits) {
     ASSERT_TRUE(simulation.spawn(people, made));
     for (int t = 0; t < 3; ++t) simulation.tick();
     for (int i = 0; i < 3; ++i) {
-      EXPECT_EQ(hash_human(simulation, made[static_cast<std::size_t>(i)]), hash_alone(8 * i + kind));
+      EXPECT_EQ(hash_person(simulation, made[static_cast<std::size_t>(i)]), hash_alone(8 * i + kind));
     }
   }
 }
@@ -184,7 +184,7 @@ TEST(SpawnBatch, PreparingChangesNobodysBits) {
 TEST(SpawnBatch, NothingIsPreparedForAChoiceOutOfRange) {
   Simulation simulation(sharing());
   LegMuscles wrong = muscles_of_kind(1);
-  wrong.reduced.vectors = 40;
+  wrong.modal.modes = 40;
   const auto refused = simulation.muscle_library().prepare(wrong);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message.rfind("prepare: ", 0), 0U);
@@ -214,18 +214,18 @@ RC_GTEST_PROP(SpawnBatch, ComingAndGoingLeavesThoseWhoStayAlone, ()) {
       }
     }
     RC_ASSERT(simulation.despawn(leave) == Status::ok);
-    for (const Entity gone : leave) RC_ASSERT(!simulation.human(gone));
+    for (const Entity gone : leave) RC_ASSERT(!simulation.person(gone));
     here = stay;
     RC_ASSERT(simulation.people().size() == here.size());
     std::size_t expected = here.size();
-    for (const auto& [human, i] : here) expected += 2 * simulation.muscles(human).size();
+    for (const auto& [person, i] : here) expected += 2 * simulation.muscles(person).size();
     RC_ASSERT(rows(simulation.world()) == expected);
-    for (const auto& [human, i] : here) {
-      RC_ASSERT(simulation.muscles(human).size() == (request(i).muscles ? 2U : 0U));
+    for (const auto& [person, i] : here) {
+      RC_ASSERT(simulation.muscles(person).size() == (request(i).muscles ? 2U : 0U));
     }
   }
   for (int t = 0; t < 3; ++t) simulation.tick();
-  for (const auto& [human, i] : here) RC_ASSERT(hash_human(simulation, human) == hash_alone(i));
+  for (const auto& [person, i] : here) RC_ASSERT(hash_person(simulation, person) == hash_alone(i));
 }
 
 }  // namespace mobil::spawn_batch_test

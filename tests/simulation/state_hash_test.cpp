@@ -21,7 +21,7 @@ namespace mobil::state_hash_test {
 std::vector<Entity> come(Simulation& simulation, const std::vector<int>& order) {
   std::vector<Entity> people(order.size());
   for (const int who : order) {
-    people[static_cast<std::size_t>(who)] = *simulation.spawn(person(who).body, person(who).gait);
+    people[static_cast<std::size_t>(who)] = *simulation.spawn(sample_person(who).body, sample_person(who).gait);
     const auto done =
         simulation.set_muscles(people[static_cast<std::size_t>(who)], play::choice_of(static_cast<std::uint64_t>(who)));
     EXPECT_TRUE(done) << done.error().message;
@@ -43,7 +43,7 @@ TEST(StateHash, SaysWhenTimePassesAndWhenAnyoneDiffers) {
   EXPECT_TRUE(is_new());
   simulation.tick();
   EXPECT_TRUE(is_new());
-  const Entity sixth = *simulation.spawn(person(5).body, person(5).gait);
+  const Entity sixth = *simulation.spawn(sample_person(5).body, sample_person(5).gait);
   EXPECT_TRUE(is_new());
   ASSERT_TRUE(simulation.turn_to(people[1], 0.5F));
   EXPECT_TRUE(is_new());

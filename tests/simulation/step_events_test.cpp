@@ -30,28 +30,28 @@ constexpr double tick_s = 1.0 / 60;
 constexpr double fine_s = 1.0 / 240;  // feet lie flat for some hundredths of a second
 
 /// Ten seconds and more: faster, turns, a stop, a turn where one stands, a step aside, a start.
-void ask(Simulation& simulation, Entity human, int tick) {
+void ask(Simulation& simulation, Entity person, int tick) {
   const auto at = [&](double seconds) { return tick == static_cast<int>(std::lround(seconds / fine_s)); };
   Result<void> done;
-  if (at(1.5)) done = simulation.turn_to(human, 1.2F);
-  if (at(3)) done = simulation.change_gait(human, {.speed_m_s = 1.7F});
-  if (at(4)) done = simulation.turn_to(human, -0.4F);
-  if (at(5.5)) done = simulation.change_gait(human, {.speed_m_s = 0.0F});
-  if (at(9.5)) done = simulation.turn_to(human, 0.5F);
-  if (at(12)) done = simulation.step_aside(human, 0.15F, 0.05F);
-  if (at(14)) done = simulation.change_gait(human, {.speed_m_s = 1.2F});
+  if (at(1.5)) done = simulation.turn_to(person, 1.2F);
+  if (at(3)) done = simulation.change_gait(person, {.speed_m_s = 1.7F});
+  if (at(4)) done = simulation.turn_to(person, -0.4F);
+  if (at(5.5)) done = simulation.change_gait(person, {.speed_m_s = 0.0F});
+  if (at(9.5)) done = simulation.turn_to(person, 0.5F);
+  if (at(12)) done = simulation.step_aside(person, 0.15F, 0.05F);
+  if (at(14)) done = simulation.change_gait(person, {.speed_m_s = 1.2F});
   EXPECT_TRUE(done);
 }
 constexpr int play_ticks = 16 * 240;
 
 /// A pose between two ticks.
-Pose<float> pose_at(const Simulation& simulation, Entity human, double ahead_s) {
+Pose<float> pose_at(const Simulation& simulation, Entity person, double ahead_s) {
   struct Placed {
     float at[3], turn[4];
   };
   std::vector<Placed> rows(segment_count);
   PoseWriter writer;
-  EXPECT_TRUE(writer.write(simulation.world(), {&human, 1}, ahead_s, {}, {std::as_writable_bytes(std::span(rows))}));
+  EXPECT_TRUE(writer.write(simulation.world(), {&person, 1}, ahead_s, {}, {std::as_writable_bytes(std::span(rows))}));
   Pose<float> pose;
   for (std::size_t s = 0; s < segment_count; ++s) {
     pose.position_m[s] = {rows[s].at[0], rows[s].at[1], rows[s].at[2]};
@@ -81,20 +81,20 @@ struct Told {
 };
 
 /// A walk, and the same a tick behind: there poses are asked for at the events' instants.
-Told watch(const Person& who) {
+Told watch(const SamplePerson& who) {
   Simulation now({.tick_s = fine_s}), before({.tick_s = fine_s});
-  const Entity human = *now.spawn(who.body, who.gait), twin = *before.spawn(who.body, who.gait);
-  EXPECT_TRUE(now.enable({&human, 1}, Feature::step_events));
+  const Entity person = *now.spawn(who.body, who.gait), twin = *before.spawn(who.body, who.gait);
+  EXPECT_TRUE(now.enable({&person, 1}, Feature::step_events));
   Told told;
   std::array<std::optional<StepEvent>, 2> down;  // and not looked at while flat yet
   std::array<bool, 2> in_air{};
   std::uint32_t steps = 0;
   for (int t = 0; t < play_ticks; ++t) {
-    ask(now, human, t);
+    ask(now, person, t);
     ask(before, twin, t);
     now.tick();
     for (const StepEvent& event : now.events()) {
-      EXPECT_EQ(event.person, human);
+      EXPECT_EQ(event.person, person);
       EXPECT_EQ(event.tick, now.ticks());
       EXPECT_TRUE(event.part >= 0 && event.part <= 1);
       const auto feet_at = [&](double shifted_s) {
@@ -122,10 +122,10 @@ Told watch(const Person& who) {
       }
     }
     before.tick();
-    const auto state = *now.get<GaitState>(human);
+    const auto state = *now.get<GaitState>(person);
     steps = state.steps;
-    const auto feet = *now.get<Feet>(human);
-    const auto pose = *now.get<Pose>(human);
+    const auto feet = *now.get<Feet>(person);
+    const auto pose = *now.get<Pose>(person);
     for (const Side side : {Side::right, Side::left}) {
       if (!down[side] || !flat(feet, side) || in_air[side]) continue;
       Vec3<float> off = ankle(pose, side) - down[side]->place_m;
@@ -144,7 +144,7 @@ Told watch(const Person& who) {
 
 TEST(StepEvents, EachIsToldOnceWhereTheFootStands) {
   for (int i = 0; i < 6; ++i) {
-    const Told told = watch(person(i));
+    const Told told = watch(sample_person(i));
     std::printf(
         "%d strikes, %d toe-offs, %d stops, %d starts: places %.4f mm, headings %.5f, heels %.2f mm over the "
         "ground, toes %.2f mm, %.1f mm 40 ms after toe-off\n",
@@ -163,20 +163,20 @@ TEST(StepEvents, EachIsToldOnceWhereTheFootStands) {
 
 TEST(StepEvents, TheInstantIsTheClocks) {
   Simulation simulation;
-  const Entity human = *simulation.spawn({}, {.speed_m_s = 1.3F});
-  ASSERT_TRUE(simulation.enable({&human, 1}, Feature::step_events));
+  const Entity person = *simulation.spawn({}, {.speed_m_s = 1.3F});
+  ASSERT_TRUE(simulation.enable({&person, 1}, Feature::step_events));
   std::optional<double> last;
   double most = 0;
   int strikes = 0;
   for (int t = 0; t < 1200; ++t) {
     simulation.tick();
-    const auto plan = *simulation.get<StepPlan>(human);
+    const auto plan = *simulation.get<StepPlan>(person);
     for (const StepEvent& event : simulation.events()) {
       const double at_s = (event.tick - 1 + static_cast<double>(event.part)) * tick_s;
       if (event.kind != StepEventKind::heel_strike) continue;
       ++strikes;
       // What the clock has passed since.
-      EXPECT_NEAR(static_cast<double>(simulation.get<GaitState>(human)->time_s), simulation.time_s() - at_s, 1e-8);
+      EXPECT_NEAR(static_cast<double>(simulation.get<GaitState>(person)->time_s), simulation.time_s() - at_s, 1e-8);
       if (last) most = std::max(most, std::abs(at_s - *last - static_cast<double>(plan.duration_s)));
       last = at_s;
     }
@@ -199,8 +199,8 @@ struct Watched {
     std::vector<SpawnRequest> requests(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
       SpawnRequest& one = requests[static_cast<std::size_t>(i)];
-      one.body = person(i).body;
-      one.gait = person(i).gait;
+      one.body = sample_person(i).body;
+      one.gait = sample_person(i).gait;
       one.gait.style = snapped(one.gait.style);
       one.x_m = static_cast<float>(i);
     }
@@ -212,11 +212,11 @@ struct Watched {
   }
   void ask_some(int tick) {
     std::mt19937 random(static_cast<unsigned>(tick));
-    for (const Entity human : people) {
+    for (const Entity person : people) {
       const auto draw = random() % 100;
       const float part = static_cast<float>(random() % 1000) * 1e-3F;
-      if (draw == 0) simulation.change_gait(human, {.speed_m_s = part < 0.3F ? 0.0F : 0.7F + part});
-      if (draw == 1) simulation.turn_to(human, 6 * part - 3);
+      if (draw == 0) simulation.change_gait(person, {.speed_m_s = part < 0.3F ? 0.0F : 0.7F + part});
+      if (draw == 1) simulation.turn_to(person, 6 * part - 3);
     }
   }
   void tick(int count) {
@@ -280,8 +280,8 @@ std::vector<std::array<double, 3>> feet_of(double length_s, const std::vector<St
 TEST(StepEvents, TicksOfAnyLengthTellTheSame) {
   const auto walk = [](double length_s) {
     Simulation simulation({.tick_s = length_s, .max_frame_s = 2});
-    const Entity human = *simulation.spawn({}, {.speed_m_s = 1.1F});
-    EXPECT_TRUE(simulation.enable({&human, 1}, Feature::step_events));
+    const Entity person = *simulation.spawn({}, {.speed_m_s = 1.1F});
+    EXPECT_TRUE(simulation.enable({&person, 1}, Feature::step_events));
     std::vector<StepEvent> told;
     const auto run = [&](double until_s) {
       while (simulation.time_s() < until_s - 1e-9) {
@@ -291,9 +291,9 @@ TEST(StepEvents, TicksOfAnyLengthTellTheSame) {
     };
     // Asked in the middle of a step, so that all begin the same ones.
     run(4.8);
-    EXPECT_TRUE(simulation.change_gait(human, {.speed_m_s = 0.0F}));
+    EXPECT_TRUE(simulation.change_gait(person, {.speed_m_s = 0.0F}));
     run(9.6);
-    EXPECT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.3F}));
+    EXPECT_TRUE(simulation.change_gait(person, {.speed_m_s = 1.3F}));
     run(14.4);
     return told;
   };

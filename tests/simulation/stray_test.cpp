@@ -16,7 +16,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 
@@ -64,9 +64,9 @@ struct Shown {
     surfaces = *bind_surfaces(*make_body(somebody), drawn);
   }
   std::vector<Vec3<float>> vertices(Entity person) const {
-    const Human human = *simulation.human(person);
+    const Person subject = *simulation.person(person);
     std::vector<SurfaceMuscle> muscles;
-    for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+    for (const PersonMuscle& own : subject.muscles) muscles.push_back({own.plan.muscle, own.entity});
     std::vector<Vec3<float>> out(surfaces.vertices);
     const SurfaceRequest one{.person = person,
                              .muscles = muscles,
@@ -90,11 +90,11 @@ void keep(const Shown& shown, Entity person, const Shown& lines, Entity same, Fa
   }
 }
 
-void expect_within(const Farthest& farthest, double most_mm, const std::string& what) {
+void expect_within(const Farthest& farthest, double max_mm, const std::string& what) {
   std::string worst;
   double most = 0;
   for (const auto& [name, mm] : farthest) {
-    EXPECT_LT(mm, most_mm) << name << " " << what;
+    EXPECT_LT(mm, max_mm) << name << " " << what;
     if (mm > most) most = mm, worst = name;
   }
   std::printf("%s: %s is %.0f mm off, the others less\n", what.c_str(), worst.c_str(), most);
@@ -103,7 +103,7 @@ void expect_within(const Farthest& farthest, double most_mm, const std::string& 
 std::vector<LegMuscles> every_choice(Method method) {
   std::vector<LegMuscles> all;
   for (const MuscleSet& set : {muscle_groups(), muscle_members()})
-    all.push_back({.muscles = set, .method = method, .reduced = {.cells = {2, 2, 8}}});
+    all.push_back({.muscles = set, .method = method, .modal = {.cells = {2, 2, 8}}});
   return all;
 }
 
@@ -113,8 +113,8 @@ TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
   MOBIL_SLOW();
   const bool longer = std::getenv("MOBIL_LONG") != nullptr;
   constexpr std::array hips = {-20.0F, 45.0F, 115.0F}, knees = {0.0F, 65.0F, 130.0F}, ankles = {-40.0F, 0.0F, 20.0F};
-  for (const Method method :
-       {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced, Method::finite}) {
+  for (const Method method : {Method::statics, Method::explicit_central, Method::implicit_central, Method::newmark,
+                              Method::modal, Method::finite}) {
     for (const LegMuscles& choice : every_choice(method)) {
       Shown shown(choice), lines({.muscles = choice.muscles, .method = Method::none});
       Farthest farthest;
@@ -144,7 +144,7 @@ TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
 
 /// In a walk, where they swing as well.
 TEST(Stray, NoMuscleLeavesItsLineInAWalk) {
-  for (const Method method : {Method::ecd, Method::reduced, Method::finite}) {
+  for (const Method method : {Method::explicit_central, Method::modal, Method::finite}) {
     for (const LegMuscles& choice : every_choice(method)) {
       Shown shown(choice), lines({.muscles = choice.muscles, .method = Method::none});
       const Entity person = *shown.simulation.spawn(somebody, {.speed_m_s = 1.4F});

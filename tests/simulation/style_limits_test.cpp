@@ -342,7 +342,7 @@ TEST(StyleLimits, HoldForSleepers) {
     for (int i = 0; i < 300; ++i) world->tick();
     EXPECT_TRUE(same_style(world->gait_request(person)->style, slow.style));
     WalkChange change = faster;
-    change.human = person;
+    change.person = person;
     if (world == &simulation) {
       ASSERT_EQ(world->set_state({&person, 1}, PersonState::asleep).value(), 1U);
       ASSERT_TRUE(world->change_gait(person, *change.gait));

@@ -21,9 +21,9 @@ namespace {
 
 LegMuscles pulling(bool tuned, bool inertia = true) {
   LegMuscles choice;
-  choice.method = Method::reduced;
-  choice.reduced.cells = {4, 4, 16};
-  choice.reduced.tuned = tuned;
+  choice.method = Method::modal;
+  choice.modal.cells = {4, 4, 16};
+  choice.modal.tuned = tuned;
   choice.activation = ExcitationSource::phase;
   choice.inertia = inertia;
   choice.muscles = MuscleSet(3);
@@ -42,42 +42,42 @@ double apart(const std::vector<float>& a, const std::vector<float>& b) {
 
 TEST(TunedPeople, WithoutActivationItIsRefused) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn({});
+  const Entity person = *simulation.spawn({});
   LegMuscles choice = pulling(true);
   choice.activation = ExcitationSource::none;
-  EXPECT_TRUE(is_refused(simulation.set_muscles(human, choice), "LegMuscles::activation"));
-  choice.reduced.tuned = false;
-  ASSERT_TRUE(simulation.set_muscles(human, choice));
+  EXPECT_TRUE(is_refused(simulation.set_muscles(person, choice), "LegMuscles::activation"));
+  choice.modal.tuned = false;
+  ASSERT_TRUE(simulation.set_muscles(person, choice));
   const auto before = simulation.state_hash();
-  MuscleMethod tuned{Method::reduced, choice.reduced};
-  tuned.reduced.tuned = true;
-  EXPECT_FALSE(simulation.set_method(human, Muscle::quadriceps, tuned));
+  MuscleMethod tuned{Method::modal, choice.modal};
+  tuned.modal.tuned = true;
+  EXPECT_FALSE(simulation.set_method(person, Muscle::quadriceps, tuned));
   EXPECT_EQ(simulation.state_hash(), before);
-  tuned.reduced.moving = false;  // nothing that tension could stiffen
-  EXPECT_TRUE(simulation.set_method(human, Muscle::quadriceps, tuned));
+  tuned.modal.moving = false;  // nothing that tension could stiffen
+  EXPECT_TRUE(simulation.set_method(person, Muscle::quadriceps, tuned));
 }
 
-/// Of vectors on the paper's mesh of 81 nodes extrapolation made the tension of some motions negative, and their
+/// Of modes on the paper's mesh of 81 nodes extrapolation made the tension of some motions negative, and their
 /// stiffness with it: control points were no numbers from the first pull on.
 TEST(TunedPeople, CoarseMeshesPullAsWell) {
-  for (const std::uint32_t vectors : {4U, 8U, 12U}) {
+  for (const std::uint32_t modes : {4U, 8U, 12U}) {
     Simulation simulation(sharing());
-    const Entity human = *simulation.spawn_posed({});
+    const Entity person = *simulation.spawn_posed({});
     LegMuscles choice = pulling(true, false);
-    choice.reduced.cells = {2, 2, 8};
-    choice.reduced.vectors = vectors;
+    choice.modal.cells = {2, 2, 8};
+    choice.modal.modes = modes;
     choice.activation = ExcitationSource::host;
     choice.muscles = LegMuscles{}.muscles;
-    ASSERT_TRUE(simulation.set_muscles(human, choice));
+    ASSERT_TRUE(simulation.set_muscles(person, choice));
     for (int tick = 0; tick < 60; ++tick) {
-      for (const OwnMuscle& own : simulation.muscles(human)) {
-        ASSERT_TRUE(simulation.set_excitation(human, own.muscle, Side::right, tick % 2 == 0 ? 1.0F : 0.01F));
+      for (const MuscleRef& own : simulation.muscles(person)) {
+        ASSERT_TRUE(simulation.set_excitation(person, own.muscle, Side::right, tick % 2 == 0 ? 1.0F : 0.01F));
       }
       simulation.tick();
-      for (const OwnMuscle& own : simulation.muscles(human)) {
+      for (const MuscleRef& own : simulation.muscles(person)) {
         const NodalView nodes = nodal_displacement(simulation.world(), own.entity[Side::right]);
         for (std::uint32_t i = 0; i < 3 * nodes.nodes; ++i) {
-          ASSERT_LT(std::fabs(nodes.first[i * lane_count]), 0.1F) << vectors << " vectors, tick " << tick;
+          ASSERT_LT(std::fabs(nodes.first[i * lane_count]), 0.1F) << modes << " modes, tick " << tick;
         }
       }
     }
@@ -86,31 +86,31 @@ TEST(TunedPeople, CoarseMeshesPullAsWell) {
 
 /// How far a jolt throws the calf of someone who stands, and what is left of it a quarter of a second later.
 struct Shaken {
-  double most_m = 0, left_m = 0;
+  double max_m = 0, left_m = 0;
 };
 
 Shaken shaken(bool tuned, float level) {
   Simulation simulation(sharing());
-  const Entity human = *simulation.spawn_posed({});
+  const Entity person = *simulation.spawn_posed({});
   LegMuscles choice = pulling(tuned);
   choice.activation = ExcitationSource::host;
   choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
-  EXPECT_TRUE(simulation.set_muscles(human, choice));
-  EXPECT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, level));
+  EXPECT_TRUE(simulation.set_muscles(person, choice));
+  EXPECT_TRUE(simulation.set_excitation(person, Muscle::triceps_surae, Side::right, level));
   run(simulation, 180);
-  const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+  const Entity muscle = simulation.muscle(person, Muscle::triceps_surae, Side::right);
   const auto rest = displacement(simulation, muscle);
-  Pose<float> pose = *simulation.get<Pose>(human);
+  Pose<float> pose = *simulation.get<Pose>(person);
   for (auto& at : pose.position_m) at.x += 0.01F;  // 1 cm in a tick, and back
-  EXPECT_TRUE(simulation.set_pose(human, pose));
+  EXPECT_TRUE(simulation.set_pose(person, pose));
   simulation.tick();
   for (auto& at : pose.position_m) at.x -= 0.01F;
-  EXPECT_TRUE(simulation.set_pose(human, pose));
+  EXPECT_TRUE(simulation.set_pose(person, pose));
   Shaken all;
   for (int tick = 0; tick < 25; ++tick) {
     simulation.tick();
     const double now = apart(displacement(simulation, muscle), rest);
-    all.most_m = std::max(all.most_m, now);
+    all.max_m = std::max(all.max_m, now);
     if (tick >= 15) all.left_m = std::max(all.left_m, now);
   }
   return all;
@@ -118,10 +118,10 @@ Shaken shaken(bool tuned, float level) {
 
 TEST(TunedPeople, WhoPullsIsShakenLessAndForAShorterTime) {
   const Shaken plain = shaken(false, 1), relaxed = shaken(true, 0), pulls = shaken(true, 1);
-  EXPECT_LT(relaxed.left_m / relaxed.most_m, 0.7 * plain.left_m / plain.most_m);
-  EXPECT_LT(pulls.most_m, 0.8 * relaxed.most_m);
-  EXPECT_LT(pulls.left_m, 0.05 * pulls.most_m);
-  EXPECT_NEAR(shaken(false, 0).most_m / plain.most_m, 1, 0.1) << "without, nothing but the shape tells who pulls";
+  EXPECT_LT(relaxed.left_m / relaxed.max_m, 0.7 * plain.left_m / plain.max_m);
+  EXPECT_LT(pulls.max_m, 0.8 * relaxed.max_m);
+  EXPECT_LT(pulls.left_m, 0.05 * pulls.max_m);
+  EXPECT_NEAR(shaken(false, 0).max_m / plain.max_m, 1, 0.1) << "without, nothing but the shape tells who pulls";
 }
 
 /// Tension stiffens a belly against gravity, so a new one begins where its own activation has it at rest.
@@ -131,14 +131,14 @@ TEST(TunedPeople, WhoJoinsIsAtRest) {
     LegMuscles choice = pulling(true);
     choice.activation = ExcitationSource::host;
     choice.finite_shape = false;
-    choice.reduced.control_points = seen;
-    choice.reduced.reported = seen;
-    const Entity human = *simulation.spawn_posed({});
-    ASSERT_TRUE(simulation.set_muscles(human, choice));
-    const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::left);
-    const auto before = field_of<ReducedState>(simulation.world(), muscle);
+    choice.modal.control_points = seen;
+    choice.modal.reported = seen;
+    const Entity person = *simulation.spawn_posed({});
+    ASSERT_TRUE(simulation.set_muscles(person, choice));
+    const Entity muscle = simulation.muscle(person, Muscle::quadriceps, Side::left);
+    const auto before = field_of<ModalState>(simulation.world(), muscle);
     run(simulation, 20);
-    const auto after = field_of<ReducedState>(simulation.world(), muscle);
+    const auto after = field_of<ModalState>(simulation.world(), muscle);
     double most = 0, off = 0;
     for (std::size_t i = 0; i < after.size(); ++i) {
       most = std::max(most, std::abs(double{before[i]}));
@@ -152,20 +152,20 @@ TEST(TunedPeople, WhoJoinsIsAtRest) {
 TEST(TunedPeople, NothingJumpsWhereItComesAndGoes) {
   for (const bool inertia : {false, true}) {
     Simulation simulation(sharing());
-    const Entity human = join_with(simulation, person(6), pulling(false, inertia));
-    const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::right);
+    const Entity person = join_with(simulation, sample_person(6), pulling(false, inertia));
+    const Entity muscle = simulation.muscle(person, Muscle::quadriceps, Side::right);
     run(simulation, 30);
     double usual_m = 0, changed_m = 0;  // a tick's way
-    const auto tick = [&](double& most_m) {
+    const auto tick = [&](double& max_m) {
       const auto before = displacement(simulation, muscle);
       simulation.tick();
-      most_m = std::max(most_m, apart(displacement(simulation, muscle), before));
+      max_m = std::max(max_m, apart(displacement(simulation, muscle), before));
     };
     for (int change = 0; change < 24; ++change) {
       for (int i = 0; i < 7; ++i) tick(usual_m);
       const auto before = displacement(simulation, muscle);
-      MuscleMethod to{Method::reduced, pulling(change % 2 == 0).reduced};
-      ASSERT_TRUE(simulation.set_method(human, Muscle::quadriceps, to));
+      MuscleMethod to{Method::modal, pulling(change % 2 == 0).modal};
+      ASSERT_TRUE(simulation.set_method(person, Muscle::quadriceps, to));
       EXPECT_LT(apart(displacement(simulation, muscle), before), 2e-5) << change;
       tick(changed_m);
     }

@@ -14,7 +14,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
 #include "systems/gait/gait.h"
@@ -89,7 +89,7 @@ struct Walked {
 class Watch {
  public:
   Watch(const Simulation& simulation, Entity who) : simulation_(simulation), who_(who) {
-    height_ = double{simulation.human(who)->body.request.height_m};
+    height_ = double{simulation.person(who)->body.request.height_m};
   }
 
   void look(Walked& out) {

@@ -17,7 +17,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "assets/body/bent_legs.h"
 #include "tests/labels.h"
 #include "tests/simulation/people.h"
@@ -122,7 +122,7 @@ class Rays {
 /// How much of a person's muscles is outside of their skin.
 struct Outside {
   std::size_t all = 0, without = 0, outside = 0, beyond = 0;  // vertices; without cover, with it, by more than 2 mm
-  double worst_m = 0, most_lift_m = 0;
+  double worst_m = 0, max_lift_m = 0;
 
   void print(const char* what, const Somebody& of) const {
     const auto part = [&](std::size_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(all); };
@@ -130,7 +130,7 @@ struct Outside {
         "[ cover ] %s %.2f m %.0f kg: of muscle outside %.2f %% without cover, %.3f %% with, by more than 2 mm"
         " %.3f %%, worst %.1f mm; lifted by %.1f mm\n",
         what, static_cast<double>(of.height_m), static_cast<double>(of.mass_kg), part(without), part(outside),
-        part(beyond), 1e3 * worst_m, 1e3 * most_lift_m);
+        part(beyond), 1e3 * worst_m, 1e3 * max_lift_m);
   }
 };
 
@@ -140,7 +140,7 @@ class Watched {
   Watched(Simulation& simulation, Entity person, double detail)
       : simulation_(simulation),
         person_(person),
-        body_(simulation.human(person)->body),
+        body_(simulation.person(person)->body),
         bound_(*bind_surfaces(body_, {.bones = false, .detail = detail})),
         skin_(*make_body_skin(body_, SkinDetail::near, {.dressed = false})),
         vertex_(bound_.vertices) {
@@ -167,7 +167,7 @@ class Watched {
       }
       cover_muscles(skin_, pose, 1, side, of_side, cover.lift_m[side]);
       for (const float lift : cover.lift_m[side])
-        found.most_lift_m = std::max(found.most_lift_m, static_cast<double>(lift));
+        found.max_lift_m = std::max(found.max_lift_m, static_cast<double>(lift));
     }
     const std::vector<std::uint32_t>& triangle = skin_mesh(skin_.sex, skin_.detail).triangle;
     const Placed bare = place(skin_, pose), covered = place(skin_, pose, &cover);
@@ -194,13 +194,13 @@ class Watched {
   SurfaceWriter writer_;
 };
 
-void expect_covered(const Outside& found, double most_beyond, double most_m, double most_lift_m) {
+void expect_covered(const Outside& found, double max_beyond, double max_m, double max_lift_m) {
   const auto all = static_cast<double>(found.all);
-  EXPECT_LE(static_cast<double>(found.beyond), most_beyond * all);
+  EXPECT_LE(static_cast<double>(found.beyond), max_beyond * all);
   EXPECT_LT(static_cast<double>(found.outside), 2e-3 * all);
   EXPECT_LT(found.outside, found.without);
-  EXPECT_LT(found.worst_m, most_m);
-  EXPECT_LT(found.most_lift_m, most_lift_m);
+  EXPECT_LT(found.worst_m, max_m);
+  EXPECT_LT(found.max_lift_m, max_lift_m);
 }
 
 TEST(SkinCover, HoldsTheMusclesThroughAStride) {

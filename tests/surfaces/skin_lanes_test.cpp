@@ -14,7 +14,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "assets/body/bent_legs.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/simulation/people.h"
@@ -33,30 +33,30 @@ TEST(SkinLanes, IsWhatOneVertexAtATimeComesTo) {
   Simulation simulation(sharing());
   const Entity one = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.6F});
   ASSERT_TRUE(simulation.set_muscles(one));
-  const Human human = *simulation.human(one);
-  const auto bound = bind_surfaces(human.body, {.bones = false, .sides = {true, false}, .detail = 0.1});
+  const Person person = *simulation.person(one);
+  const auto bound = bind_surfaces(person.body, {.bones = false, .sides = {true, false}, .detail = 0.1});
   ASSERT_TRUE(bound);
   std::vector<SurfaceMuscle> muscles;
-  for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+  for (const PersonMuscle& own : person.muscles) muscles.push_back({own.plan.muscle, own.entity});
   std::vector<Vec3<float>> drawn(bound->vertices);
   SurfaceRequest wanted{one, muscles, &*bound};
   wanted.positions.bytes = std::as_writable_bytes(std::span(drawn));
   SurfaceWriter writer;
-  double most_lift = 0;
+  double max_lift = 0;
   for (int tick = 0; tick < 60; ++tick) {
     simulation.tick();
     if (tick % 20 != 19) continue;
     ASSERT_TRUE(writer.write(simulation.world(), {&wanted, 1}));
     const Pose<float> pose = *simulation.get<Pose>(one);
     for (const SkinDetail detail : {SkinDetail::near, SkinDetail::distant}) {
-      const BodySkin skin = *make_body_skin(human.body, detail);
+      const BodySkin skin = *make_body_skin(person.body, detail);
       SkinCover cover, plain;
       for (std::size_t count : {drawn.size(), drawn.size() - 3}) {
         cover_muscles(skin, pose, 1, Side::right, std::span(drawn).first(count), cover.lift_m[Side::right]);
         skin_oracle::cover(skin, pose, 1, Side::right, std::span(drawn).first(count), plain.lift_m[Side::right]);
         for (std::size_t n = 0; n < leg_grid_points; ++n) {
           ASSERT_NEAR(cover.lift_m[Side::right][n], plain.lift_m[Side::right][n], 1e-5) << n;
-          most_lift = std::max(most_lift, static_cast<double>(cover.lift_m[Side::right][n]));
+          max_lift = std::max(max_lift, static_cast<double>(cover.lift_m[Side::right][n]));
         }
       }
       for (const SkinCover* over : {static_cast<const SkinCover*>(nullptr), static_cast<const SkinCover*>(&cover)}) {
@@ -69,7 +69,7 @@ TEST(SkinLanes, IsWhatOneVertexAtATimeComesTo) {
       }
     }
   }
-  EXPECT_GT(most_lift, 0.005);
+  EXPECT_GT(max_lift, 0.005);
 }
 
 /// Either leg, bent far or not, larger than its skin, with vertices that are no numbers or far away among the others.
@@ -79,7 +79,7 @@ TEST(SkinLanes, CoversEitherLegInAnyPoseAsPlainCodeDoes) {
   std::mt19937 random(8);
   const auto within = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
   const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
-  double most_lift = 0;
+  double max_lift = 0;
   for (int round = 0; round < 60; ++round) {
     const Side side = round % 2 == 0 ? Side::right : Side::left;
     const float lengths = round % 3 == 0 ? 1.0F : 1.1F;
@@ -103,11 +103,11 @@ TEST(SkinLanes, CoversEitherLegInAnyPoseAsPlainCodeDoes) {
     for (std::size_t n = 0; n < leg_grid_points; ++n) {
       ASSERT_TRUE(std::isfinite(cover.lift_m[side][n]));
       off += std::abs(cover.lift_m[side][n] - oracle.lift_m[side][n]) > 2e-5F ? 1 : 0;
-      most_lift = std::max(most_lift, static_cast<double>(cover.lift_m[side][n]));
+      max_lift = std::max(max_lift, static_cast<double>(cover.lift_m[side][n]));
     }
     EXPECT_LT(off, leg_grid_points / 50) << round;
   }
-  EXPECT_GT(most_lift, 0.01);
+  EXPECT_GT(max_lift, 0.01);
 }
 
 TEST(SkinLanes, HoldsTheSameBitsOnEveryInstructionSet) {
@@ -115,7 +115,7 @@ TEST(SkinLanes, HoldsTheSameBitsOnEveryInstructionSet) {
   const Entity one = *simulation.spawn({});
   simulation.advance(0.4);
   const Pose<float> pose = *simulation.get<Pose>(one);
-  const BodySkin skin = *make_body_skin(simulation.human(one)->body, SkinDetail::far);
+  const BodySkin skin = *make_body_skin(simulation.person(one)->body, SkinDetail::far);
   std::mt19937 random(5);
   std::uniform_real_distribution<float> near(-0.15F, 0.15F);
   std::vector<Vec3<float>> cloud(501);  // round the shank and the knee

@@ -210,13 +210,13 @@ inline void cover(const BodySkin& skin, const Pose<float>& pose, float lengths, 
       }
     }
   }
-  constexpr float round_m = 0.004F, thin_m = 0.004F, least_m = 0.0005F;
+  constexpr float round_m = 0.004F, thin_m = 0.004F, min_m = 0.0005F;
   const LegGrid& grid = skin.leg;
   // Over the skin without muscles.
   std::array<float, leg_grid_points> excess, floor;
   for (std::size_t n = 0; n < leg_grid_points; ++n) {
     const float base = lengths * grid.base[n], fat = lengths * grid.fat[n];
-    const float least = least_m + 0.0008F * std::max(0.0F, rings.hollow(n / leg_angles, n % leg_angles));
+    const float least = min_m + 0.0008F * std::max(0.0F, rings.hollow(n / leg_angles, n % leg_angles));
     excess[n] = reach[n] > 0 ? rounded_max(base, reach[n] + fat, round_m) - base : 0;
     floor[n] = reach[n] > 0 ? reach[n] + 0.5F * std::min(fat, thin_m) + least - base : -base;
   }
@@ -288,7 +288,7 @@ inline std::vector<std::array<Vec3<double>, 2>> place(const BodySkin& skin, cons
     RestPoint rest{skin.rest[v], skin.normal[v]};
     if (cover != nullptr && mesh.leg[v].amount > 0) rest = lifted(skin, *cover, mesh.leg[v], rest);
     Vec3<double> at{0, 0, 0}, normal{0, 0, 0};
-    for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+    for (std::size_t k = 0; k < SkinVertex::max_frames; ++k) {
       const auto weight = static_cast<double>(mesh.vertex[v].weight[k]);
       if (weight == 0) continue;
       const SkinFrame& frame = mesh.frame[mesh.vertex[v].frame[k]];

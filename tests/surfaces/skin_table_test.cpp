@@ -14,7 +14,7 @@
 #include <mobil/skin_tables.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/cover_muscles.h>
 #include "assets/body/bent_legs.h"
 #include "tests/engine/instruction_sets.h"
@@ -43,12 +43,12 @@ TEST(SkinTable, IsNearTheSkinOverMusclesInWalks) {
     Simulation simulation(sharing());
     const Entity person = *simulation.spawn(body, {.speed_m_s = walker.speed_m_s});
     ASSERT_TRUE(simulation.set_muscles(person));
-    const Human human = *simulation.human(person);
-    const auto bound = bind_surfaces(human.body, {.bones = false, .sides = {true, false}});
+    const Person subject = *simulation.person(person);
+    const auto bound = bind_surfaces(subject.body, {.bones = false, .sides = {true, false}});
     ASSERT_TRUE(bound);
-    const BodySkin skin = *make_body_skin(human.body, SkinDetail::distant);
+    const BodySkin skin = *make_body_skin(subject.body, SkinDetail::distant);
     std::vector<SurfaceMuscle> muscles;
-    for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+    for (const PersonMuscle& own : subject.muscles) muscles.push_back({own.plan.muscle, own.entity});
     std::vector<Vec3<float>> drawn(bound->vertices);
     SurfaceRequest wanted{person, muscles, &*bound};
     wanted.positions.bytes = std::as_writable_bytes(std::span(drawn));
@@ -110,7 +110,7 @@ TEST(SkinTable, SaysWhatItsTermsAndModesSay) {
     ASSERT_NEAR(all[0][n], sum, 1e-8);
   }
   // beyond the poses that a table is made from it stays as it is there
-  EXPECT_EQ(skin_term_values({3, 3, 3}), skin_term_values(most_leg_angles));
+  EXPECT_EQ(skin_term_values({3, 3, 3}), skin_term_values(max_leg_angles));
 }
 
 TEST(SkinTable, MovesOnlyLegsWithoutMuscles) {

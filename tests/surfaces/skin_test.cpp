@@ -19,7 +19,7 @@
 #include <mobil/simulation.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/place_skin.h>
 #include "assets/surfaces/bone_surfaces.h"
 #include "tests/labels.h"
@@ -39,15 +39,16 @@ double volume(const BodySkin& skin, const std::vector<Vec3<float>>& position) {
   return enclosed_volume(skin_mesh(skin.sex, skin.detail).triangle, place);
 }
 
-BodyRequest person(float height_m, float mass_kg, Sex sex = Sex::man) {
+BodyRequest sample_person(float height_m, float mass_kg, Sex sex = Sex::man) {
   BodyRequest body{.height_m = height_m, .mass_kg = mass_kg};
   body.sex = sex;
   return body;
 }
 
 /// Two men and two women of usual build, and who is thin and heavy.
-const std::array<BodyRequest, 6> people = {person(1.75F, 75), person(1.90F, 84),  person(1.65F, 62, Sex::woman),
-                                           person(1.75F, 58), person(1.75F, 105), person(1.60F, 85, Sex::woman)};
+const std::array<BodyRequest, 6> people = {
+    sample_person(1.75F, 75), sample_person(1.90F, 84),  sample_person(1.65F, 62, Sex::woman),
+    sample_person(1.75F, 58), sample_person(1.75F, 105), sample_person(1.60F, 85, Sex::woman)};
 
 /// Undressed, in the finest detail, of one of `people`; made once.
 const BodySkin& finest_skin(std::size_t person) {
@@ -81,7 +82,7 @@ TEST(Skin, IsClosedAndBoundEverywhere) {
       EXPECT_TRUE(std::ranges::is_sorted(mesh.first_triangle));
       for (const SkinVertex& vertex : mesh.vertex) {
         float sum = 0;
-        for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+        for (std::size_t k = 0; k < SkinVertex::max_frames; ++k) {
           sum += vertex.weight[k];
           ASSERT_LT(vertex.frame[k], mesh.frame.size());
         }
@@ -245,13 +246,13 @@ TEST(Skin, KeepsItsVolumeAndDoesNotFold) {
 
 TEST(Skin, ChangesItsVolumeLittleInAWalk) {
   Simulation simulation;
-  const Entity human = *simulation.spawn({});
-  const BodySkin skin = *make_body_skin(simulation.human(human)->body, SkinDetail::far);
+  const Entity person = *simulation.spawn({});
+  const BodySkin skin = *make_body_skin(simulation.person(person)->body, SkinDetail::far);
   const double at_rest = volume(skin, skin.rest);
   double least = 1e9, most = 0;
   for (int tick = 0; tick < 120; ++tick) {
     simulation.tick();
-    const double now = volume(skin, place(skin, *simulation.get<Pose>(human)).position);
+    const double now = volume(skin, place(skin, *simulation.get<Pose>(person)).position);
     least = std::min(least, now);
     most = std::max(most, now);
   }
@@ -264,7 +265,7 @@ TEST(Skin, IsMadeForEveryBodyThereIs) {
   for (const Sex sex : {Sex::man, Sex::woman}) {
     for (const auto& [height_m, mass_kg] : {std::pair{1.2F, 30.0F}, std::pair{1.2F, 130.0F}, std::pair{1.5F, 200.0F},
                                             std::pair{2.2F, 60.0F}, std::pair{2.2F, 200.0F}}) {
-      const Body body = *make_body(person(height_m, mass_kg, sex));
+      const Body body = *make_body(sample_person(height_m, mass_kg, sex));
       const BodySkin skin = *make_body_skin(body, SkinDetail::far);
       float widest = 0, highest = 0;
       for (const Vec3<float>& p : skin.rest) {
@@ -278,7 +279,7 @@ TEST(Skin, IsMadeForEveryBodyThereIs) {
       EXPECT_LT(widest, 0.45F);
     }
   }
-  BodyRequest long_legs = person(1.75F, 75);
+  BodyRequest long_legs = sample_person(1.75F, 75);
   long_legs.limbs.thigh_m = 0.5F;
   EXPECT_FALSE(make_body_skin(*make_body(long_legs), SkinDetail::far));
 }
@@ -315,7 +316,7 @@ TEST(SkinWriter, WritesTheSameForAnyThreadsAndRefusesWhatItCannot) {
   std::vector<std::vector<float>> buffer;
   for (int i = 0; i < 5; ++i) {
     SpawnRequest request;
-    request.body = person(1.6F + 0.07F * static_cast<float>(i), 60 + 8 * static_cast<float>(i));
+    request.body = sample_person(1.6F + 0.07F * static_cast<float>(i), 60 + 8 * static_cast<float>(i));
     request.x_m = static_cast<float>(i);
     std::array<Entity, 1> one{};
     ASSERT_TRUE(simulation.spawn({&request, 1}, one));
@@ -348,22 +349,22 @@ TEST(SkinWriter, WritesTheSameForAnyThreadsAndRefusesWhatItCannot) {
   const auto gone = writer.write(simulation.world(), requests);
   ASSERT_FALSE(gone);
   EXPECT_EQ(gone.error().status, Status::stale_entity);
-  EXPECT_FALSE(skins.of(person(3, 75), SkinDetail::far));
+  EXPECT_FALSE(skins.of(sample_person(3, 75), SkinDetail::far));
 }
 
 TEST(BodyMeasures, AreThoseOfTheSurveysMeanPeople) {
   // ANSUR II, means of 3348 men under 40 (1.756 m, 85.5 kg): girths of thigh, calf, waist, chest, mm.
-  const BodyMeasures man = body_measures(person(1.7562F, 85.52F));
+  const BodyMeasures man = body_measures(sample_person(1.7562F, 85.52F));
   EXPECT_NEAR(1e3 * man.thigh_girth, 624, 8);
   EXPECT_NEAR(1e3 * man.calf_girth, 391, 5);
   EXPECT_NEAR(1e3 * man.waist_girth, 927, 15);
   EXPECT_NEAR(1e3 * man.chest_girth, 1050, 12);
   // Of all 1986 women (1.6285 m, 67.76 kg): foot length and breadth, hand breadth.
-  const BodyMeasures woman = body_measures(person(1.6285F, 67.76F, Sex::woman));
+  const BodyMeasures woman = body_measures(sample_person(1.6285F, 67.76F, Sex::woman));
   EXPECT_NEAR(1e3 * woman.foot_length, 246.3, 1.5);
   EXPECT_NEAR(1e3 * woman.foot_breadth, 92.7, 1);
   EXPECT_NEAR(1e3 * woman.hand_breadth, 78.2, 1);
-  EXPECT_GT(woman.hip_breadth, body_measures(person(1.6285F, 67.76F)).hip_breadth);
+  EXPECT_GT(woman.hip_breadth, body_measures(sample_person(1.6285F, 67.76F)).hip_breadth);
 }
 
 /// However many steps a build is cut into, none is beyond the ends that are promised.

@@ -51,7 +51,7 @@ inline std::vector<float> displacements(const NodalView& view) {
   return u;
 }
 
-/// p = cage · frame(rest_in_cage + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀), operation by
+/// p = lattice · frame(rest_in_lattice + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀), operation by
 /// operation.
 inline std::vector<Vec3<float>> skinned_one_by_one(const MuscleSurface& surface, Side side, const Body& body,
                                                    const Pose<float>& pose, const LineOfAction<float>& line,
@@ -66,8 +66,8 @@ inline std::vector<Vec3<float>> skinned_one_by_one(const MuscleSurface& surface,
     const Vec3<float>& at = surface.mesh.position[v];
     const float p[3] = {at.x, at.y, at.z};
     float q[3] = {}, place[3];
-    if (b.cage != 0) {
-      const Vec3<float>& rest = surface.rest_in_cage[v];
+    if (b.lattice != 0) {
+      const Vec3<float>& rest = surface.rest_in_lattice[v];
       const float from[3] = {rest.x, rest.y, rest.z};
       for (std::size_t c = 0; c < 3; ++c) {
         float sum[2];
@@ -80,7 +80,7 @@ inline std::vector<Vec3<float>> skinned_one_by_one(const MuscleSurface& surface,
     }
     for (int r = 0; r < 3; ++r) {
       const float bones = std::fma(b.origin, carried(maps.origin, p, r), b.insertion * carried(maps.insertion, p, r));
-      place[r] = std::fma(b.cage, carried(maps.frame, q, r), bones);
+      place[r] = std::fma(b.lattice, carried(maps.frame, q, r), bones);
     }
     out.push_back({side == Side::left ? -place[0] : place[0], place[1], place[2]});
   }

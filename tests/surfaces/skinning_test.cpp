@@ -1,4 +1,4 @@
-// A bound surface rests where it was drawn, moves rigidly with its body, follows its cage, and never tears.
+// A bound surface rests where it was drawn, moves rigidly with its body, follows its lattice, and never tears.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -20,7 +20,7 @@ namespace mobil::skinning_test {
 using namespace geometry;
 
 constexpr double blend_m = 0.04;
-constexpr Passages at_the_faces{-blend_m, 0, 0.25, 0.25 + blend_m};  // of the cage below
+constexpr Passages at_the_faces{-blend_m, 0, 0.25, 0.25 + blend_m};  // of the lattice below
 
 Body body() {
   return make_body({.height_m = 1.8F, .mass_kg = 80}).value();
@@ -33,12 +33,12 @@ Quat<float> rotation(const Vec& axis, double angle) {
           static_cast<float>(std::cos(0.5 * angle))};
 }
 
-/// A bent, twice bulging cage, some 0.25 m long.
-HexahedralMesh cage(const Cells& cells = {3, 3, 10}) {
-  const std::array<CageStation, 4> stations = {CageStation{0, 0, 0, 0.020F, 0.020F},
-                                               {0.35F, 0.004F, -0.003F, 0.045F, 0.035F},
-                                               {0.7F, -0.002F, 0.002F, 0.038F, 0.040F},
-                                               {1, 0.003F, 0, 0.018F, 0.022F}};
+/// A bent, twice bulging lattice, some 0.25 m long.
+HexahedralMesh lattice(const Cells& cells = {3, 3, 10}) {
+  const std::array<LatticeStation, 4> stations = {LatticeStation{0, 0, 0, 0.020F, 0.020F},
+                                                  {0.35F, 0.004F, -0.003F, 0.045F, 0.035F},
+                                                  {0.7F, -0.002F, 0.002F, 0.038F, 0.040F},
+                                                  {1, 0.003F, 0, 0.018F, 0.022F}};
   return bend_block(cells, stations, 0.25).value();
 }
 
@@ -49,7 +49,7 @@ RestFrame thigh_frame(const Body& b) {
 }
 
 struct Bound {
-  HexahedralMesh mesh = cage();
+  HexahedralMesh mesh = lattice();
   Body b = body();
   RestFrame frame = thigh_frame(b);
   MuscleSurface surface;
@@ -83,8 +83,8 @@ Vec direction() {
       Vec{*rc::gen::inRange(-9, 10) + 0.3, *rc::gen::inRange(-9, 10) + 0.1, *rc::gen::inRange(-9, 10) + 0.2});
 }
 
-RC_GTEST_PROP(PlaceInCage, PointsInsideAreFoundAndWeightsArePartition, ()) {
-  const HexahedralMesh mesh = cage({4, 3, 9});
+RC_GTEST_PROP(PlaceInLattice, PointsInsideAreFoundAndWeightsArePartition, ()) {
+  const HexahedralMesh mesh = lattice({4, 3, 9});
   // a point inside, by the map itself: any convex combination of an element's nodes with trilinear weights
   const auto e = static_cast<std::uint32_t>(*rc::gen::inRange(0, 4 * 3 * 9));
   const double x = *rc::gen::inRange(0, 101) * 0.01, y = *rc::gen::inRange(0, 101) * 0.01,
@@ -95,16 +95,16 @@ RC_GTEST_PROP(PlaceInCage, PointsInsideAreFoundAndWeightsArePartition, ()) {
   const Hexahedron nodes = element_nodes(mesh.cells, e);
   Vec point{};
   for (std::size_t c = 0; c < 8; ++c) point = point + w[c] * mesh.node[nodes[c]];
-  const CagePlace place = place_in_cage(mesh, point);
+  const LatticePlace place = place_in_lattice(mesh, point);
   Vec found{};
   for (std::size_t c = 0; c < 8; ++c) found = found + place.weight[c] * mesh.node[place.node[c]];
   RC_ASSERT(length(found - point) < 1e-9);
 }
 
-RC_GTEST_PROP(PlaceInCage, OutsideItNeverExtrapolates, ()) {
-  const HexahedralMesh mesh = cage();
+RC_GTEST_PROP(PlaceInLattice, OutsideItNeverExtrapolates, ()) {
+  const HexahedralMesh mesh = lattice();
   const Vec point = Vec{0, 0, 0.12} + (*rc::gen::inRange(0, 500) * 0.001) * direction();
-  const CagePlace place = place_in_cage(mesh, point);
+  const LatticePlace place = place_in_lattice(mesh, point);
   double sum = 0;
   for (const double w : place.weight) {
     RC_ASSERT(w >= 0 && w <= 1);
@@ -118,8 +118,8 @@ TEST(Binding, WeightsArePartitionsOfOne) {
     const Bound bound(m);
     ASSERT_EQ(bound.surface.binding.size(), bound.surface.mesh.position.size());
     for (const auto& b : bound.surface.binding) {
-      EXPECT_GE(std::min({b.cage, b.origin, b.insertion}), 0.0F);
-      EXPECT_NEAR(b.cage + b.origin + b.insertion, 1.0F, 1e-6F);
+      EXPECT_GE(std::min({b.lattice, b.origin, b.insertion}), 0.0F);
+      EXPECT_NEAR(b.lattice + b.origin + b.insertion, 1.0F, 1e-6F);
       float sum = 0;
       for (int i = 0; i < 8; ++i) {
         EXPECT_GE(b.node_weight[i], 0.0F);
@@ -148,9 +148,9 @@ TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
   EXPECT_EQ(tendon.binding.back().insertion, 1.0F);
   for (const MuscleSurface* s : group) {
     for (std::size_t v = 0; v < s->binding.size(); ++v) {
-      EXPECT_NEAR(s->binding[v].cage + s->binding[v].origin + s->binding[v].insertion, 1.0F, 1e-6F);
+      EXPECT_NEAR(s->binding[v].lattice + s->binding[v].origin + s->binding[v].insertion, 1.0F, 1e-6F);
       for (std::size_t w = 0; w < tendon.binding.size(); ++w) {
-        const bool together = std::abs(s->rest_in_cage[v].z - tendon.rest_in_cage[w].z) < 1e-3F;
+        const bool together = std::abs(s->rest_in_lattice[v].z - tendon.rest_in_lattice[w].z) < 1e-3F;
         if (together) {
           EXPECT_NEAR(s->binding[v].insertion, tendon.binding[w].insertion, 0.02F);
         }
@@ -186,7 +186,7 @@ RC_GTEST_PROP(Skinning, MovesRigidlyWithTheWholeBody, ()) {
   }
 }
 
-RC_GTEST_PROP(Skinning, ALinearFieldOfTheCageIsReproducedInside, ()) {
+RC_GTEST_PROP(Skinning, ALinearFieldOfTheLatticeIsReproducedInside, ()) {
   static const Bound bound;
   // a surface of our own that lies well inside
   MuscleSurface inner;
@@ -243,7 +243,7 @@ RC_GTEST_PROP(Skinning, NeighboursStayNeighboursAcrossTheEnds, ()) {
   // Displacement differs along an edge by no more than the edge times a bounded strain: nothing tears.
   static const Bound bound;
   const BentLeg leg = bent(bound, *rc::gen::inRange(-20, 60) * 0.01, *rc::gen::inRange(0, 100) * 0.01);
-  // the cage bulges and is drawn out towards its far end
+  // the lattice bulges and is drawn out towards its far end
   std::vector<float> u;
   for (const auto& q : bound.mesh.node) {
     const double t = q.z / 0.25;
@@ -283,7 +283,7 @@ RC_GTEST_PROP(Skinning, LeftIsTheMirrorImageOfRight, ()) {
 }
 
 RC_GTEST_PROP(Skinning, BlocksHoldTheBitsOfOneVertexAtATime, (bool large)) {
-  const HexahedralMesh mesh = cage(large ? Cells{12, 12, 26} : Cells{3, 3, 10});
+  const HexahedralMesh mesh = lattice(large ? Cells{12, 12, 26} : Cells{3, 3, 10});
   static const Bound bound;
   MuscleSurface surface = bound.surface;
   bind_surface(surface, mesh, bound.frame, blend_m);
@@ -377,8 +377,8 @@ TEST(PackSurface, SaysWhatIsWrongWithASurface) {
     changed.mesh.position.insert(changed.mesh.position.end(), bound.surface.mesh.position.begin(),
                                  bound.surface.mesh.position.end());
     changed.binding.insert(changed.binding.end(), bound.surface.binding.begin(), bound.surface.binding.end());
-    changed.rest_in_cage.insert(changed.rest_in_cage.end(), bound.surface.rest_in_cage.begin(),
-                                bound.surface.rest_in_cage.end());
+    changed.rest_in_lattice.insert(changed.rest_in_lattice.end(), bound.surface.rest_in_lattice.begin(),
+                                   bound.surface.rest_in_lattice.end());
   }
   EXPECT_NE(error(changed, bound.nodes()).find("simplify it"), std::string::npos);
 }

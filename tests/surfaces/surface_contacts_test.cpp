@@ -13,7 +13,7 @@
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/surface_contacts.h>
 #include "assets/body/bent_legs.h"
 
@@ -29,10 +29,10 @@ class PosedLeg {
     choice.muscles = muscle_members();
     person_ = *simulation_.spawn_posed({.height_m = 1.75F, .mass_kg = 75});
     EXPECT_TRUE(simulation_.set_muscles(person_, choice));
-    const Human human = *simulation_.human(person_);
-    body_ = human.body;
+    const Person person = *simulation_.person(person_);
+    body_ = person.body;
     bound = *bind_surfaces(body_, {.sides = {true, false}, .simulated = choice.muscles, .detail = 0.2});
-    for (const HumanMuscle& own : human.muscles) muscles_.push_back({own.plan.muscle, own.entity});
+    for (const PersonMuscle& own : person.muscles) muscles_.push_back({own.plan.muscle, own.entity});
     position.resize(bound.vertices);
     normal.resize(bound.vertices);
     simulation_.tick(2);

@@ -9,7 +9,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "tests/refused.h"
 #include "tests/simulation/people.h"
 
@@ -21,15 +21,15 @@ using geometry::operator-;
 struct Walker {
   Simulation simulation{sharing()};
   Entity person;
-  Human human;
+  Person subject;
   std::vector<SurfaceMuscle> muscles;
 
   explicit Walker(const BodyRequest& body) {
     person = *simulation.spawn(body, {.speed_m_s = 1.3F});
     EXPECT_TRUE(simulation.set_muscles(person));
     for (int i = 0; i < 40; ++i) simulation.tick();
-    human = *simulation.human(person);
-    for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+    subject = *simulation.person(person);
+    for (const PersonMuscle& own : subject.muscles) muscles.push_back({own.plan.muscle, own.entity});
   }
 
   std::vector<Vec3<float>> show(const BodySurfaces& surfaces, const SurfaceFit* fit, std::vector<Vec3<float>>* normal) {
@@ -55,8 +55,8 @@ const std::vector<BodyRequest> bodies = {{.height_m = 1.55F, .mass_kg = 50},
 
 TEST(SurfaceFit, OnTheSameBodyNothingChanges) {
   Walker walker(bodies[1]);
-  const BodySurfaces own = bind_surfaces(walker.human.body).value();
-  const SurfaceFit fit = fit_surfaces(own, walker.human.body);
+  const BodySurfaces own = bind_surfaces(walker.subject.body).value();
+  const SurfaceFit fit = fit_surfaces(own, walker.subject.body);
   std::vector<Vec3<float>> normal, fitted_normal;
   const auto is = walker.show(own, nullptr, &normal), fitted = walker.show(own, &fit, &fitted_normal);
   EXPECT_EQ(std::memcmp(is.data(), fitted.data(), is.size() * sizeof is[0]), 0);
@@ -68,8 +68,8 @@ TEST(SurfaceFit, OnTheSameBodyNothingChanges) {
 double off_m(const BodyRequest& bound, const BodyRequest& body, double farthest_m = 0.03) {
   const BodySurfaces shared = bind_surfaces(make_body(bound).value()).value();
   Walker walker(body);
-  const BodySurfaces own = bind_surfaces(walker.human.body).value();
-  const SurfaceFit fit = fit_surfaces(shared, walker.human.body);
+  const BodySurfaces own = bind_surfaces(walker.subject.body).value();
+  const SurfaceFit fit = fit_surfaces(shared, walker.subject.body);
   EXPECT_EQ(own.vertices, shared.vertices);
   const auto is = walker.show(own, nullptr, nullptr), fitted = walker.show(shared, &fit, nullptr);
   double sum = 0, count = 0;
@@ -98,8 +98,8 @@ TEST(SurfaceFit, OnOtherBodiesTheyAreNearlyThoseDrawnForThem) {
 
 TEST(SurfaceFit, OfOtherSurfacesIsRefused) {
   Walker walker(bodies[0]);
-  const BodySurfaces own = bind_surfaces(walker.human.body).value();
-  SurfaceFit fit = fit_surfaces(own, walker.human.body);
+  const BodySurfaces own = bind_surfaces(walker.subject.body).value();
+  SurfaceFit fit = fit_surfaces(own, walker.subject.body);
   fit.belly.pop_back();
   std::vector<Vec3<float>> position(own.vertices);
   const SurfaceRequest request{.person = walker.person,

@@ -19,7 +19,7 @@
 #include <mobil/fit_anatomy.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/body_surfaces.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/surfaces/surface_mesh.h"
@@ -68,24 +68,24 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
     ADD_FAILURE() << added.error().message;
     return {};
   }
-  const Human human = *simulation.human(entity);
+  const Person person = *simulation.person(entity);
   struct Driven {
     Moving moving;
     Entity muscle;
   };
   std::vector<Driven> all;
-  auto drawn = draw(human.body);
+  auto drawn = draw(person.body);
   for (Drawn& d : drawn) {
     const Muscle driver = driving_muscle(muscles, d.group, d.muscle).value();
-    const auto own = std::find_if(human.muscles.begin(), human.muscles.end(),
-                                  [driver](const HumanMuscle& m) { return m.plan.muscle == driver; });
+    const auto own = std::find_if(person.muscles.begin(), person.muscles.end(),
+                                  [driver](const PersonMuscle& m) { return m.plan.muscle == driver; });
     const RestFrame frame{to_float(own->plan.start_m), to_float(own->plan.rotation)};
     if (d.ligament) {
       bind_ligament(d.surface, d.attachments.origin_m, d.attachments.insertion_m);
     } else {
-      const HexahedralMesh mesh = rest_mesh(human.body, driver, choice.cells)->cage;
+      const HexahedralMesh mesh = rest_mesh(person.body, driver, choice.cells)->lattice;
       const Passages passages =
-          bind_muscle(d.surface, mesh, frame, d.attachments, 0.022 * static_cast<double>(human.body.request.height_m));
+          bind_muscle(d.surface, mesh, frame, d.attachments, 0.022 * static_cast<double>(person.body.request.height_m));
       if (d.beyond) bind_beyond(d.beyond->surface, d.surface, mesh, frame, passages, d.beyond->ends);
     }
     const std::string label = d.surface.mesh.name + " by " + std::string(muscle_name(driver)) + " of " +
@@ -106,10 +106,10 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
     for (auto& [moving, muscle] : all) {
       const auto u = displacements(nodal_displacement(simulation.world(), muscle));
       moving.line[phase] = *simulation.get<LineOfAction>(muscle);
-      moving.now[phase] = skinned(moving.surface, Side::right, human.body, pose, moving.line[phase], u);
+      moving.now[phase] = skinned(moving.surface, Side::right, person.body, pose, moving.line[phase], u);
       MuscleSurface alone = moving.surface;
-      for (VertexBinding& b : alone.binding) b.cage = 1, b.origin = b.insertion = 0;
-      moving.by_mesh[phase] = skinned(alone, Side::right, human.body, pose, moving.line[phase], u);
+      for (VertexBinding& b : alone.binding) b.lattice = 1, b.origin = b.insertion = 0;
+      moving.by_mesh[phase] = skinned(alone, Side::right, person.body, pose, moving.line[phase], u);
     }
   }
   std::vector<Moving> seen;

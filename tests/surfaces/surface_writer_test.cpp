@@ -13,7 +13,7 @@
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/engine/counting_malloc.h"
@@ -35,7 +35,7 @@ struct Vertex {
 
 struct Shown {
   Entity person;
-  Human human;
+  Person subject;
   std::vector<SurfaceMuscle> muscles;
   BodySurfaces surfaces;
   std::vector<Vertex> out;
@@ -69,9 +69,9 @@ Shown show(Simulation& simulation, const BodyRequest& body, const LegMuscles& mu
   Shown shown;
   shown.person = simulation.spawn(body).value();
   EXPECT_TRUE(simulation.set_muscles(shown.person, muscles));
-  shown.human = *simulation.human(shown.person);
-  for (const HumanMuscle& own : shown.human.muscles) shown.muscles.push_back({own.plan.muscle, own.entity});
-  shown.surfaces = bind_surfaces(shown.human.body, choice_of(muscles, bones)).value();
+  shown.subject = *simulation.person(shown.person);
+  for (const PersonMuscle& own : shown.subject.muscles) shown.muscles.push_back({own.plan.muscle, own.entity});
+  shown.surfaces = bind_surfaces(shown.subject.body, choice_of(muscles, bones)).value();
   shown.out.resize(shown.surfaces.vertices);
   return shown;
 }
@@ -89,7 +89,7 @@ bool same(const Vec3<float>& a, const Vec3<float>& b) {
 
 /// Every muscle's vertices have the bits of the formula, with the control points that are shown.
 void expect_formula(const Simulation& simulation, const Shown& shown, const LegMuscles& muscles) {
-  const auto drawn = draw_surfaces(shown.human.body, choice_of(muscles, false)).value();
+  const auto drawn = draw_surfaces(shown.subject.body, choice_of(muscles, false)).value();
   const Pose<float> pose = *simulation.get<Pose>(shown.person);
   std::size_t next = shown.surfaces.part.size() - 2 * drawn.muscles.size();
   for (const DrivenSurface& muscle : drawn.muscles) {
@@ -99,7 +99,7 @@ void expect_formula(const Simulation& simulation, const Shown& shown, const LegM
       const auto u = displacements(nodal_displacement(simulation.world(), entity));
       ASSERT_FALSE(u.empty());
       const auto expected =
-          skinned_one_by_one(muscle.surface, side, shown.human.body, pose, *simulation.get<LineOfAction>(entity), u);
+          skinned_one_by_one(muscle.surface, side, shown.subject.body, pose, *simulation.get<LineOfAction>(entity), u);
       const auto is = shown.positions(part);
       ASSERT_EQ(is.size(), expected.size());
       std::size_t others = 0;
@@ -121,13 +121,13 @@ const std::vector<BodyRequest>& bodies() {
 }
 
 TEST(SurfaceWriter, PositionsAreTheFormulasWithEveryMethodAndMesh) {
-  for (const Method method :
-       {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced, Method::finite}) {
+  for (const Method method : {Method::statics, Method::explicit_central, Method::implicit_central, Method::newmark,
+                              Method::modal, Method::finite}) {
     Simulation simulation(sharing());
     LegMuscles muscles;
     muscles.method = method;
     if (method == Method::statics) muscles.cells = {3, 3, 9};
-    if (method == Method::reduced) muscles.muscles = muscle_members();
+    if (method == Method::modal) muscles.muscles = muscle_members();
     Shown shown = show(simulation, {}, muscles, false);
     simulation.advance(0.1);
     write(simulation, shown);
@@ -251,7 +251,7 @@ TEST(SurfaceWriter, AMuscleWithoutControlPointsIsDrawnAsLongAsItsLine) {
     ASSERT_TRUE(simulation.set_method(shown.person, m, {.method = Method::none}));
   simulation.advance(0.5);
   write(simulation, shown);
-  const auto drawn = draw_surfaces(shown.human.body, choice_of(muscles, false)).value();
+  const auto drawn = draw_surfaces(shown.subject.body, choice_of(muscles, false)).value();
   std::size_t next = 0;
   int seen = 0;
   for (const DrivenSurface& muscle : drawn.muscles) {
@@ -261,14 +261,14 @@ TEST(SurfaceWriter, AMuscleWithoutControlPointsIsDrawnAsLongAsItsLine) {
       if (nodal_displacement(simulation.world(), entity).first != nullptr) continue;
       ++seen;
       const auto line = *simulation.get<LineOfAction>(entity);
-      const auto node = rest_mesh(shown.human.body, muscle.driver, muscles.cells)->cage.node;
+      const auto node = rest_mesh(shown.subject.body, muscle.driver, muscles.cells)->lattice.node;
       std::vector<float> u;
       for (const auto& n : node) {
         const double longer = static_cast<double>(line.length_m) - static_cast<double>(line.rest_length_m);
         u.insert(u.end(), {0, 0, static_cast<float>(longer * n.z / node.back().z)});
       }
       const auto expected =
-          skinned_one_by_one(muscle.surface, side, shown.human.body, *simulation.get<Pose>(shown.person), line, u);
+          skinned_one_by_one(muscle.surface, side, shown.subject.body, *simulation.get<Pose>(shown.person), line, u);
       const auto is = shown.positions(part);
       for (std::size_t v = 0; v < is.size(); ++v)
         ASSERT_LT(length(to_double(is[v]) - to_double(expected[v])), 1e-6) << part.name;
@@ -301,7 +301,7 @@ TEST(SurfaceWriter, SidesAndBonesAreAChoice) {
   const Shown whole = shown;
   SurfaceChoice choice;
   choice.sides = {false, true};
-  shown.surfaces = bind_surfaces(shown.human.body, choice).value();
+  shown.surfaces = bind_surfaces(shown.subject.body, choice).value();
   shown.out.assign(shown.surfaces.vertices, Vertex{});
   for (SurfaceMuscle& m : shown.muscles) m.entity[Side::right] = {};  // nobody looks at them
   write(simulation, shown);
@@ -368,7 +368,7 @@ TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
   refused(shown.request(), "nodes");
   ASSERT_EQ(simulation.set_muscles(shown.person, std::nullopt), Status::ok);
   refused(shown.request(), "stale");
-  EXPECT_FALSE(bind_surfaces(shown.human.body, choice_of({.cells = {0, 2, 8}}, false)));
+  EXPECT_FALSE(bind_surfaces(shown.subject.body, choice_of({.cells = {0, 2, 8}}, false)));
 }
 
 TEST(SurfaceWriter, ASteadyCallTakesNoMemory) {

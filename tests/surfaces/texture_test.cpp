@@ -15,7 +15,7 @@
 #include <mobil/far_figure.h>
 #include <mobil/simulation.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/write_vertices.h>
 #include "tests/engine/instruction_sets.h"
 #include "tests/refused.h"
@@ -109,15 +109,15 @@ double from_triangle(const Vec3<float>& p, const Vec3<float>& a, const Vec3<floa
 struct Walker {
   Simulation simulation{sharing()};
   Entity person;
-  Human human;
+  Person subject;
   std::vector<SurfaceMuscle> muscles;
 
   Walker() {
     person = *simulation.spawn({.height_m = 1.72F, .mass_kg = 70}, {.speed_m_s = 1.3F});
     EXPECT_TRUE(simulation.set_muscles(person));
     for (int i = 0; i < 47; ++i) simulation.tick();
-    human = *simulation.human(person);
-    for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+    subject = *simulation.person(person);
+    for (const PersonMuscle& own : subject.muscles) muscles.push_back({own.plan.muscle, own.entity});
   }
   SurfaceRequest request(const BodySurfaces& surfaces, std::vector<Vertex>& out) const {
     const auto bytes = std::as_writable_bytes(std::span(out));
@@ -141,7 +141,7 @@ struct Walker {
 /// On the bent legs of a walker: perpendicular to normals, and with what lies farther along ahead of them.
 TEST(Texture, TangentsOfAWalkerRunAlongMusclesAndBones) {
   const Walker walker;
-  const BodySurfaces surfaces = *bind_surfaces(walker.human.body, {.textured = true});
+  const BodySurfaces surfaces = *bind_surfaces(walker.subject.body, {.textured = true});
   ASSERT_EQ(surfaces.texture.size(), surfaces.vertices);
   const auto out = walker.show(surfaces, true);
   for (std::size_t v = 0; v < out.size(); ++v) {
@@ -178,8 +178,8 @@ TEST(Texture, TangentsOfAWalkerRunAlongMusclesAndBones) {
 
 TEST(Texture, NothingElseChangesAndEveryProcessorWritesTheSameTangents) {
   const Walker walker;
-  const BodySurfaces plain = *bind_surfaces(walker.human.body),
-                     textured = *bind_surfaces(walker.human.body, {.textured = true});
+  const BodySurfaces plain = *bind_surfaces(walker.subject.body),
+                     textured = *bind_surfaces(walker.subject.body, {.textured = true});
   EXPECT_TRUE(plain.texture.empty());
   const auto without = walker.show(plain, false), with = walker.show(textured, true);
   ASSERT_EQ(without.size(), with.size());
@@ -193,8 +193,8 @@ TEST(Texture, NothingElseChangesAndEveryProcessorWritesTheSameTangents) {
 
 TEST(Texture, RequestsThatCannotBeAreRefused) {
   const Walker walker;
-  const BodySurfaces plain = *bind_surfaces(walker.human.body),
-                     textured = *bind_surfaces(walker.human.body, {.textured = true});
+  const BodySurfaces plain = *bind_surfaces(walker.subject.body),
+                     textured = *bind_surfaces(walker.subject.body, {.textured = true});
   std::vector<Vertex> out(plain.vertices);
   const auto says = [&](const SurfaceRequest& one, const char* what) {
     SurfaceWriter writer;
@@ -213,18 +213,18 @@ TEST(Texture, RequestsThatCannotBeAreRefused) {
   one = walker.request(textured, out);
   one.tangents.bytes = one.normals.bytes.subspan(8);
   says(one, "tangents lie over normals");
-  EXPECT_FALSE(bind_surfaces(walker.human.body, {.detail = 0}));
-  EXPECT_FALSE(bind_surfaces(walker.human.body, {.detail = 2}));
+  EXPECT_FALSE(bind_surfaces(walker.subject.body, {.detail = 0}));
+  EXPECT_FALSE(bind_surfaces(walker.subject.body, {.detail = 2}));
 }
 
 /// Every piece is still there, made of its own vertices, and near the fine one on a walker.
 TEST(Coarser, SurfacesLieNearTheFineOnes) {
   const Walker walker;
-  const BodySurfaces fine = *bind_surfaces(walker.human.body);
+  const BodySurfaces fine = *bind_surfaces(walker.subject.body);
   const auto is = walker.show(fine, false);
   double before = 1;
-  for (const auto& [share, mean_mm, most_mm] : {std::tuple{0.3, 1.0, 10.0}, {0.1, 2.0, 60.0}, {0.05, 4.0, 100.0}}) {
-    const BodySurfaces coarse = *bind_surfaces(walker.human.body, {.detail = share, .textured = true});
+  for (const auto& [share, mean_mm, max_mm] : {std::tuple{0.3, 1.0, 10.0}, {0.1, 2.0, 60.0}, {0.05, 4.0, 100.0}}) {
+    const BodySurfaces coarse = *bind_surfaces(walker.subject.body, {.detail = share, .textured = true});
     const auto out = walker.show(coarse, true);
     ASSERT_EQ(coarse.part.size(), fine.part.size());
     double sum = 0, farthest = 0;
@@ -251,7 +251,7 @@ TEST(Coarser, SurfacesLieNearTheFineOnes) {
                 coarse.vertices, fine.vertices, 1000 * mean, 1000 * farthest);
     EXPECT_LT(kept, 1.25 * share);
     EXPECT_LT(1000 * mean, mean_mm);
-    EXPECT_LT(1000 * farthest, most_mm);
+    EXPECT_LT(1000 * farthest, max_mm);
     EXPECT_LT(kept, before);
     before = kept;
   }

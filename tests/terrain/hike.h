@@ -41,23 +41,23 @@ struct Hike {
   HeightOf ground;
   Simulation simulation;
   Terrain terrain;
-  Entity human;
+  Entity person;
 
   Hike(HeightOf on, const GaitRequest& gait, const BodyRequest& body = {.height_m = 1.75F, .mass_kg = 75},
        double tick_s = 1.0 / 60, float start_z_m = 0, const TerrainOptions& options = {})
       : ground(std::move(on)),
         simulation({.tick_s = tick_s}),
         terrain(terrain_of(simulation, answering(ground), options)) {
-    human = simulation.spawn(body, gait).value();
-    EXPECT_TRUE(simulation.place(human, 0, start_z_m, 0));
-    EXPECT_TRUE(simulation.enable(human, Feature::forces));
-    EXPECT_TRUE(terrain.manage({&human, 1}));
+    person = simulation.spawn(body, gait).value();
+    EXPECT_TRUE(simulation.place(person, 0, start_z_m, 0));
+    EXPECT_TRUE(simulation.enable(person, Feature::forces));
+    EXPECT_TRUE(terrain.manage({&person, 1}));
     tick();
   }
   void tick() { simulation.tick(); }
   template <template <class> class C>
   C<float> get() const {
-    return simulation.get<C>(human).value();
+    return simulation.get<C>(person).value();
   }
 };
 

@@ -68,7 +68,7 @@ TEST(SoleFit, FeetComeDownClearOfEdges) {
     const char* name;
     HeightOf ground;
     GaitRequest gait;
-    float apart_m, most_over_m, most_hips;
+    float apart_m, max_over_m, max_hips;
   };
   const auto kerb = [](float high_m) {
     return [=](float, float z) { return TerrainHeight{z > 2 ? high_m : 0, 0, 0}; };
@@ -101,8 +101,8 @@ TEST(SoleFit, FeetComeDownClearOfEdges) {
       }
     }
     std::printf("%s: %.1f cm over an edge at most, hips %.0f m/s2\n", way.name, 100 * over_m, hips);
-    EXPECT_LT(over_m, way.most_over_m) << way.name;
-    EXPECT_LT(hips, way.most_hips) << way.name;
+    EXPECT_LT(over_m, way.max_over_m) << way.name;
+    EXPECT_LT(hips, way.max_hips) << way.name;
   }
 }
 

@@ -142,7 +142,7 @@ TEST(Terrain, KneesAndAnklesDownAnyKerb) {
   struct Kerb {
     float high_m, speed_m_s, knee, ankle;
   };
-  for (const auto& [high_m, speed_m_s, most_knee, most_ankle] :
+  for (const auto& [high_m, speed_m_s, max_knee, max_ankle] :
        {Kerb{0.15F, 1.2F, 112.5F, 37}, {0.15F, 1.6F, 112.5F, 37}, {0.20F, 1.2F, 120.5F, 41}}) {
     double knee = 0, ankle = 0;
     float through_m = 0;
@@ -163,8 +163,8 @@ TEST(Terrain, KneesAndAnklesDownAnyKerb) {
     }
     std::printf("down %.0f cm at %.1f m/s: knee %.0f deg, ankle %.0f deg, %.0f cm through the edge\n",
                 100 * double{high_m}, double{speed_m_s}, knee, ankle, 100 * double{through_m});
-    EXPECT_LT(knee, most_knee);
-    EXPECT_LT(ankle, most_ankle);
+    EXPECT_LT(knee, max_knee);
+    EXPECT_LT(ankle, max_ankle);
     EXPECT_LT(through_m, 0.13F);
   }
 }

@@ -31,7 +31,7 @@ RC_GTEST_PROP(Terrain, FeetStandOnAnySlopeAndAreNeverInIt, ()) {
   const auto drawn = [](int low, int high) { return static_cast<float>(*rc::gen::inRange(low, high)) * 0.01F; };
   const float speed = drawn(40, 170), x = drawn(-25, 26), z = drawn(-25, 26), height = drawn(150, 196);
   Hike hike(plane(x, z), {.speed_m_s = speed}, {.height_m = height, .mass_kg = 24 * height * height});
-  RC_ASSERT(hike.simulation.turn_to(hike.human, drawn(-300, 300)).has_value());
+  RC_ASSERT(hike.simulation.turn_to(hike.person, drawn(-300, 300)).has_value());
   for (int t = 0; t < 240; ++t) {
     hike.tick();
     const GaitState<float> state = hike.get<GaitState>();
@@ -47,10 +47,10 @@ TEST(Terrain, OnAPlateauAPersonWalksAsOnLevelGround) {
   Hike up([](float, float) { return TerrainHeight{12.5F, 0, 0}; }, {.speed_m_s = 1.3F});
   Hike down([](float, float) { return TerrainHeight{0, 0, 0}; }, {.speed_m_s = 1.3F});
   Simulation level;
-  const Entity human = level.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.3F}).value();
+  const Entity person = level.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.3F}).value();
   level.tick();
   for (int t = 0; t < 200; ++t) {
-    const Pose<float> a = up.get<Pose>(), b = down.get<Pose>(), c = level.get<Pose>(human).value();
+    const Pose<float> a = up.get<Pose>(), b = down.get<Pose>(), c = level.get<Pose>(person).value();
     for (std::size_t s = 0; s < segment_count; ++s) {
       EXPECT_NEAR(a.position_m[s].y - 12.5F, b.position_m[s].y, 1e-5F);
       EXPECT_NEAR(b.position_m[s].x, c.position_m[s].x, 2e-3F);
@@ -92,16 +92,16 @@ TEST(Terrain, OneFootHigherThanTheOtherNothingJumps) {
       }
     };
     go(480, fastest);
-    ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 0.0F}));
-    ASSERT_TRUE(hike.simulation.step_aside(hike.human, 0.2F, 0));  // once they stand
+    ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 0.0F}));
+    ASSERT_TRUE(hike.simulation.step_aside(hike.person, 0.2F, 0));  // once they stand
     go(720, fastest);
     go(240, standing);
-    ASSERT_TRUE(hike.simulation.step_aside(hike.human, -0.2F, 0));
+    ASSERT_TRUE(hike.simulation.step_aside(hike.person, -0.2F, 0));
     go(480, fastest);
-    ASSERT_TRUE(hike.simulation.turn_to(hike.human, 1.0F));
+    ASSERT_TRUE(hike.simulation.turn_to(hike.person, 1.0F));
     go(720, fastest);
     for (const std::size_t side : {0U, 1U}) EXPECT_NEAR(lowest_m(hike, side), 0, 0.002F);
-    ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.0F}));
+    ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 1.0F}));
     go(480, fastest);
     EXPECT_LT(standing, 0.001) << high_m;
     EXPECT_LT(fastest, 8) << high_m;
@@ -110,8 +110,8 @@ TEST(Terrain, OneFootHigherThanTheOtherNothingJumps) {
 
 TEST(Terrain, WhoIsOnItIsNotMadeCompact) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
-  ASSERT_TRUE(hike.simulation.enable(hike.human, Feature::forces, false));
-  EXPECT_EQ(hike.simulation.set_state({&hike.human, 1}, PersonState::compact).value(), 0U);
+  ASSERT_TRUE(hike.simulation.enable(hike.person, Feature::forces, false));
+  EXPECT_EQ(hike.simulation.set_state({&hike.person, 1}, PersonState::compact).value(), 0U);
 }
 
 /// Nor do those who cannot be keep others from it.
@@ -122,19 +122,19 @@ TEST(Terrain, LodMakesTheOthersCompact) {
   options.machine_factor = 1;
   options.leg_muscles.muscles = 1;
   options.compacts = 1;
-  Lod relevance = lod_of(simulation, options);
+  Lod lod = lod_of(simulation, options);
   std::vector<Entity> people;
   for (int i = 0; i < 8; ++i) {
     people.push_back(simulation.spawn({}, {.speed_m_s = 1.0F}).value());
     ASSERT_TRUE(simulation.place(people.back(), static_cast<float>(i), 100, 0));
-    ASSERT_TRUE(relevance.manage(people.back(), {}));
+    ASSERT_TRUE(lod.manage(people.back(), {}));
   }
   ASSERT_TRUE(terrain.manage(std::span(people).first(4)));
-  SceneNeeds needs;
+  LodScene needs;
   needs.muscles = 1;
   needs.compact_unseen = true;
   needs.camera = Viewpoint{.position_m = {0, 51, 0}, .forward = {0, 0, -1}};
-  ASSERT_TRUE(relevance.set_scene(needs));
+  ASSERT_TRUE(lod.set_scene(needs));
   const auto go = [&](int ticks) {
     for (int t = 0; t < ticks; ++t) simulation.tick();
   };
@@ -150,15 +150,15 @@ TEST(Terrain, WhoIsAskedForLateStandsOnTheGroundAgain) {
   hike.terrain.set_heights({});
   std::vector<TerrainHeight> answers;
   const auto answer_and_tick = [&](std::uint32_t ticks) {
-    const auto at = hike.terrain.ask();
+    const auto at = hike.terrain.query();
     answers.assign(at.size(), {});
     answering(hike.ground)(at, answers);
-    ASSERT_TRUE(hike.terrain.answer(answers));
+    ASSERT_TRUE(hike.terrain.resolve(answers));
     hike.simulation.tick(ticks);
   };
-  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 0.0F}));
+  ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 0.0F}));
   for (int k = 0; k < 60; ++k) answer_and_tick(2);
-  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.2F}));
+  ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 1.2F}));
   for (int k = 0; k < 100; ++k) {
     answer_and_tick(2);
     for (const std::size_t side : {0U, 1U}) EXPECT_GT(lowest_m(hike, side), -0.004F);
@@ -171,7 +171,7 @@ TEST(Terrain, WhoIsAskedForLateStandsOnTheGroundAgain) {
 
 TEST(Terrain, StepsAreReportedWhereTheGroundIs) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
-  ASSERT_TRUE(hike.simulation.enable({&hike.human, 1}, Feature::step_events));
+  ASSERT_TRUE(hike.simulation.enable({&hike.person, 1}, Feature::step_events));
   std::size_t count = 0;
   for (int t = 0; t < 200; ++t) {
     hike.tick();
@@ -230,14 +230,14 @@ TEST(Terrain, TheGroundIsAskedForOnceAStepAndWithoutTakingMemory) {
     for (int k = 0; k < 400; ++k) crowd.tick();
     std::size_t asked = 0, requests = 0;
     std::uint32_t steps = 0;
-    for (const Entity human : crowd.people) steps -= crowd.simulation.get<GaitState>(human)->steps;
+    for (const Entity person : crowd.people) steps -= crowd.simulation.get<GaitState>(person)->steps;
     for (int k = 0; k < 240; ++k) {
       const std::size_t before = heap_requests;
       crowd.simulation.tick();
       requests += heap_requests - before;
       asked += crowd.terrain.report().asked;
     }
-    for (const Entity human : crowd.people) steps += crowd.simulation.get<GaitState>(human)->steps;
+    for (const Entity person : crowd.people) steps += crowd.simulation.get<GaitState>(person)->steps;
     EXPECT_NEAR(static_cast<double>(asked), static_cast<double>(steps), 50);
     EXPECT_EQ(requests, 0U) << slows_down;
   }
@@ -251,14 +251,14 @@ TEST(Terrain, TheHalvesOfAnUpdateAreTheWhole) {
   for (int k = 0; k < 200; ++k) {
     whole.tick();
     const std::uint64_t before = halves.simulation.state_hash();
-    const std::size_t once = halves.terrain.ask().size();
-    const std::span<const TerrainQuery> at = halves.terrain.ask();
+    const std::size_t once = halves.terrain.query().size();
+    const std::span<const TerrainQuery> at = halves.terrain.query();
     ASSERT_EQ(at.size(), once);
     ASSERT_EQ(halves.simulation.state_hash(), before);
     answers.assign(at.size(), {});
     for (std::size_t i = 0; i < at.size(); ++i)
       answers[i] = {0.3F * std::sin(at[i].x_m) + 0.1F * at[i].z_m, 0.3F * std::cos(at[i].x_m), 0.1F};
-    ASSERT_TRUE(halves.terrain.answer(answers));
+    ASSERT_TRUE(halves.terrain.resolve(answers));
     halves.simulation.tick();
   }
   EXPECT_EQ(whole.simulation.state_hash(), halves.simulation.state_hash());
@@ -270,7 +270,7 @@ TEST(Terrain, AnswersForWhoHasGoneOnAreLeftOut) {
   crowd.tick();
   crowd.terrain.set_heights({});
   for (int k = 0; k < 40; ++k) {
-    std::vector<TerrainHeight> answers(crowd.terrain.ask().size());
+    std::vector<TerrainHeight> answers(crowd.terrain.query().size());
     if (k == 10) {
       ASSERT_TRUE(crowd.simulation.despawn(crowd.people.back()));
       crowd.people.pop_back();
@@ -278,26 +278,26 @@ TEST(Terrain, AnswersForWhoHasGoneOnAreLeftOut) {
     if (k == 20) (void)crowd.simulation.enable(crowd.people.front(), Feature::forces);
     if (k == 25) (void)crowd.terrain.release({&crowd.people[1], 1});
     crowd.simulation.tick(7);
-    ASSERT_TRUE(crowd.terrain.answer(answers));
-    EXPECT_EQ(crowd.terrain.answer(answers).has_value(), answers.empty());  // once
+    ASSERT_TRUE(crowd.terrain.resolve(answers));
+    EXPECT_EQ(crowd.terrain.resolve(answers).has_value(), answers.empty());  // once
   }
   crowd.tick();
-  for (const Entity human : crowd.people)
-    EXPECT_TRUE(std::isfinite(crowd.simulation.get<Pose>(human)->position_m[0].y));
+  for (const Entity person : crowd.people)
+    EXPECT_TRUE(std::isfinite(crowd.simulation.get<Pose>(person)->position_m[0].y));
 }
 
 TEST(Terrain, WhoIsPlacedElsewhereOrWakesStandsOnTheGroundThere) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
   for (int k = 0; k < 30; ++k) hike.tick();
-  ASSERT_TRUE(hike.simulation.place(hike.human, 3, 200, 0));
+  ASSERT_TRUE(hike.simulation.place(hike.person, 3, 200, 0));
   hike.tick();
   EXPECT_NEAR(lowest_m(hike, hike.get<GaitState>().stance_side), 0, 0.01F);
-  ASSERT_TRUE(hike.simulation.enable(hike.human, Feature::forces, false));
+  ASSERT_TRUE(hike.simulation.enable(hike.person, Feature::forces, false));
   for (int k = 0; k < 120; ++k) hike.tick();
-  ASSERT_TRUE(hike.simulation.set_state({&hike.human, 1}, PersonState::asleep));
-  ASSERT_EQ(hike.simulation.state(hike.human), PersonState::asleep);
+  ASSERT_TRUE(hike.simulation.set_state({&hike.person, 1}, PersonState::asleep));
+  ASSERT_EQ(hike.simulation.state(hike.person), PersonState::asleep);
   for (int k = 0; k < 600; ++k) hike.tick();
-  ASSERT_TRUE(hike.simulation.set_state({&hike.human, 1}, PersonState::full));
+  ASSERT_TRUE(hike.simulation.set_state({&hike.person, 1}, PersonState::full));
   hike.tick();
   EXPECT_GT(hike.get<Pose>().position_m[0].z, 210);
   for (const std::size_t side : {0U, 1U}) {
@@ -317,13 +317,13 @@ TEST(Terrain, AnswersThatAreNoNumbersHarmNobody) {
       out[i] = {draw(1), draw(2), draw(3)};
     }
   });
-  const Entity human = simulation.spawn({}).value();
-  ASSERT_TRUE(terrain.manage({&human, 1}));
+  const Entity person = simulation.spawn({}).value();
+  ASSERT_TRUE(terrain.manage({&person, 1}));
   std::size_t unusable = 0;
   for (int k = 0; k < 400; ++k) {
     simulation.tick();
     unusable += terrain.report().unusable;
-    const Pose<float> pose = simulation.get<Pose>(human).value();
+    const Pose<float> pose = simulation.get<Pose>(person).value();
     for (const Vec3<float>& p : pose.position_m) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
   }
   EXPECT_GT(unusable, 100U);

@@ -54,7 +54,7 @@ test('a slice owns nothing, and what has gone is refused', () => {
   world.despawn(others);
   assert.throws(() => world.despawn(others), gone);
   for (const old of [view, of_view]) assert.throws(() => world.matrices(old), gone);
-  for (const call of [() => world.walk(view), () => world.surfaces(view), () => world.avoidance.want(others, [[1, 0], [1, 0], [1, 0]]), () => world.enable(others, FEATURES.fat)]) assert.throws(call, gone);
+  for (const call of [() => world.walk(view), () => world.surfaces(view), () => world.avoidance.setDesiredVelocity(others, [[1, 0], [1, 0], [1, 0]]), () => world.enable(others, FEATURES.fat)]) assert.throws(call, gone);
   others.forget();
   assert.equal(live.size, before);
   assert.equal(wrongly, 0);
@@ -98,16 +98,16 @@ test('surfaces are dropped once', () => {
 });
 
 test('fields that hold several numbers come back as arrays', () => {
-  const world = mobil.world(), people = world.spawn([{ height_m: 1.8, mass_kg: 80 }], { method: METHODS.reduced, vectors: 8, control_points: 1 });
+  const world = mobil.world(), people = world.spawn([{ height_m: 1.8, mass_kg: 80 }], { method: METHODS.modal, modes: 8, control_points: 1 });
   const method = world.method(people, 1);
-  assert.equal(method.method, METHODS.reduced);
-  assert.ok(method.reduced_cells.length === 3 && method.reduced_cells.every((n) => n > 0), `${method.reduced_cells}`);
+  assert.equal(method.method, METHODS.modal);
+  assert.ok(method.modal_cells.length === 3 && method.modal_cells.every((n) => n > 0), `${method.modal_cells}`);
   world.tick(5);
   const before = world.hash();
   world.setMethod(people, 1, method);
   assert.deepEqual(world.method(people, 1), method);
   assert.equal(world.hash(), before);
-  assert.throws(() => world.setMethod(people, 1, { ...method, reduced_cells: [4] }), refused(/reduced_cells.*3 numbers/));
+  assert.throws(() => world.setMethod(people, 1, { ...method, modal_cells: [4] }), refused(/modal_cells.*3 numbers/));
   world.destroy();
 });
 
@@ -144,7 +144,7 @@ test('posed people take the poses of a walker', () => {
 });
 
 test('muscles of the host pull as they are told', () => {
-  const world = mobil.world(), people = world.spawn([0, 1].map((i) => ({ height_m: 1.8, mass_kg: 80, place: [i, 0, 0] })), { method: METHODS.ecd, activation: c.MOBIL_BY_HOST });
+  const world = mobil.world(), people = world.spawn([0, 1].map((i) => ({ height_m: 1.8, mass_kg: 80, place: [i, 0, 0] })), { method: METHODS.explicit_central, activation: c.MOBIL_BY_HOST });
   const excitation = () => Array.from({ length: 2 }, (_, i) => world.readMuscle(c.MOBIL_ACTIVATION, people.slice(i), c.MOBIL_QUADRICEPS)[0]);
   world.setExcitation(people, c.MOBIL_QUADRICEPS, c.MOBIL_RIGHT, [0.25, 0.75]);
   world.tick();
@@ -181,12 +181,12 @@ test('the origin moves, and rows have the length that the library reads', () => 
   const roots = world.roots(people);
   assert.deepEqual([roots[0], roots[4]], [-64, -62]);
   const before = world.hash();
-  for (const call of [() => world.shiftOrigin([1, 2]), () => world.place(people, [1, 2, 3, 4], 0), () => world.avoidance.want(people, [[1], [1, 0, 0]]),
+  for (const call of [() => world.shiftOrigin([1, 2]), () => world.place(people, [1, 2, 3, 4], 0), () => world.avoidance.setDesiredVelocity(people, [[1], [1, 0, 0]]),
     () => world.avoidance.setWalls([[0, 0, 0]]), () => world.avoidance.setDiscs([[0, 0, 0, 0]]), () => world.changeWalk(people, { speed_m_s: 1, nothing: 2 })]) {
     assert.throws(call, refused(/number|has no/, c.MOBIL_REFUSED));
   }
   assert.equal(world.hash(), before);
-  world.avoidance.want(people, [new Float32Array([1, 0]), [1, 0]]);
+  world.avoidance.setDesiredVelocity(people, [new Float32Array([1, 0]), [1, 0]]);
   world.destroy();
 });
 

@@ -90,7 +90,7 @@ await test('its bits are those of desktops', async () => {
     const off = { control_points: 0, activation: 0, inertia: 0 };
     return {
       fused: mobilPage.mobil.fused, bones: scene(null, 120), static: scene({ ...off, method: METHODS.static, control_points: 1 }, 20),
-      reduced: scene({ ...off, method: METHODS.reduced, control_points: 1 }, 20), 'reduced, inertia': scene({ ...off, method: METHODS.reduced, control_points: 1, inertia: 1 }, 20),
+      modal: scene({ ...off, method: METHODS.modal, control_points: 1 }, 20), 'modal, inertia': scene({ ...off, method: METHODS.modal, control_points: 1, inertia: 1 }, 20),
     };
   });
   if (!ours.fused) return console.log('        not compared: this browser does not fuse multiply-adds');
@@ -113,12 +113,12 @@ await test('what nobody can be is refused in one line, and the slider goes back'
   assert.equal(await set(page, 'mass', 80), '');
 });
 await test('each method simulates each group', async () => {
-  for (const method of ['ecd', 'icd', 'caa', 'static', 'finite', 'none', 'reduced']) {
+  for (const method of ['explicit_central', 'implicit_central', 'newmark', 'static', 'finite', 'none', 'modal']) {
     for (let i = 0; i < 4; ++i) assert.equal(await set(page, `method${i}`, method), '', method);
     await look(page, 5);
     assert.equal(await page.evaluate(() => mobilPage.world.method(mobilPage.person, 2).method), await page.evaluate((m) => mobilPage.constants.METHODS[m], method));
   }
-  assert.equal(await set(page, 'vectors', 8), '');
+  assert.equal(await set(page, 'modes', 8), '');
 });
 await test('muscles pull, feel inertia, and redden', async () => {
   for (const pull of [1, 2]) {
@@ -253,7 +253,7 @@ await test('a link holds the scene', async () => {
   await set(page, 'height', 1.66);
   await set(page, 'mass', 58);
   await set(page, 'toe_out_deg', 15);
-  await set(page, 'method3', 'caa');
+  await set(page, 'method3', 'newmark');
   const link = new URL(await page.evaluate(() => mobilPage.address()));
   const [one, two] = [await open(`still&t=1&crowd=20&${link.search.slice(1).replace(/crowd=\d+&?/, '')}`), await open(`${link.search.slice(1).replace(/crowd=\d+&?/, '')}&crowd=20&t=1&still`)];
   assert.equal(await one.inputValue('#height') + await one.inputValue('#toe_out_deg') + await one.inputValue('#method3'), '1.6615caa');
@@ -262,7 +262,7 @@ await test('a link holds the scene', async () => {
   await two.close();
 });
 await test('a link that nobody can walk shows what is usual, and says why', async () => {
-  const odd = await open('still&height=2.2&mass=40&methods=ecd,nonsense&crowd=0');
+  const odd = await open('still&height=2.2&mass=40&methods=explicit_central,nonsense&crowd=0');
   assert.match(await odd.textContent('#refusal'), /what is usual is shown instead/);
   await odd.close();
 });

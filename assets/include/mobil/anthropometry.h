@@ -48,7 +48,7 @@ constexpr UnitBody make_unit_body();
 
 /// Body of the asked height and mass. Masses add up to mass_kg without rounding error; the column's offsets add up to
 /// the stature, with legs in proportion. Fails on a height outside 1.2–2.2 m, a mass outside 30–200 kg, a
-/// biotype outside 0.1–12, a mass that no living body of that height has, or a limb out of range. Where height, mass,
+/// biotype outside 0.1–12, a mass that no real body of that height has, or a limb out of range. Where height, mass,
 /// biotype and constitution contradict each other less grossly, one gives way and `composition` notes it.
 Result<Body> make_body(const BodyRequest& request);
 /// How long a body's limbs are, asked for or not.

@@ -1,5 +1,5 @@
 #pragma once
-// What a body is made of: fat, lean mass, muscle; and which requests no living body answers.
+// What a body is made of: fat, lean mass, muscle; and which requests no real body answers.
 //
 // Sources, all for men of 25 years, whose segments the other tables describe.
 //   Ectomorphy from height and mass, endomorphy from three skinfolds: Carter & Heath: Somatotyping, 1990; Carter: The
@@ -27,7 +27,7 @@ namespace mobil::inline v0_3 {
 struct MassRange {
   double low_kg, high_kg;
 };
-/// What a living body of that height may weigh: a body mass index of 12 to 92 kg/m² (the most lean mass with the most
+/// What a real body of that height may weigh: a body mass index of 12 to 92 kg/m² (the most lean mass with the most
 /// fat), within 30–200 kg.
 MassRange living_mass_kg(double height_m);
 
@@ -50,7 +50,7 @@ double physique_factor(const BodyRequest& request);
 /// Fat, lean mass, biotype and muscle of a request within its ranges. Fat follows from the endomorphy asked for. Where
 /// endomorphy and ectomorphy are the usual 3, that is where nobody asked, the lean mass is Gallagher's; half of it, the
 /// muscle, is as much more or less as constitution and mesomorphy say. Then fat gives way until the lean mass is that
-/// of a living body. Muscle that comes near 65 % of the lean mass grows ever less with what is asked, and never
+/// of a real body. Muscle that comes near 65 % of the lean mass grows ever less with what is asked, and never
 /// beyond; it rises with height, mass and mesomorphy throughout.
 BodyComposition body_composition(const BodyRequest& request);
 

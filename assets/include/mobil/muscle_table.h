@@ -123,7 +123,7 @@ inline constexpr std::size_t end_of_path = static_cast<std::size_t>(-1);
 /// mean, by volume. Hamstrings and triceps surae are drawn along their largest member, semimembranosus and soleus, the
 /// latter from the middle of the calf under the knee, because soleus' published origin is the centroid of a long one;
 /// the quadriceps from the middle of its bellies to the middle of the kneecap: its largest member's line would leave
-/// the other three aside. Single muscles: assets/muscles/drawn_line.h.
+/// the other three aside. Single muscles: assets/muscles/belly_axis.h.
 struct MuscleRow {
   std::string_view name;
   std::span<const MemberMuscle> members;
@@ -131,7 +131,7 @@ struct MuscleRow {
 };
 
 /// Members that a row has at most.
-inline constexpr std::size_t most_row_members = 4;
+inline constexpr std::size_t max_row_members = 4;
 
 /// All rows, numbered as Muscle: groups first, then the members of groups that have several.
 std::span<const MuscleRow> muscles();

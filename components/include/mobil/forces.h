@@ -2,6 +2,7 @@
 // The forces of a walk (paper, section 4.3): an effect; who lacks these components pays nothing.
 
 #include <cstddef>
+#include <cstdint>
 
 #include <mobil/components/lanes.h>
 #include <mobil/components/pose.h>
@@ -36,10 +37,11 @@ inline constexpr float motion_difference_s = 0.006F;
 /// Of a person whose host animates the skeleton, what its motion is taken from: the poses of the last two ticks, the
 /// newer one first; how high its lowest sole was, m; and how many of the poses are known.
 template <class F>
-struct PosedPast {
+struct PoseHistory {
+  static constexpr std::uint64_t stable_id = 0xf987aad48bfed529;
   Pose<F> pose[2];
   F floor_m;
-  Whole<F> known;
+  UInt32<F> known;
 };
 
 /// How a walker moves now, in the frame of the stance foothold: x to the left, y up, z the way the walking line heads

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t small_crowd_size = 512;
 
-BenchCrowd* made_once(std::shared_ptr<BenchCrowd>& crowd, std::size_t humans) {
-  if (crowd == nullptr) crowd = std::make_shared<BenchCrowd>(humans);
+BenchCrowd* made_once(std::shared_ptr<BenchCrowd>& crowd, std::size_t people) {
+  if (crowd == nullptr) crowd = std::make_shared<BenchCrowd>(people);
   return crowd.get();
 }
 
@@ -39,16 +39,16 @@ constexpr std::array benches = {Bench{"machine", &bench_machine},
                                 Bench{"avoidance", &bench_avoidance},
                                 Bench{"table1", &bench_table1},
                                 Bench{"fem", &bench_fem},
-                                Bench{"reduced", &bench_reduced},
+                                Bench{"modal", &bench_modal},
                                 Bench{"paper_figures", &bench_paper_figures},
                                 Bench{"crowd", &bench_crowds},
                                 Bench{"threads", &bench_threads},
-                                Bench{"relevance", &bench_relevance},
+                                Bench{"lod", &bench_lod},
                                 Bench{"cluster", &bench_cluster}};
 
 struct BenchText {
   std::vector<std::string> names;
-  std::string humans = "10000";
+  std::string people = "10000";
   std::optional<std::string> json;
   bool quick = false;
 };
@@ -57,9 +57,9 @@ struct BenchText {
 std::vector<Bench> read_request(const BenchText& text, BenchRun& run) {
   auto chosen = must(choose_named(benches, text.names, "bench"));
   constexpr std::size_t most = 200'000;
-  const auto humans = parse_count(text.humans, 1, most);
-  if (!humans) throw Stopped(fmt::format("--humans '{}' must be a whole number from 1 to {}", text.humans, most));
-  run.humans = *humans;
+  const auto people = parse_count(text.people, 1, most);
+  if (!people) throw Stopped(fmt::format("--people '{}' must be a whole number from 1 to {}", text.people, most));
+  run.people = *people;
   run.quick = text.quick;
   if (text.json) must(check_result_place("--json", *text.json));
   if (started_as_rank() && (chosen.size() != 1 || chosen.front().run != &bench_cluster))
@@ -99,7 +99,7 @@ std::string to_json(const BenchRun& run) {
   json["machine"] = machine_json(m);
   json["machine"].update(
       {{"l1_bytes", m.l1_bytes}, {"l2_bytes", m.l2_bytes}, {"l3_bytes", m.l3_bytes}, {"clock_ghz", m.clock_ghz}});
-  json["crowd"] = {{"humans", run.humans}, {"seed", BenchCrowd::seed}};
+  json["crowd"] = {{"people", run.people}, {"seed", BenchCrowd::seed}};
   auto& results = json["results"] = Json::array();
   for (const BenchResult& r : run.results) {
     auto& told = results.push_back(entry(r.name, r.value, r.unit));
@@ -134,11 +134,11 @@ int bench(const BenchText& text) {
 }  // namespace
 
 BenchCrowd* BenchRun::crowd() {
-  return made_once(crowd_, humans);
+  return made_once(crowd_, people);
 }
 
 BenchCrowd* BenchRun::small_crowd() {
-  if (humans <= small_crowd_size) return nullptr;
+  if (people <= small_crowd_size) return nullptr;
   return made_once(small_crowd_, small_crowd_size);
 }
 
@@ -180,17 +180,17 @@ Subcommand bench_command() {
       "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the\n"
       "least time that the thread had a processor; well below the best, other programs were at work. Of peak, of\n"
       "memory: operations and bytes in the best time, over what one core does at most; above 100 % the caches serve.\n"
-      "crowd: people with eight muscles along 12 vectors, nobody looking; a tenth as many as --humans, as many, ten\n"
-      "times as many (200000 at most). Its names: crowd.N.us_per_human_tick, crowd.N.compact.us_per_human_tick,\n"
+      "crowd: people with eight muscles along 12 modes, nobody looking; a tenth as many as --people, as many, ten\n"
+      "times as many (200000 at most). Its names: crowd.N.us_per_person_tick, crowd.N.compact.us_per_person_tick,\n"
       "crowd.large_over_small, crowd.compact.large_over_small, crowd.us_per_spawn.\n"
       "threads: the crowd by 1, 2, 4, … threads, and a model of more; its names: threads.unseen.N.speedup,\n"
       "threads.unseen.N.speedup_predicted, threads.unseen.N.fork_us, threads.unseen.serial_share, threads.compact.….\n"
-      "cluster: messages between ranks, ticks with and without exchange, and a model of more ranks; --humans on each.\n"
+      "cluster: messages between ranks, ticks with and without exchange, and a model of more ranks; --people on each.\n"
       "It measures two threads, or what mpirun starts: mpirun -n 2 mobil bench cluster.\n"
-      "Example: mobil bench gait kinematics --humans 2000 --json bench.json";
+      "Example: mobil bench gait kinematics --people 2000 --json bench.json";
   command.options = {
       named_option(benches, text->names, "measure"),
-      {"--humans", &text->humans, "How many walk, 1 to 200000, all different"},
+      {"--people", &text->people, "How many walk, 1 to 200000, all different"},
       {"--quick", &text->quick, "One short round of fem, paper_figures and crowd: all figures, but not to be quoted"},
       {"--json", &text->json, "File for the figures"}};
   command.run = [text] { return bench(*text); };

@@ -19,7 +19,7 @@ namespace mobil {
 
 class BenchCrowd;  // demo/lab/bench/bench_crowd.h
 
-inline constexpr std::size_t muscles_a_human = 8;
+inline constexpr std::size_t muscles_a_person = 8;
 
 /// One figure; `value` is the best of the repeats (of a rate the highest, of a time the least), in `unit`.
 struct BenchResult {
@@ -32,7 +32,7 @@ struct BenchResult {
 };
 
 struct BenchRun {
-  std::size_t humans = 10000;
+  std::size_t people = 10000;
   bool quick = false;  // one short round where there would be many; so far of the finite-element benches
   Machine machine;
   std::vector<BenchResult> results;
@@ -69,10 +69,10 @@ void bench_avoidance(BenchRun& run);
 void bench_table1(BenchRun& run);
 void bench_fem(BenchRun& run);
 void bench_fem_implicit(BenchRun& run);  // the part of bench_fem by CAA, ICD and static on 81 nodes
-void bench_reduced(BenchRun& run);
+void bench_modal(BenchRun& run);
 void bench_paper_figures(BenchRun& run);
 void bench_threads(BenchRun& run);
-void bench_relevance(BenchRun& run);
+void bench_lod(BenchRun& run);
 void bench_cluster(BenchRun& run);
 void bench_crowds(BenchRun& run);
 

@@ -11,22 +11,22 @@
 #include <mobil/assets/muscles/muscle_plan.h>
 #include <mobil/engine/access.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "assets/finite/shape_tables.h"
-#include "assets/reduction/reduced_rows.h"
+#include "assets/reduction/modal_rows.h"
 #include "demo/lab/bench/bench.h"
 #include "demo/lab/bench/bench_crowd.h"
 #include "systems/activation/excitation.h"
 #include "systems/activation/musculotendon.h"
 #include "systems/deformation/finite_shape.h"
-#include "systems/deformation/reduced.h"
+#include "systems/deformation/modal.h"
 #include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 
 namespace mobil {
 namespace {
 
-constexpr std::size_t most_blocks = 256;  // of sixteen muscles; in a quarter of a megabyte
+constexpr std::size_t max_blocks = 256;  // of sixteen muscles; in a quarter of a megabyte
 
 /// Sixteen muscles of one member.
 struct PullBlock {
@@ -64,20 +64,20 @@ void bench_shape(BenchRun& run) {
 /// Twelve motions of bellies that vibrate, and what it takes more that tension stiffens them.
 void bench_tuned(BenchRun& run) {
   const Muscle muscle = *find_muscle("gastrocnemius_medial");
-  const auto basis = must(make_reduced_basis(finite_mesh(muscle, {4, 4, 16}), Material{}, Element::full, {}));
+  const auto basis = must(make_modal_basis(finite_mesh(muscle, {4, 4, 16}), Material{}, Element::full, {}));
   constexpr float tick_s = 1.0F / 60;
   constexpr std::size_t blocks = 64;  // in a quarter of a megabyte
   BellyScale<Lanes<float>> scale;
   set_all(scale.across, 1), set_all(scale.along, 1);
-  const std::size_t motion = reduced_motion_width(basis.vectors, basis.inputs);
-  const std::size_t state = reduced_state_width(basis.vectors);
+  const std::size_t motion = modal_motion_width(basis.modes, basis.inputs);
+  const std::size_t state = modal_state_width(basis.modes);
   EndDrive<Lanes<float>> end;
   set_all(end.from, 0), set_all(end.to, 1e-3);
   Lanes<float> activation;
   set_all(activation, 0.3);
   std::array<double, 2> us{};
   for (const bool tuned : {false, true}) {
-    ReducedBellies bellies;
+    ModalBellies bellies;
     bellies.tuned = tuned;
     const std::vector<BellyScale<float>> bodies(lane_count, {1, 1});
     must(solve_bellies(basis, bodies, bellies));
@@ -86,11 +86,11 @@ void bench_tuned(BenchRun& run) {
     const Measured moving = measure_short([&] {
       std::swap(end.from, end.to);
       for (std::size_t b = 0; b < blocks; ++b) {
-        const ReducedBlock block{basis, scale, states[b * state].lane, motions[b * motion].lane};
+        const ModalBlock block{basis, scale, states[b * state].lane, motions[b * motion].lane};
         if (tuned) {
           deform_tuned(block, {FarEnd::held, end}, activation, tick_s);
         } else {
-          deform_reduced(block, {FarEnd::held, end}, tick_s);
+          deform_modal(block, {FarEnd::held, end}, tick_s);
         }
       }
     });
@@ -102,7 +102,7 @@ void bench_tuned(BenchRun& run) {
                  "of twelve motions; " + at_peak(run.machine, 1e-6 * (us[1] - us[0])));
 }
 
-constexpr std::size_t most_people = 256;  // their muscles' lines and legs take half a megabyte
+constexpr std::size_t max_people = 256;  // their muscles' lines and legs take half a megabyte
 
 /// Sixteen muscles of one group: both legs of eight people.
 struct LineBlock {
@@ -129,7 +129,7 @@ std::vector<LineBlock> make_blocks(BenchCrowd& crowd) {
       for (std::size_t l = 0; l < lane_count; ++l) {
         block.owner[l] = people[std::min(first + l / 2, people.size() - 1)];
         const auto plan =
-            must(make_muscle_plan(crowd.simulation().human(block.owner[l])->body, static_cast<Muscle>(g)));
+            must(make_muscle_plan(crowd.simulation().person(block.owner[l])->body, static_cast<Muscle>(g)));
         block.scale.thigh[l] = plan.leg_scale.thigh;
         block.scale.shank[l] = plan.leg_scale.shank;
         block.scale.across[l] = plan.leg_scale.across;
@@ -149,7 +149,7 @@ void bench_activation(BenchRun& run) {
   const MemberPlan plan = make_muscle_plan(*make_body({}), muscle)->member[0];
   const RowExcitation row = row_excitation(muscle);
   constexpr float weight = 1, tick_s = 1.0F / 60;
-  std::vector<PullBlock> blocks(std::min(most_blocks, run.humans));
+  std::vector<PullBlock> blocks(std::min(max_blocks, run.people));
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     PullBlock& block = blocks[b];
     set_all(block.design.fibre_m, plan.fibre_m), set_all(block.design.tendon_m, plan.tendon_m);
@@ -186,7 +186,7 @@ void bench_activation(BenchRun& run) {
 }
 
 void bench_lines(BenchRun& run) {
-  BenchCrowd crowd(std::min(most_people, run.humans));
+  BenchCrowd crowd(std::min(max_people, run.people));
   crowd.simulation().advance(0.2);
   auto blocks = make_blocks(crowd);
   std::array<MuscleLines, muscle_group_count> lines;

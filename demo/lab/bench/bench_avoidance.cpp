@@ -82,7 +82,7 @@ class FlowScene {
     if (now % 6 == 0) {
       for (std::size_t i = 0; i < people_.size(); ++i)
         wishes_[i] = {people_[i].entity, people_[i].speed_m_s, heading(people_[i])};
-      avoidance_.want(wishes_);
+      avoidance_.set_desired_velocity(wishes_);
     }
     simulation_.tick();
     simulation_.roots(entities_, roots_);
@@ -103,7 +103,7 @@ class FlowScene {
     double stands_s = 0;
     std::uint32_t came_in = 0;
     bool clear = true;  // of everybody, some time after they came in
-    Course<float> course{};
+    AvoidanceState<float> course{};
     double faces_rad = 0;
   };
 
@@ -220,7 +220,7 @@ class FlowScene {
     constexpr std::uint32_t settled = 300;
     constexpr double counts_m = 0.05;
     for (std::size_t i = 0; i < people_.size(); ++i) {
-      people_[i].course = *simulation_.get<Course>(people_[i].entity);
+      people_[i].course = *simulation_.get<AvoidanceState>(people_[i].entity);
       people_[i].faces_rad = double{roots_[i].heading_rad};
     }
     for (Person& one : people_) {
@@ -253,7 +253,7 @@ class FlowScene {
   std::vector<Person> people_;
   std::vector<Entity> entities_;
   std::vector<Root> roots_;
-  std::vector<WalkWish> wishes_;
+  std::vector<DesiredVelocity> wishes_;
 };
 
 void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a_m2, int full_s = 90,
@@ -277,7 +277,7 @@ void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a
                  fmt::format("of trunks, the most; {:.2f} % of people overlap by more than 5 cm, shoulders counted",
                              100 * scene.near / std::max(scene.looks, 1.0)));
   run.add_figure(name + ".shoulders_cm", 100 * scene.shoulders_m, "cm", "of shoulders as they are turned, the most");
-  run.add_figure(name + ".us_per_human_tick", 1e6 * scene.choosing_s / (60 * scene.person_s), "us", "choosing steps");
+  run.add_figure(name + ".us_per_person_tick", 1e6 * scene.choosing_s / (60 * scene.person_s), "us", "choosing steps");
 }
 
 }  // namespace

@@ -234,14 +234,14 @@ void bench_cluster(BenchRun& run) {
   if (started_as_rank()) {
     auto transport = must(mpi_transport());
     Ranks ranks(*transport);
-    const std::size_t people = run.humans * static_cast<std::size_t>(ranks.count());
+    const std::size_t people = run.people * static_cast<std::size_t>(ranks.count());
     must(ranks.agree(measure_rank(ranks, people, rounds, times)));
     if (ranks.first()) tell(run, times, people, ranks.count(), true);
     return;
   }
   constexpr int threads = 2;
   LocalRanks local(threads);
-  const std::size_t people = run.humans * threads;
+  const std::size_t people = run.people * threads;
   Result<void> own, others;
   std::thread other([&] {
     ClusterTimes unused;

@@ -12,16 +12,16 @@
 namespace mobil {
 namespace {
 
-constexpr double least_cpu_s = 20e-6;  // asking a thread for its time on a processor takes about 0.5 us
+constexpr double min_cpu_s = 20e-6;    // asking a thread for its time on a processor takes about 0.5 us
 constexpr double settling_s = 2;       // until nobody steps in time with anybody else
 
 }  // namespace
 
-BenchCrowd::BenchCrowd(std::size_t humans) {
-  ProgressBar progress("spawning", humans);
+BenchCrowd::BenchCrowd(std::size_t people) {
+  ProgressBar progress("spawning", people);
   std::vector<double> wall;
   double wall_s = 0, cpu_s = 0;
-  for (std::size_t i = 0; i < humans; ++i) {
+  for (std::size_t i = 0; i < people; ++i) {
     std::uint8_t draw = 0;
     const auto person = must(crowd_walker(seed, i, draw));
     const double wall_start = wall_now_s(), cpu_start = thread_cpu_now_s();
@@ -35,7 +35,7 @@ BenchCrowd::BenchCrowd(std::size_t humans) {
     drawn_again_ += draw;
     progress.at(i + 1);
   }
-  const auto count = static_cast<double>(humans);
+  const auto count = static_cast<double>(people);
   spawn_ = {wall_s / count, median(wall), cpu_s / count};
 }
 
@@ -73,7 +73,7 @@ const std::map<std::string, Measured, std::less<>>& BenchCrowd::steady_ticks() {
     if (table_of(system) == nullptr) continue;
     const double cpu_s = std::ranges::min(cpu[s]);
     steady_[system.name] = {std::ranges::min(wall[s]), median(wall[s]),
-                            cpu_s > least_cpu_s ? std::optional(cpu_s) : std::nullopt};
+                            cpu_s > min_cpu_s ? std::optional(cpu_s) : std::nullopt};
   }
   return steady_;
 }
@@ -89,7 +89,7 @@ std::vector<double> BenchCrowd::cpu_of(const std::function<void()>& work) {
   return seconds;
 }
 
-std::size_t BenchCrowd::bytes_per_human(std::string_view name) {
+std::size_t BenchCrowd::bytes_per_person(std::string_view name) {
   for (const System& system : simulation_.schedule().systems()) {
     if (system.name != name) continue;
     const Table* table = table_of(system);
@@ -97,7 +97,7 @@ std::size_t BenchCrowd::bytes_per_human(std::string_view name) {
     std::size_t words = 0;
     for (const Access& access : system.accesses) {
       if (access.mode != Access::Mode::read && access.mode != Access::Mode::write) continue;
-      const KeyPart* part = find_part(table->key(), access.id);
+      const ComponentId* part = find_component(table->key(), access.id);
       if (part != nullptr) words += part->value;
     }
     return 4 * words;

@@ -25,7 +25,7 @@ class BenchCrowd {
 
   /// Spawns one after the other, with a bar on a terminal; who cannot walk as drawn is drawn again. Throws Stopped
   /// with the last refusal when twenty draws in a row were refused.
-  explicit BenchCrowd(std::size_t humans);
+  explicit BenchCrowd(std::size_t people);
   BenchCrowd(const BenchCrowd&) = delete;
   BenchCrowd& operator=(const BenchCrowd&) = delete;
 
@@ -37,9 +37,9 @@ class BenchCrowd {
 
   /// Each system's time for one steady tick over the whole crowd, by name; measured when first asked for.
   const std::map<std::string, Measured, std::less<>>& steady_ticks();
-  /// Bytes that a system reads and bytes that it writes for one human and tick, as its signature says, each once; 0 for
-  /// a system that is not there or has nobody to work on.
-  std::size_t bytes_per_human(std::string_view system);
+  /// Bytes that a system reads and bytes that it writes for one person and tick, as its signature says, each once; 0
+  /// for a system that is not there or has nobody to work on.
+  std::size_t bytes_per_person(std::string_view system);
 
   /// Seconds that each system, in the order of the schedule, had a processor for while `work` ran. Resets the
   /// schedule's timings.

@@ -158,10 +158,10 @@ void add_rivals(BenchRun& run, const MuscleTemplate& muscle, const Comparison& f
     run.notes.push_back(
         fmt::format("mobil_rivals {}: {}{}", name, theirs->check, theirs->holds ? "" : ", TOO FAR OFF"));
   };
-  add("eigen", "fem.ecd81.ratio_to_eigen", shared_us, false);
-  add("eigen_batched", "fem.ecd81.ratio_to_eigen_batched", shared_us, false);
-  add("eigen_individual", "fem.ecd81.individual.ratio_to_eigen", individual_us, false);
-  add("bullet", "fem.ecd81.ratio_to_bullet", shared_us, true);
+  add("eigen", "fem.explicit81.ratio_to_eigen", shared_us, false);
+  add("eigen_batched", "fem.explicit81.ratio_to_eigen_batched", shared_us, false);
+  add("eigen_individual", "fem.explicit81.individual.ratio_to_eigen", individual_us, false);
+  add("bullet", "fem.explicit81.ratio_to_bullet", shared_us, true);
   const float ours_m = far_face_after_check(muscle);
   const double theirs_m = found.rivals.find("eigen")->far_z_m;
   run.notes.push_back(fmt::format(
@@ -170,7 +170,8 @@ void add_rivals(BenchRun& run, const MuscleTemplate& muscle, const Comparison& f
       static_cast<double>(ours_m) * 1e3, theirs_m * 1e3, std::abs(static_cast<double>(ours_m) / theirs_m - 1)));
   if (found.rivals.find("bullet") == nullptr) {
     run.notes.emplace_back(
-        "fem.ecd81.ratio_to_bullet: mobil_rivals was built without Bullet; install libbullet-dev, configure and build "
+        "fem.explicit81.ratio_to_bullet: mobil_rivals was built without Bullet; install libbullet-dev, configure and "
+        "build "
         "again");
   }
 }
@@ -272,13 +273,13 @@ void bench_fem(BenchRun& run) {
   const bool with_rivals = rivals_found();
   if (!with_rivals) {
     run.notes.emplace_back(
-        "fem.ecd81.ratio_to_*: mobil_rivals is not beside this program; build the CMake target mobil_rivals");
+        "fem.explicit81.ratio_to_*: mobil_rivals is not beside this program; build the CMake target mobil_rivals");
   }
   const auto found = compare(run, muscle, with_rivals);
   const Measured shared = found.shared.all(), individual = found.individual.all();
-  add_step_time(run, "fem.ecd81.shared", shared, cells);
-  add_step_time(run, "fem.ecd81.individual", individual, cells);
-  run.add_figure("fem.ecd81.individual_over_shared", individual.best_s / shared.best_s, "1",
+  add_step_time(run, "fem.explicit81.shared", shared, cells);
+  add_step_time(run, "fem.explicit81.individual", individual, cells);
+  run.add_figure("fem.explicit81.individual_over_shared", individual.best_s / shared.best_s, "1",
                  "everybody's own length and section against one stiffness for all");
   if (with_rivals) add_rivals(run, muscle, found);
   bench_two_threads(run, muscle);

@@ -36,7 +36,7 @@ BenchBellies::BenchBellies(const MuscleTemplate& muscle, Stiffness stiffness, st
     : muscle_(muscle), stiffness_(stiffness), blocks_(blocks) {
   const std::size_t width = nodal_width(muscle.mesh.cells);
   std::size_t scratch = 0;
-  for (const Method method : {Method::statics, Method::ecd, Method::icd, Method::caa}) {
+  for (const Method method : {Method::statics, Method::explicit_central, Method::implicit_central, Method::newmark}) {
     scratch = std::max(scratch, scratch_floats(muscle, method) / lane_count);
   }
   std::size_t i = 0;

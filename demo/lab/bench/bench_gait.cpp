@@ -27,8 +27,8 @@ std::optional<std::uint64_t> rows_of(const T* timing) {
   return std::nullopt;
 }
 
-/// Adds what one system takes for a human and tick in the crowd, and in the small crowd beside it. `bytes`: what it
-/// must move for one human.
+/// Adds what one system takes for a person and tick in the crowd, and in the small crowd beside it. `bytes`: what it
+/// must move for one person.
 void add_system(BenchRun& run, std::string_view system, const std::string& name, double bytes) {
   const auto crowd = run.crowd();
   const auto small = run.small_crowd();
@@ -38,11 +38,11 @@ void add_system(BenchRun& run, std::string_view system, const std::string& name,
     run.notes.push_back(fmt::format("{}: not measured, as there is no system '{}' that has people", name, system));
     return;
   }
-  const double per_human_s = time->second.best_s / static_cast<double>(crowd->size());
+  const double per_person_s = time->second.best_s / static_cast<double>(crowd->size());
   BenchResult& large =
-      run.add_time(name + ".us_per_human_tick", time->second, static_cast<double>(crowd->size()), 1e-6, "us");
-  large.of_bandwidth = bytes / per_human_s * 1e-9 / run.machine.bandwidth_gbps;
-  large.bound = fmt::format("{:.0f} bytes a human", bytes);
+      run.add_time(name + ".us_per_person_tick", time->second, static_cast<double>(crowd->size()), 1e-6, "us");
+  large.of_bandwidth = bytes / per_person_s * 1e-9 / run.machine.bandwidth_gbps;
+  large.bound = fmt::format("{:.0f} bytes a person", bytes);
   if (small == nullptr) return;
 
   const auto& small_times = small->steady_ticks();
@@ -50,10 +50,10 @@ void add_system(BenchRun& run, std::string_view system, const std::string& name,
   if (small_time == small_times.end()) return;
   const Measured& in_cache = small_time->second;
   const auto people = static_cast<double>(small->size());
-  const double ratio = per_human_s / (in_cache.best_s / people);
+  const double ratio = per_person_s / (in_cache.best_s / people);
   large.bound += ratio > 1.25 ? fmt::format("; memory: {:.1f} times the small crowd's", ratio)
                               : std::string("; instructions: no dearer than the small crowd's");
-  run.add_time(name + ".small_crowd.us_per_human_tick", in_cache, people, 1e-6, "us").bound =
+  run.add_time(name + ".small_crowd.us_per_person_tick", in_cache, people, 1e-6, "us").bound =
       at_peak(run.machine, in_cache.best_s / people);
 }
 
@@ -101,7 +101,7 @@ void add_poses(BenchRun& run, BenchCrowd& crowd, const std::string& name) {
     const Measured time = measure_short(
         [&] { done = writer.write(world, crowd.people(), ahead_s, {}, {std::as_writable_bytes(std::span(out))}); });
     must(done);
-    run.add_time(name + (between ? ".between_ticks.us_per_human" : ".us_per_human"), time,
+    run.add_time(name + (between ? ".between_ticks.us_per_person" : ".us_per_person"), time,
                  static_cast<double>(crowd.size()), 1e-6, "us")
         .bound = "48 places and quaternions in a host's memory";
   }
@@ -124,8 +124,8 @@ constexpr double frame_s = 0.04;
 /// Spawns the person of the table and walks until so many steps are done; returns the frames that took.
 int walk_steps(int steps) {
   Simulation simulation({.tick_s = frame_s});
-  const auto human = must(simulation.spawn({.height_m = 1.80F, .mass_kg = 80.0F}, {.speed_m_s = 5.0F / 3.6F}));
-  const double duration = simulation.get<StepPlan>(human)->duration_s;
+  const auto person = must(simulation.spawn({.height_m = 1.80F, .mass_kg = 80.0F}, {.speed_m_s = 5.0F / 3.6F}));
+  const double duration = simulation.get<StepPlan>(person)->duration_s;
   const int frames = static_cast<int>(std::floor(steps * duration / frame_s));
   for (int i = 0; i < frames; ++i) simulation.tick();
   return frames;
@@ -150,7 +150,7 @@ void bench_gait(BenchRun& run) {
 
 void bench_kinematics(BenchRun& run) {
   const auto crowd = run.crowd();
-  const auto bytes = [&](std::string_view system) { return static_cast<double>(crowd->bytes_per_human(system)); };
+  const auto bytes = [&](std::string_view system) { return static_cast<double>(crowd->bytes_per_person(system)); };
   add_system(run, "kinematics", "kinematics", bytes("kinematics"));
   add_system(run, "centre of mass", "centre_of_mass", bytes("centre of mass"));
   add_poses(run, *crowd, "poses");

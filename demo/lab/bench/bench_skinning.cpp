@@ -13,13 +13,13 @@
 #include <mobil/skin_tables.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "demo/lab/bench/bench.h"
 
 namespace mobil {
 namespace {
 
-// A muscle's vertex: eight nodes' weighted mean (45), its place in the cage (3), maps of frame and two bones (54),
+// A muscle's vertex: eight nodes' weighted mean (45), its place in the lattice (3), maps of frame and two bones (54),
 // their weighted sum (15), its side (1); its six neighbours' differences (12) and two products (21), its length (8;
 // root and quotient count as one each), and by that (3).
 constexpr double muscle_flops = 45 + 3 + 54 + 15 + 1 + 12 + 21 + 8 + 3;
@@ -29,7 +29,7 @@ constexpr double tangent_flops = 36 + 11 + 8 + 3;
 constexpr double bone_flops = 18 + 15;  // rotated, and the position shifted
 
 /// A person and the vertices that they are drawn with.
-struct Person {
+struct DrawnPerson {
   Entity entity;
   std::vector<SurfaceMuscle> muscles;
   const BodySurfaces* surfaces = nullptr;
@@ -38,13 +38,13 @@ struct Person {
 struct Scene {
   Simulation simulation;
   std::deque<BodySurfaces> surfaces;
-  std::vector<Person> people;
+  std::vector<DrawnPerson> people;
   double vertices = 0;     // of everybody
   double bound_bytes = 0;  // that a vertex is made from, in the mean
 };
 
 double bytes_of(const PackedSurface& s) {
-  return static_cast<double>(s.node.size() * sizeof(s.node[0]) + s.cage.size() * sizeof(CageBlock) +
+  return static_cast<double>(s.node.size() * sizeof(s.node[0]) + s.lattice.size() * sizeof(LatticeBlock) +
                              s.bone.size() * sizeof(BoneBlock) + s.rings.vertex.size() * sizeof(PlacedRing) +
                              s.along.size() * sizeof(PlacedAlong));
 }
@@ -65,16 +65,16 @@ void gather(Scene& scene, std::size_t count, bool shared, const SurfaceChoice& c
   for (std::size_t i = 0; i < count; ++i) {
     const auto entity = must(scene.simulation.spawn({}));
     must(scene.simulation.set_muscles(entity));
-    const Human human = *scene.simulation.human(entity);
+    const Person person = *scene.simulation.person(entity);
     if (i == 0) {
-      scene.surfaces.push_back(must(bind_surfaces(human.body, choice)));
+      scene.surfaces.push_back(must(bind_surfaces(person.body, choice)));
     } else if (!shared) {
       scene.surfaces.push_back(BodySurfaces(scene.surfaces.front()));
     }
-    Person person{entity, {}, &scene.surfaces.back()};
-    for (const HumanMuscle& own : human.muscles) person.muscles.push_back({own.plan.muscle, own.entity});
-    scene.vertices += person.surfaces->vertices;
-    scene.people.push_back(std::move(person));
+    DrawnPerson drawn{entity, {}, &scene.surfaces.back()};
+    for (const PersonMuscle& own : person.muscles) drawn.muscles.push_back({own.plan.muscle, own.entity});
+    scene.vertices += drawn.surfaces->vertices;
+    scene.people.push_back(std::move(drawn));
   }
   for (const BodySurfaces& surfaces : scene.surfaces) scene.bound_bytes += bytes_of(surfaces) / scene.vertices;
   scene.simulation.advance(0.2);
@@ -86,7 +86,7 @@ void time_writing(BenchRun& run, const std::string& name, const Scene& scene, st
   std::vector<std::byte> buffer(static_cast<std::size_t>(scene.vertices) * stride);
   std::span<std::byte> free = buffer;
   std::vector<SurfaceRequest> requests;
-  for (const Person& person : scene.people) {
+  for (const DrawnPerson& person : scene.people) {
     SurfaceRequest request{person.entity, person.muscles, person.surfaces};
     request.positions = {free.first(person.surfaces->vertices * stride), stride};
     if (stride >= 24) request.normals = {request.positions.bytes.subspan(12), stride};
@@ -139,10 +139,10 @@ void time_cover(BenchRun& run) {
   Simulation simulation;
   const auto entity = must(simulation.spawn({}));
   must(simulation.set_muscles(entity));
-  const Human human = *simulation.human(entity);
-  const auto bound = must(bind_surfaces(human.body, {.bones = false, .sides = {true, false}}));
+  const Person person = *simulation.person(entity);
+  const auto bound = must(bind_surfaces(person.body, {.bones = false, .sides = {true, false}}));
   std::vector<SurfaceMuscle> muscles;
-  for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+  for (const PersonMuscle& own : person.muscles) muscles.push_back({own.plan.muscle, own.entity});
   simulation.advance(0.2);
   std::vector<Vec3<float>> position(bound.vertices);
   SurfaceRequest request{entity, muscles, &bound};

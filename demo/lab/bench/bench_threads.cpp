@@ -32,12 +32,12 @@ struct BenchTick {
 
 constexpr int settling_ticks = 90;  // the second step shows that the third is like it
 
-/// Twelve vectors of the fine mesh, nobody looking.
-LegMuscles bench_reduced_muscles() {
+/// Twelve modes of the fine mesh, nobody looking.
+LegMuscles bench_modal_muscles() {
   LegMuscles choice;
-  choice.method = Method::reduced;
-  choice.reduced.control_points = false;
-  choice.reduced.reported = false;
+  choice.method = Method::modal;
+  choice.modal.control_points = false;
+  choice.modal.reported = false;
   return choice;
 }
 
@@ -52,16 +52,16 @@ class BenchScene {
 
   /// Until there are so many, the people of demo/scene/crowd_people.h, and until they walk steadily. Errors: what the
   /// simulation refuses.
-  void grow_to(std::size_t humans) {
+  void grow_to(std::size_t count) {
     constexpr std::size_t at_once = 1000;
     must(simulation_.muscle_library().prepare(choice_));
     std::vector<SpawnRequest> requests;
     std::vector<Entity> entities;
     double spent_s = 0;
     const std::size_t before = people_.size();
-    while (people_.size() < humans) {
+    while (people_.size() < count) {
       requests.clear();
-      while (requests.size() < std::min(at_once, humans - people_.size())) {
+      while (requests.size() < std::min(at_once, count - people_.size())) {
         std::uint8_t draw = 0;
         const auto person = must(crowd_walker(seed, drawn_++, draw));
         requests.push_back({.body = person.body, .gait = person.gait, .muscles = choice_});
@@ -87,7 +87,7 @@ class BenchScene {
   /// Seconds of processor time that the last people took to spawn, each.
   double spawn_s() const { return spawn_s_; }
   /// Bytes of the tables' rows, each.
-  double bytes_per_human() const {
+  double bytes_per_person() const {
     std::size_t bytes = 0;
     for (const Table& table : simulation_.world().tables())
       bytes += table.row_count() * (table.block_bytes() / lane_count);
@@ -251,37 +251,37 @@ void measure_scene(BenchRun& run, BenchScene& scene, const std::string& name) {
 }
 
 /// Few ticks where each is long.
-int ticks_for(const BenchRun& run, std::size_t humans) {
-  return run.quick ? 5 : static_cast<int>(std::clamp<std::size_t>(2'000'000 / humans, 20, 200));
+int ticks_for(const BenchRun& run, std::size_t count) {
+  return run.quick ? 5 : static_cast<int>(std::clamp<std::size_t>(2'000'000 / count, 20, 200));
 }
 
-/// Processor time of a human's tick by one thread, us.
+/// Processor time of a person's tick by one thread, us.
 double measure_cost(BenchRun& run, BenchScene& scene, const std::string& ending) {
   BenchTick tick;
   scene.measure(1, ticks_for(run, scene.size()), tick);
   BenchResult& result =
-      run.add_time(fmt::format("crowd.{}{}.us_per_human_tick", scene.size(), ending),
+      run.add_time(fmt::format("crowd.{}{}.us_per_person_tick", scene.size(), ending),
                    {tick.cpu_s, tick.cpu_median_s, tick.cpu_s}, static_cast<double>(scene.size()), 1e-6, "us");
   result.bound = fmt::format("processor time; the tick {:.2f} ms by the wall's clock, {:.0f} bytes of tables each",
-                             tick.wall_median_s * 1e3, scene.bytes_per_human());
+                             tick.wall_median_s * 1e3, scene.bytes_per_person());
   return result.value;
 }
 
 }  // namespace
 
 void bench_threads(BenchRun& run) {
-  BenchScene scene(bench_reduced_muscles());
-  scene.grow_to(run.humans);
+  BenchScene scene(bench_modal_muscles());
+  scene.grow_to(run.people);
   measure_scene(run, scene, "unseen");
   scene.compact();
   measure_scene(run, scene, "compact");
 }
 
 void bench_crowds(BenchRun& run) {
-  const std::array sizes = {std::max<std::size_t>(16, run.humans / 10), run.humans,
-                            std::min<std::size_t>(10 * run.humans, 200'000)};
+  const std::array sizes = {std::max<std::size_t>(16, run.people / 10), run.people,
+                            std::min<std::size_t>(10 * run.people, 200'000)};
   std::array<double, 3> whole_us{}, compact_us{};
-  BenchScene scene(bench_reduced_muscles());
+  BenchScene scene(bench_modal_muscles());
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     scene.grow_to(sizes[i]);
     whole_us[i] = measure_cost(run, scene, "");
@@ -291,7 +291,7 @@ void bench_crowds(BenchRun& run) {
   }
   run.add_figure("crowd.us_per_spawn", scene.spawn_s() * 1e6, "us",
                  "with eight muscles, a thousand at a time; processor time, what they share made before");
-  const std::string among = fmt::format("a human's cost among {} over that among {}", sizes[2], sizes[0]);
+  const std::string among = fmt::format("a person's cost among {} over that among {}", sizes[2], sizes[0]);
   run.add_figure("crowd.large_over_small", whole_us[2] / whole_us[0], "1", among);
   run.add_figure("crowd.compact.large_over_small", compact_us[2] / compact_us[0], "1", among + ", everybody compact");
 }

@@ -11,7 +11,7 @@ A document has the place of a table as two lines, and what stands between them i
 
 Columns are the machines of demo/lab/bench/figures, each a file or several. A row is a line of the tables below. The table of
 README.md has figures of several commands in sentences, those of the machine that measured all of them; errors and costs of
-ways to deform muscles are those of demo/gallery/living.csv and frontier.csv, an AMD EPYC's.
+ways to deform muscles are those of demo/gallery/active.csv and frontier.csv, an AMD EPYC's.
 """
 
 import argparse
@@ -34,8 +34,8 @@ TABLES = {
         ("memory, one core", "machine.bandwidth_gbps", ("GB/s", 1)),
     ],
     "people": [
-        ("a person's gait for a tick, in a crowd that fits in the caches", "gait.small_crowd.us_per_human_tick", US),
-        ("a person's pose for a tick, so too", "kinematics.small_crowd.us_per_human_tick", US),
+        ("a person's gait for a tick, in a crowd that fits in the caches", "gait.small_crowd.us_per_person_tick", US),
+        ("a person's pose for a tick, so too", "kinematics.small_crowd.us_per_person_tick", US),
         ("a step solved anew, when a walk changes", "gait.us_per_resolve", US),
         ("a muscle's line of action", "lines.us_per_muscle_tick", US),
         ("a vertex of muscle or bone, by its control points", "skinning.ns_per_vertex", NS),
@@ -60,7 +60,7 @@ TABLES = {
         ("worst overlap of shoulders one way, 2 people a m²", "avoidance.one_way_2.shoulders_cm", CM),
         ("both ways, 1, ten minutes", "avoidance.both_ways_1_long.shoulders_cm", CM),
         ("at the door", "avoidance.door.shoulders_cm", CM),
-        ("choosing, a person and tick, crossing, 1", "avoidance.crossing_1.us_per_human_tick", US),
+        ("choosing, a person and tick, crossing, 1", "avoidance.crossing_1.us_per_person_tick", US),
     ],
     "threads": [
         ("serial share of a tick", "threads.unseen.serial_share", PERCENT),
@@ -76,20 +76,20 @@ TABLES = {
         ("16, by the model at most", "threads.compact.16.speedup_predicted", TIMES),
     ],
     "muscles": [
-        ("a step of 81 nodes, explicit, one stiffness for all", "fem.ecd81.shared.us_per_step", US),
-        ("its share of the core's multiply-adds", "fem.ecd81.shared.peak_fraction", PERCENT),
-        ("the same, a stiffness for each", "fem.ecd81.individual.us_per_step", US),
-        ("Eigen's sparse product needs", "fem.ecd81.ratio_to_eigen", TIMES),
-        ("Eigen's, of sixteen muscles at once", "fem.ecd81.ratio_to_eigen_batched", TIMES),
-        ("Bullet's deformable body needs", "fem.ecd81.ratio_to_bullet", TIMES),
-        ("12 vectors of a finer mesh, a tick", "reduced.us_per_tick", US),
-        ("and their control points", "reduced.us_per_tick_with_control_points", US),
+        ("a step of 81 nodes, explicit, one stiffness for all", "fem.explicit81.shared.us_per_step", US),
+        ("its share of the core's multiply-adds", "fem.explicit81.shared.peak_fraction", PERCENT),
+        ("the same, a stiffness for each", "fem.explicit81.individual.us_per_step", US),
+        ("Eigen's sparse product needs", "fem.explicit81.ratio_to_eigen", TIMES),
+        ("Eigen's, of sixteen muscles at once", "fem.explicit81.ratio_to_eigen_batched", TIMES),
+        ("Bullet's deformable body needs", "fem.explicit81.ratio_to_bullet", TIMES),
+        ("12 modes of a finer mesh, a tick", "modal.us_per_tick", US),
+        ("and their control points", "modal.us_per_tick_with_control_points", US),
         ("two threads against one", "fem.threads2_speedup", TIMES),
     ],
 }
 
 # What is told, and two columns with figures as {name|how it is shown}.
-TUNED, PAPERS = "living.reduced-12, tuned, finite shape", "living.ecd, 81 nodes"
+TUNED, PAPERS = "active.modal-12, tuned, finite shape", "active.explicit-central, 81 nodes"
 SENTENCES = {
     "readme": [
         ("joint angles inside the band of measured walks, five speeds",
@@ -104,23 +104,23 @@ SENTENCES = {
          "{readme.pose_us|µs}; {walk.us_per_tick|µs} of one core",
          "`mobil bench`, `mobil walk`"),
         ("ten thousand people of eight muscles, the nearest 500 within 1 mm",
-         "{crowd.tick_ms_p50|ms} a tick, median, on {machine.cores|cores} of an {machine.cpu|text}", "`mobil crowd --humans 10000`"),
+         "{crowd.tick_ms_p50|ms} a tick, median, on {machine.cores|cores} of an {machine.cpu|text}", "`mobil crowd --people 10000`"),
     ],
     "frontier": [
-        ("the paper's choice: 81 nodes, explicit, 2 ms", "{line.ecd.81.2.error|.1%}", "{line.ecd.81.2.us|µs} a muscle and tick"),
-        ("its 525 nodes; its 3321", "{line.ecd.525.1.4.error|.1%}; {line.ecd.3321.0.7.error|.1%}",
-         "{line.ecd.525.1.4.us|µs}; {line.ecd.3321.0.7.us|µs}"),
-        ("8 vectors of 8×8×32 cells; with the 81 control points placed", "{line.reduced.2673.8.error|.1%}",
-         "1/{line.reduced.2673.8.ratio|.0f}; 1/{line.reduced.2673.8.ratio_points|.0f} of the paper's choice"),
-        ("12 vectors; with points", "{line.reduced.2673.12.error|.1%}",
-         "1/{line.reduced.2673.12.ratio|.0f}; 1/{line.reduced.2673.12.ratio_points|.0f}"),
-        ("24 vectors; with points", "{line.reduced.2673.24.error|.1%}",
-         "1/{line.reduced.2673.24.ratio|.0f}; 1/{line.reduced.2673.24.ratio_points|.0f}"),
-        ("12 vectors of 4×4×16 cells (made in a tenth of a second); 32", "{line.reduced.425.12.error|.1%}; {line.reduced.425.32.error|.1%}",
-         "1/{line.reduced.425.12.ratio|.0f}; 1/{line.reduced.425.32.ratio|.0f}"),
+        ("the paper's choice: 81 nodes, explicit, 2 ms", "{line.explicit-central.81.2.error|.1%}", "{line.explicit-central.81.2.us|µs} a muscle and tick"),
+        ("its 525 nodes; its 3321", "{line.explicit-central.525.1.4.error|.1%}; {line.explicit-central.3321.0.7.error|.1%}",
+         "{line.explicit-central.525.1.4.us|µs}; {line.explicit-central.3321.0.7.us|µs}"),
+        ("8 modes of 8×8×32 cells; with the 81 control points placed", "{line.modal.2673.8.error|.1%}",
+         "1/{line.modal.2673.8.ratio|.0f}; 1/{line.modal.2673.8.ratio_points|.0f} of the paper's choice"),
+        ("12 modes; with points", "{line.modal.2673.12.error|.1%}",
+         "1/{line.modal.2673.12.ratio|.0f}; 1/{line.modal.2673.12.ratio_points|.0f}"),
+        ("24 modes; with points", "{line.modal.2673.24.error|.1%}",
+         "1/{line.modal.2673.24.ratio|.0f}; 1/{line.modal.2673.24.ratio_points|.0f}"),
+        ("12 modes of 4×4×16 cells (made in a tenth of a second); 32", "{line.modal.425.12.error|.1%}; {line.modal.425.32.error|.1%}",
+         "1/{line.modal.425.12.ratio|.0f}; 1/{line.modal.425.32.ratio|.0f}"),
         ("static, 81 nodes: real walks jolt", "{line.static.81.16.7.error|%}", "{line.static.81.16.7.us|µs}"),
-        ("with gravity and the frame's motion (`--loads frame`): 12 vectors; the paper's choice",
-         "{frame.reduced.2673.12.error|.1%}; {frame.ecd.81.2.error|.1%}", "1/{frame.reduced.2673.12.ratio|.0f}; {frame.ecd.81.2.us|µs}"),
+        ("with gravity and the frame's motion (`--loads frame`): 12 modes; the paper's choice",
+         "{frame.modal.2673.12.error|.1%}; {frame.explicit-central.81.2.error|.1%}", "1/{frame.modal.2673.12.ratio|.0f}; {frame.explicit-central.81.2.us|µs}"),
     ],
 }
 HEADINGS = {"readme": "| | | |", "frontier": "| method | error | cost |"}
@@ -162,23 +162,23 @@ def machines(folder):
     return list(found.items())
 
 
-def living(file):
+def active(file):
     """Errors and costs of ways to deform muscles that pull, of all muscles together (mobil frontier --finite)."""
     if not file.exists():
         return {}
     with file.open() as lines:
         rows = [row for row in csv.DictReader(lines) if row["muscle"] == "all"]
-    return {f"living.{row['way']}.{name}": float(row[name]) for row in rows for name in ("all_off", "cost_us")}
+    return {f"active.{row['way']}.{name}": float(row[name]) for row in rows for name in ("all_off", "cost_us")}
 
 
 def frontier(file):
-    """The same of muscles that are drawn (mobil frontier --long): method, nodes, and milliseconds or vectors."""
+    """The same of muscles that are drawn (mobil frontier --long): method, nodes, and milliseconds or modes."""
     if not file.exists():
         return {}
     found = {}
     with file.open() as lines:
         for row in csv.DictReader(lines):
-            part = row["basis"] if row["method"].startswith("reduced") else f"{1e3 * float(row['dt_s']):.1f}".removesuffix(".0")
+            part = row["basis"] if row["method"].startswith("modal") else f"{1e3 * float(row['dt_s']):.1f}".removesuffix(".0")
             name = f"{row['loads']}.{row['method']}.{row['nodes']}.{part}"
             found |= {f"{name}.error": float(row["error_rel"]), f"{name}.us": float(row["cost_us_per_tick"]),
                       f"{name}.ratio": float(row["cost_ratio_to_paper"]),
@@ -234,7 +234,7 @@ def main():
     parser.add_argument("--check", action="store_true", help="change nothing; status 1 where a document differs")
     parser.add_argument("--root", type=pathlib.Path, default=here, help="the project's folder")
     asked = parser.parse_args()
-    errors = living(asked.root / "demo/gallery/living.csv") | frontier(asked.root / "demo/gallery/frontier.csv")
+    errors = active(asked.root / "demo/gallery/active.csv") | frontier(asked.root / "demo/gallery/frontier.csv")
     columns = [(heading, figures | errors) for heading, figures in machines(asked.root / "demo/lab/bench/figures")]
     if not columns:
         sys.exit("demo/lab/bench/figures has no file; mobil bench --json demo/lab/bench/figures/MACHINE.json writes one")

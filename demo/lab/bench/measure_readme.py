@@ -4,7 +4,7 @@
     demo/lab/bench/measure_readme.py build/release/mobil demo/lab/bench/figures/PROCESSOR.readme.json
     demo/lab/bench/make_tables.py
 
-Errors of ways to deform muscles come from demo/gallery/living.csv (mobil frontier --finite).
+Errors of ways to deform muscles come from demo/gallery/active.csv (mobil frontier --finite).
 """
 
 import json
@@ -53,7 +53,7 @@ def main():
             run(mobil, folder, "walk", "--seconds", "10", "--out", "walk")
             walks.append(read(folder / "walk/summary.json")["time"]["us_per_tick"])
         for _ in range(3):
-            run(mobil, folder, "crowd", "--humans", "10000", "--report", "crowd.json")
+            run(mobil, folder, "crowd", "--people", "10000", "--report", "crowd.json")
             crowds.append(read(folder / "crowd.json")["tick_ms_p50"])
         results += [
             ("walk.us_per_tick", statistics.median(walks), "us"),
@@ -62,7 +62,7 @@ def main():
         run(mobil, folder, "bench", "kinematics", "--json", "bench.json")
         bench = read(folder / "bench.json")
         results += [("readme.pose_us", row["value"], row["unit"]) for row in bench["results"]
-                    if row["name"] == "kinematics.small_crowd.us_per_human_tick"]
+                    if row["name"] == "kinematics.small_crowd.us_per_person_tick"]
     head = json.dumps({"machine": bench["machine"]}, indent=2)[:-2]
     rows = ",\n    ".join(json.dumps({"name": name, "value": value, "unit": unit}) for name, value, unit in results)
     out.write_text(f'{head},\n  "results": [\n    {rows}\n  ]\n}}\n')

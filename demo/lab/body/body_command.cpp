@@ -23,7 +23,7 @@
 #include <mobil/muscle_table.h>
 #include <mobil/png.h>
 #include <mobil/renderer.h>
-#include <mobil/systems/capture/image.h>
+#include <mobil/systems/render/image.h>
 #include "assets/body/joint_limits.h"
 #include "assets/body/segment_inertia.h"
 #include "assets/muscles/muscle_architecture.h"
@@ -382,7 +382,7 @@ Subcommand body_command() {
   command.footer =
       "Height gives the lengths, mass the masses; both give the leg's muscles. Constitution and mesomorphy make\n"
       "muscles larger or smaller, endomorphy is fat, ectomorphy slenderness, which height and mass decide between\n"
-      "themselves: where a request contradicts itself, what gave way is said in a note. What no living body weighs at\n"
+      "themselves: where a request contradicts itself, what gave way is said in a note. What no active body weighs at\n"
       "that height is refused.\n"
       "body.json holds 48 segments (joint, length, mass, centre, inertia), the joints' limits and the leg's muscles\n"
       "(attachments, belly, fibres, pennation, tendon, section, volume), each with its source; body.png shows the\n"

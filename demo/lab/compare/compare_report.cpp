@@ -30,8 +30,7 @@ std::string short_name(const MeasuredSet& set) {
   return set.name.substr(0, set.name.find(' '));
 }
 
-std::string angle_line(const GaitReference& reference, const CurveFinding& finding, double rms_bound,
-                       double most_rate) {
+std::string angle_line(const GaitReference& reference, const CurveFinding& finding, double rms_bound, double max_rate) {
   std::string line =
       fmt::format("{:>4.0f} %{} {:>5.1f}{} ", 100 * finding.inside_union, finding.inside_union >= 0.9 ? ' ' : '!',
                   finding.rms_nearer_set, finding.rms_nearer_set <= rms_bound ? ' ' : '!');
@@ -40,7 +39,7 @@ std::string angle_line(const GaitReference& reference, const CurveFinding& findi
     peaks.push_back(fmt::format("{:+.1f}{}", peak.timing_outside, std::abs(peak.timing_outside) <= 3 ? ' ' : '!'));
   }
   line += fmt::format(" {:<14} {:>4.2f}{}", fmt::format("{}", fmt::join(peaks, " ")), finding.rate_ratio,
-                      finding.rate_ratio <= most_rate ? ' ' : '!');
+                      finding.rate_ratio <= max_rate ? ' ' : '!');
   for (std::size_t i = 0; i < finding.set.size(); ++i) {
     alone.push_back(fmt::format("{} {:.0f} % {:.1f}", short_name(reference.sets[finding.set[i]]),
                                 100 * finding.inside[i], finding.rms[i]));

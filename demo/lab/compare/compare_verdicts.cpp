@@ -21,7 +21,7 @@ constexpr PeakWindow knee_moment_peaks[] = {{"extensor", true, 6, 30}};
 constexpr PeakWindow ankle_moment_peaks[] = {{"plantarflexor", true, 30, 60}};
 
 /// Peaks near zero are not judged by their ratio: N m/kg.
-constexpr double least_moment_peak = 0.2;
+constexpr double min_moment_peak = 0.2;
 
 constexpr std::array<std::span<const PeakWindow>, gait_quantity_count> peak_windows = {
     hip_peaks,      knee_peaks,       ankle_peaks,       vertical_peaks,
@@ -163,7 +163,7 @@ void judge_steps(const GaitReference& reference, const std::vector<VariedWalk>& 
 
 /// The least drop from one walk to the next of what `height` reads; positive where all go down.
 template <class Height>
-double least_drop(const std::vector<VariedWalk>& walks, Height height) {
+double min_drop(const std::vector<VariedWalk>& walks, Height height) {
   double least = walks.size() < 2 ? 0 : INFINITY;
   for (std::size_t i = 1; i < walks.size(); ++i) {
     least = std::min(least, height(walks[i - 1].stride) - height(walks[i].stride));
@@ -207,7 +207,7 @@ std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReferenc
   finding.best_correlation = std::ranges::max(finding.correlation);
   const auto own = static_cast<std::size_t>(std::ranges::find(finding.set, walk.set) - finding.set.begin());
   finding.rate_ratio = fastest_change(*pairs[own].ours) / fastest;
-  const double least = is_moment(quantity) ? least_moment_peak : 0;
+  const double least = is_moment(quantity) ? min_moment_peak : 0;
   for (const auto& window : peaks_of(quantity)) finding.peaks.push_back(examine_peak(pairs, own, window, scale, least));
   return finding;
 }
@@ -264,11 +264,11 @@ std::vector<Verdict> judge(const Comparison& comparison) {
   const auto highest = [](const WalkedStride& stride) { return stride.com_highest_m; };
   const auto mean = [](const WalkedStride& stride) { return stride.com_mean_m; };
   verdicts.at_least("longer steps: least drop of the centre of mass's lowest point",
-                    least_drop(comparison.by_step_length, lowest), 0.1, "mm");
+                    min_drop(comparison.by_step_length, lowest), 0.1, "mm");
   verdicts.at_least("65, 80, 120 kg: least drop of the centre of mass's mean height",
-                    least_drop(comparison.by_mass, mean), 0.1, "mm");
+                    min_drop(comparison.by_mass, mean), 0.1, "mm");
   verdicts.at_least("65, 80, 120 kg: least drop of the centre of mass's highest point",
-                    least_drop(comparison.by_mass, highest), 0.1, "mm");
+                    min_drop(comparison.by_mass, highest), 0.1, "mm");
   return std::move(verdicts.all);
 }
 

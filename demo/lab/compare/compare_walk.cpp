@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <mobil/engine/geometry.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "assets/body/segment_inertia.h"
 #include "demo/program/must.h"
 
@@ -63,7 +63,7 @@ UnbalancedMoment walk_scene(const BodyRequest& body, GaitStyle style, const Scen
   };
   const auto person = must(simulation.spawn(body, asked(scene.requests.front())));
   simulation.enable(person, Feature::forces);
-  BalanceMeter meter(simulation.human(person)->body);
+  BalanceMeter meter(simulation.person(person)->body);
   std::size_t next = 1;
   while (simulation.time_s() < scene.seconds) {
     if (next < scene.requests.size() && simulation.time_s() >= scene.requests[next].after_s) {
@@ -137,14 +137,14 @@ StrideForces sample_forces(const TickRows& rows) {
           sample(rows.knee_moment), sample(rows.ankle_moment), mean(within)};
 }
 
-WalkedStride sample_stride(const Human& human, const TickRows& rows, bool with_forces) {
+WalkedStride sample_stride(const Person& person, const TickRows& rows, bool with_forces) {
   WalkedStride stride{};
-  stride.height_m = value(human.body.request.height_m);
-  stride.leg_m = value(human.body.hip_height_m);
-  stride.speed_m_s = value(human.gait.speed_m_s);
-  stride.step_length_m = value(human.gait.step_length_m);
-  stride.step_frequency_hz = value(human.gait.step_frequency_hz);
-  stride.double_support_cycle = value(human.gait.double_support_cycle);
+  stride.height_m = value(person.body.request.height_m);
+  stride.leg_m = value(person.body.hip_height_m);
+  stride.speed_m_s = value(person.gait.speed_m_s);
+  stride.step_length_m = value(person.gait.step_length_m);
+  stride.step_frequency_hz = value(person.gait.step_frequency_hz);
+  stride.double_support_cycle = value(person.gait.double_support_cycle);
   const auto sample = [&](const std::vector<double>& values) { return sample_cycle(rows.phase, values); };
   stride.hip_from_pelvis = sample(rows.hip);
   const CycleCurve tilt = sample(rows.tilt);
@@ -241,12 +241,12 @@ std::vector<BalancedScene> walk_balance_scenes(const BodyRequest& body, const Ga
   return walked;
 }
 
-void over_steady_cycle(Simulation& simulation, Entity human, const std::function<void(double)>& row) {
+void over_steady_cycle(Simulation& simulation, Entity person, const std::function<void(double)>& row) {
   int cycles = -settling_cycles;
   double last = 0;
   while (simulation.time_s() < longest_s) {
     simulation.tick();
-    const double phase = static_cast<double>(simulation.get<Feet>(human)->phase[Side::right]);
+    const double phase = static_cast<double>(simulation.get<Feet>(person)->phase[Side::right]);
     if (phase < last - 0.5) ++cycles;
     last = phase;
     const double total = cycles + phase;
@@ -309,7 +309,7 @@ WalkedStride walk_stride(const BodyRequest& body, const GaitRequest& gait) {
     with_forces = with_forces && add_forces(simulation, entity, static_cast<double>(body.mass_kg), rows);
     add_motion(simulation, entity, rows);
   });
-  return sample_stride(*simulation.human(entity), rows, with_forces);
+  return sample_stride(*simulation.person(entity), rows, with_forces);
 }
 
 }  // namespace mobil

@@ -58,7 +58,7 @@ std::vector<BalancedScene> walk_balance_scenes(const BodyRequest& body, const Ga
 /// Walks until steady, then through one more cycle of the right leg. After each tick of it `row` is told where in the
 /// cycle that leg is, in cycles from heel strike at 0 to the next at 1; from somewhat before to the first tick beyond
 /// 1.1. Error: a walk too slow to get there.
-void over_steady_cycle(Simulation& simulation, Entity human, const std::function<void(double)>& row);
+void over_steady_cycle(Simulation& simulation, Entity person, const std::function<void(double)>& row);
 
 /// Ground reaction of the right foot in body weights, moments of the right leg in N m/kg, over the right leg's cycle.
 struct StrideForces {

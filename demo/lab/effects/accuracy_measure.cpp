@@ -10,87 +10,87 @@
 #include <mobil/lod.h>
 #include <mobil/rows.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
-#include "assets/surfaces/muscle_cage.h"
+#include "assets/surfaces/muscle_lattice.h"
 #include "demo/program/must.h"
 #include "systems/bellies/belly_library.h"
-#include "systems/deformation/reduced.h"
+#include "systems/deformation/modal.h"
 
 namespace mobil {
 namespace {
 
 constexpr std::size_t classes = speed_class_m_s.size();
-constexpr std::size_t driving_rung = 1;  // whose lines move the references
+constexpr std::size_t driving_level = 1;  // whose lines move the references
 
-/// Copies of one walker, one a rung, and the references of their muscles, right and left.
+/// Copies of one walker, one a level, and the references of their muscles, right and left.
 struct Walk {
   std::size_t body = 0, speed = 0;
-  std::array<Entity, rung_count> human{};
+  std::array<Entity, level_count> person{};
   std::vector<std::array<ReferenceMuscle, 2>> reference;            // by muscle
-  std::vector<std::array<std::vector<float>, rung_count>> error_m;  // by muscle
+  std::vector<std::array<std::vector<float>, level_count>> error_m;  // by muscle
 };
 
 void follow(const Simulation& simulation, const AccuracyPlan& plan, Walk& walk, bool counted) {
   for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
     for (const Side side : {Side::right, Side::left}) {
       ReferenceMuscle& reference = walk.reference[m][side];
-      reference.follow(simulation, simulation.muscle(walk.human[driving_rung], plan.muscles[m], side));
+      reference.follow(simulation, simulation.muscle(walk.person[driving_level], plan.muscles[m], side));
       if (!counted) continue;
-      for (std::size_t r = 0; r < rung_count; ++r) {
-        const Entity muscle = simulation.muscle(walk.human[r], plan.muscles[m], side);
+      for (std::size_t r = 0; r < level_count; ++r) {
+        const Entity muscle = simulation.muscle(walk.person[r], plan.muscles[m], side);
         walk.error_m[m][r].push_back(reference.largest_error_m(nodal_displacement(simulation.world(), muscle)));
       }
     }
   }
 }
 
-std::string number_list(const std::array<float, rung_count>& values) {
+std::string number_list(const std::array<float, level_count>& values) {
   const auto number = [](float value) {
     std::string text = fmt::format("{:.3g}", value);
     if (text.find_first_of(".e") == std::string::npos) text += ".0";
     return text + "F";
   };
-  std::array<std::string, rung_count> texts;
+  std::array<std::string, level_count> texts;
   std::ranges::transform(values, texts.begin(), number);
   return fmt::format("{{{}}}", fmt::join(texts, ", "));
 }
 
 }  // namespace
 
-std::shared_ptr<const ReducedBasis> reference_basis(const MusclePlan& plan, const LegMuscles& choice,
-                                                    const Cells& cells, std::uint32_t vectors) {
-  const auto mesh = must(bend_block(cells, muscle_cage(plan.muscle), reference_belly_m(plan.muscle), belly_grading));
+std::shared_ptr<const ModalBasis> reference_basis(const MusclePlan& plan, const LegMuscles& choice, const Cells& cells,
+                                                  std::uint32_t modes) {
+  const auto mesh = must(bend_block(cells, muscle_lattice(plan.muscle), reference_belly_m(plan.muscle), belly_grading));
   const auto across = static_cast<double>(plan.scale.across), along = static_cast<double>(plan.scale.along);
-  ReducedOptions options;
-  options.vectors = vectors;
+  ModalBasisOptions options;
+  options.modes = modes;
   options.frame_loads = choice.inertia;
   options.foundation_hz = foundation_of(choice, plan.muscle);
   options.damping_per_s = choice.damping_per_s;
   options.middle_ratio = across / along;
   options.ratio_width = 1;
   options.middle_product = across * along;
-  auto basis = must(make_reduced_basis(mesh, choice.material, choice.element, options));
-  return std::make_shared<const ReducedBasis>(std::move(basis));
+  auto basis = must(make_modal_basis(mesh, choice.material, choice.element, options));
+  return std::make_shared<const ModalBasis>(std::move(basis));
 }
 
-ReferenceMuscle::ReferenceMuscle(std::shared_ptr<const ReducedBasis> basis, const HumanMuscle& muscle,
+ReferenceMuscle::ReferenceMuscle(std::shared_ptr<const ModalBasis> basis, const PersonMuscle& muscle,
                                  const LegMuscles& choice, double tick_s) {
   const BellyScale<float>& scale = muscle.plan.scale;
   const auto belly =
-      must(make_reduced_belly(*basis, static_cast<double>(scale.across), static_cast<double>(scale.along)));
+      must(make_modal_belly(*basis, static_cast<double>(scale.across), static_cast<double>(scale.along)));
   const auto spread = [](const std::vector<float>& row) {
     std::vector<Line> lines(row.size());
     for (std::size_t i = 0; i < row.size(); ++i) std::fill_n(lines[i].lane, lane_count, row[i]);
     return lines;
   };
-  std::vector<float> motion(reduced_motion_width(basis->vectors, basis->inputs));
-  std::vector<float> shape(reduced_shape_width(basis->vectors, basis->inputs));
+  std::vector<float> motion(modal_motion_width(basis->modes, basis->inputs));
+  std::vector<float> shape(modal_shape_width(basis->modes, basis->inputs));
   write_motion(belly, choice.damping_per_s, tick_s, motion);
   write_shape(belly, choice.damping_per_s, shape);
   motion_ = spread(motion);
   shape_ = spread(shape);
-  state_ = spread(std::vector<float>(reduced_state_width(basis->vectors)));
+  state_ = spread(std::vector<float>(modal_state_width(basis->modes)));
   displacement_ = spread(std::vector<float>(3 * std::size_t{node_count(basis->options.control_cells)}));
   scale_ = broadcast(scale);
   tick_s_ = static_cast<float>(tick_s);
@@ -106,9 +106,9 @@ void ReferenceMuscle::follow(const Simulation& simulation, Entity muscle) {
   const auto load = simulation.get<FrameLoad>(muscle);
   if (!load && basis_->options.frame_loads) throw Stopped("a muscle lost its inertia");
   const auto loads = load ? broadcast(*load) : FrameLoad<Lanes<float>>{};
-  const ReducedBlock block{*basis_, scale_, state_.data()->lane, motion_.data()->lane,
-                           basis_->options.frame_loads ? &loads : nullptr};
-  deform_reduced(block, ends, tick_s_);
+  const ModalBlock block{*basis_, scale_, state_.data()->lane, motion_.data()->lane,
+                         basis_->options.frame_loads ? &loads : nullptr};
+  deform_modal(block, ends, tick_s_);
   place_control_points(block, {shape_.data()->lane, displacement_.data()->lane}, ends);
 }
 
@@ -127,15 +127,15 @@ float ReferenceMuscle::largest_error_m(const NodalView& nodes) const {
   return largest;
 }
 
-std::array<Entity, rung_count> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
-                                            const LegMuscles& choice, bool living) {
-  std::array<Entity, rung_count> all{};
-  for (std::size_t r = 0; r < rung_count; ++r) {
-    const Entity human = all[r] = must(simulation.spawn(body, {.speed_m_s = speed_m_s}));
-    must(simulation.set_muscles(human, choice));
+std::array<Entity, level_count> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
+                                             const LegMuscles& choice, bool active) {
+  std::array<Entity, level_count> all{};
+  for (std::size_t r = 0; r < level_count; ++r) {
+    const Entity person = all[r] = must(simulation.spawn(body, {.speed_m_s = speed_m_s}));
+    must(simulation.set_muscles(person, choice));
     for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
       if (!choice.muscles[m]) continue;
-      must(simulation.set_method(human, static_cast<Muscle>(m), rung_method(r, true, living)));
+      must(simulation.set_method(person, static_cast<Muscle>(m), level_method(r, true, active)));
     }
   }
   return all;
@@ -174,14 +174,15 @@ std::vector<AccuracyRow> measure_errors(const AccuracyPlan& plan, bool inertia) 
   for (const Muscle muscle : plan.muscles) choice.muscles.set(static_cast<std::size_t>(muscle));
   std::vector<Walk> walks;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
-    std::vector<std::shared_ptr<const ReducedBasis>> basis;
+    std::vector<std::shared_ptr<const ModalBasis>> basis;
     for (std::size_t c = 0; c < classes; ++c) {
       Walk walk{b, c, {}, {}, {}};
       const float speed = speed_class_m_s[c] * std::sqrt(plan.bodies[b].height_m / accuracy_height_m);
-      walk.human = spawn_copies(simulation, plan.bodies[b], speed, choice, false);
-      const Human human = *simulation.human(walk.human[driving_rung]);
+      walk.person = spawn_copies(simulation, plan.bodies[b], speed, choice, false);
+      const Person person = *simulation.person(walk.person[driving_level]);
       for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
-        const auto own = std::ranges::find(human.muscles, plan.muscles[m], [](const auto& h) { return h.plan.muscle; });
+        const auto own =
+            std::ranges::find(person.muscles, plan.muscles[m], [](const auto& h) { return h.plan.muscle; });
         if (basis.size() <= m) {
           basis.push_back(reference_basis(own->plan, choice));
           plan.progress(0.8 * static_cast<double>(b * plan.muscles.size() + m) /
@@ -208,7 +209,7 @@ std::vector<AccuracyRow> measure_errors(const AccuracyPlan& plan, bool inertia) 
       for (Walk& walk : walks) {
         if (walk.speed != c) continue;
         const float size = plan.bodies[walk.body].height_m / accuracy_height_m;
-        for (std::size_t r = 0; r < rung_count; ++r) {
+        for (std::size_t r = 0; r < level_count; ++r) {
           row.error_m[r] = std::max(row.error_m[r], percentile(walk.error_m[m][r], 0.999) / size);
         }
       }
@@ -218,17 +219,17 @@ std::vector<AccuracyRow> measure_errors(const AccuracyPlan& plan, bool inertia) 
   return rows;
 }
 
-RungCost measure_costs(std::size_t humans, bool inertia, bool living) {
-  BenchCrowd crowd(humans);
+LevelCost measure_costs(std::size_t people, bool inertia, bool active) {
+  BenchCrowd crowd(people);
   Simulation& simulation = crowd.simulation();
   LegMuscles choice;
   choice.inertia = inertia;
-  if (living) choice.activation = ExcitationSource::phase;
-  for (const Entity human : crowd.people()) must(simulation.set_muscles(human, choice));
-  const auto measure = [&](std::size_t rung, bool points) {
-    for (const Entity human : crowd.people()) {
+  if (active) choice.activation = ExcitationSource::phase;
+  for (const Entity person : crowd.people()) must(simulation.set_muscles(person, choice));
+  const auto measure = [&](std::size_t level, bool points) {
+    for (const Entity person : crowd.people()) {
       for (std::size_t g = 0; g < muscle_group_count; ++g)
-        must(simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points, living)));
+        must(simulation.set_method(person, static_cast<Muscle>(g), level_method(level, points, active)));
     }
     for (int i = 0; i < 60; ++i) simulation.tick();  // until nothing fades any more
     constexpr int repeats = 12, ticks = 10;
@@ -245,17 +246,17 @@ RungCost measure_costs(std::size_t humans, bool inertia, bool living) {
     }
     return 1e6 * least / (ticks * 2.0 * muscle_group_count * static_cast<double>(crowd.size()));
   };
-  RungCost cost;
+  LevelCost cost;
   const double nothing = measure(0, false);  // what asking for the time takes
-  for (std::size_t r = 1; r < rung_count; ++r) {
-    const Rung& rung = rungs_of(living)[r];
-    if (rung.cells == reference_cells) {  // in a tick a finer mesh's vectors are vectors like others
+  for (std::size_t r = 1; r < level_count; ++r) {
+    const LodLevel& level = levels_of(active)[r];
+    if (level.cells == reference_cells) {  // in a tick a finer mesh's modes are modes like others
       cost.state_us[r] = cost.state_us[r - 1];
       cost.points_us[r] = cost.points_us[r - 1];
       continue;
     }
     const double bare = measure(r, false);
-    const double with = rung.method == Method::reduced ? measure(r, true) : bare;
+    const double with = level.method == Method::modal ? measure(r, true) : bare;
     const double state_us = std::max(0.0, bare - nothing);
     cost.state_us[r] = static_cast<float>(state_us);
     cost.points_us[r] = static_cast<float>(std::max(0.0, with - bare));
@@ -266,16 +267,16 @@ RungCost measure_costs(std::size_t humans, bool inertia, bool living) {
 std::string accuracy_source(const std::vector<AccuracyRow>& rows) {
   std::string source;
   for (const AccuracyRow& row : rows) {
-    const std::string living = row.living ? fmt::format(", true, {}", number_list(row.volume_off)) : "";
+    const std::string active = row.active ? fmt::format(", true, {}", number_list(row.volume_off)) : "";
     source += fmt::format("    {{Muscle{{{}}}, SpeedClass::{}, {}, {}{}}},\n", static_cast<int>(row.muscle),
                           speed_class_name[static_cast<std::size_t>(row.speed)], row.inertia, number_list(row.error_m),
-                          living);
+                          active);
   }
   return source;
 }
 
-std::string cost_source(const RungCost& cost) {
-  return fmt::format("    RungCost{{{}, {}}},\n", number_list(cost.state_us), number_list(cost.points_us));
+std::string cost_source(const LevelCost& cost) {
+  return fmt::format("    LevelCost{{{}, {}}},\n", number_list(cost.state_us), number_list(cost.points_us));
 }
 
 }  // namespace mobil

@@ -14,53 +14,53 @@
 namespace mobil {
 namespace {
 
-FrontierRung elements(const char* name, Method method, const Cells& cells, std::optional<double> dt_s = {}) {
-  FrontierRung rung{name, {}};
-  rung.method.choice.method = method;
-  rung.method.choice.cells = cells;
-  rung.method.choice.dt_s = dt_s;
-  return rung;
+FrontierLevel elements(const char* name, Method method, const Cells& cells, std::optional<double> dt_s = {}) {
+  FrontierLevel level{name, {}};
+  level.method.choice.method = method;
+  level.method.choice.cells = cells;
+  level.method.choice.dt_s = dt_s;
+  return level;
 }
 
-FrontierRung fixed(const char* name, Method method, const Cells& cells, double dt_s) {
-  FrontierRung rung = elements(name, method, cells, dt_s);
-  rung.method.fixed_step = true;
-  return rung;
+FrontierLevel fixed(const char* name, Method method, const Cells& cells, double dt_s) {
+  FrontierLevel level = elements(name, method, cells, dt_s);
+  level.method.fixed_step = true;
+  return level;
 }
 
-FrontierRung vectors(const char* name, std::uint32_t count, const Cells& cells, bool corrected = true,
-                     bool moving = true) {
-  FrontierRung rung{name, {}};
-  rung.method.choice.method = Method::reduced;
-  rung.method.choice.reduced = {count, moving, corrected, cells};
-  return rung;
+FrontierLevel modes(const char* name, std::uint32_t count, const Cells& cells, bool corrected = true,
+                    bool moving = true) {
+  FrontierLevel level{name, {}};
+  level.method.choice.method = Method::modal;
+  level.method.choice.modal = {count, moving, corrected, cells};
+  return level;
 }
 
 constexpr Cells coarse_cells = {2, 2, 8}, middle_cells = {4, 4, 16}, fine_cells = {8, 8, 32};
 
-std::vector<FrontierRung> short_rungs() {
-  std::vector<FrontierRung> all;
-  all.push_back(fixed("ecd", Method::ecd, coarse_cells, 0.002));
+std::vector<FrontierLevel> short_levels() {
+  std::vector<FrontierLevel> all;
+  all.push_back(fixed("explicit-central", Method::explicit_central, coarse_cells, 0.002));
   all.back().mark = "the paper's choice: 81 nodes, 2 ms";
-  all.push_back(fixed("ecd", Method::ecd, coarse_cells, 0.003));
-  all.push_back(elements("ecd", Method::ecd, coarse_cells));
-  all.push_back(elements("ecd", Method::ecd, middle_cells));
-  all.push_back(elements("ecd", Method::ecd, {4, 4, 20}));
+  all.push_back(fixed("explicit-central", Method::explicit_central, coarse_cells, 0.003));
+  all.push_back(elements("explicit-central", Method::explicit_central, coarse_cells));
+  all.push_back(elements("explicit-central", Method::explicit_central, middle_cells));
+  all.push_back(elements("explicit-central", Method::explicit_central, {4, 4, 20}));
   all.back().mark = "the paper's 525 nodes";
-  all.push_back(elements("icd", Method::icd, coarse_cells));
+  all.push_back(elements("implicit-central", Method::implicit_central, coarse_cells));
   for (const int parts : {1, 2, 4}) {
-    all.push_back(elements("caa", Method::caa, coarse_cells, frontier_tick_s / parts));
+    all.push_back(elements("newmark", Method::newmark, coarse_cells, frontier_tick_s / parts));
   }
   all.push_back(elements("static", Method::statics, coarse_cells));
-  all.push_back(vectors("reduced-static", 12, middle_cells, true, false));
+  all.push_back(modes("modal-static", 12, middle_cells, true, false));
   for (const std::uint32_t count : {2U, 4U, 6U, 8U, 12U, 16U, 20U, 24U, 32U}) {
-    all.push_back(vectors("reduced", count, middle_cells));
+    all.push_back(modes("modal", count, middle_cells));
   }
   return all;
 }
 
 struct Answers {
-  std::vector<FrontierError> error;                          // of each rung
+  std::vector<FrontierError> error;                          // of each level
   std::vector<std::vector<FrontierIndividual>> individuals;  // empty where it could not be stepped
   FrontierReference reference;
 };
@@ -72,13 +72,13 @@ Answers answers_of(const FrontierRequest& request, const FrontierDrive& drive, b
     throw Stopped(fmt::format("the reference of {}: {}", muscle_name(drive.muscle), reference.error().message));
   Answers all{{}, {}, std::move(*reference)};
   BellyLibrary library;
-  for (const FrontierRung& rung : request.rungs) {
+  for (const FrontierLevel& level : request.levels) {
     step();
     all.error.emplace_back();
     all.individuals.emplace_back();
     const auto done = attempt([&] {
-      auto individuals = frontier_individuals(drive, rung.method, loads, library);
-      all.error.back().add(answer_of(drive, rung.method, individuals, loads), all.reference.truth, drive.walks);
+      auto individuals = frontier_individuals(drive, level.method, loads, library);
+      all.error.back().add(answer_of(drive, level.method, individuals, loads), all.reference.truth, drive.walks);
       all.individuals.back() = std::move(individuals);
     });
     why.push_back(done ? "" : done.error().message);
@@ -91,14 +91,14 @@ std::string cells_text(const Cells& cells) {
   return fmt::format("{}x{}x{}", cells[0], cells[1], cells[2]);
 }
 
-FrontierRow row_of(const FrontierRung& rung, bool loads) {
+FrontierRow row_of(const FrontierLevel& level, bool loads) {
   FrontierRow row;
-  row.method = rung.name;
-  row.cells = cells_text(rung.method.cells());
-  row.mark = rung.mark;
+  row.method = level.name;
+  row.cells = cells_text(level.method.cells());
+  row.mark = level.mark;
   row.loads = loads;
-  row.nodes = node_count(rung.method.cells());
-  row.vectors = rung.method.reduced() ? rung.method.choice.reduced.vectors : 0;
+  row.nodes = node_count(level.method.cells());
+  row.modes = level.method.modal() ? level.method.choice.modal.modes : 0;
   return row;
 }
 
@@ -119,17 +119,17 @@ struct AnswerTable {
     const auto step = [this] {
       const std::scoped_lock lock(telling);
       request.progress("answers",
-                       static_cast<double>(++done) / static_cast<double>(answers.size() * request.rungs.size()));
+                       static_cast<double>(++done) / static_cast<double>(answers.size() * request.levels.size()));
     };
     answers[at] =
         attempt([&] { return answers_of(request, drives[at % muscles], request.scenes[at / muscles], why[at], step); });
   }
 };
 
-/// Which muscles a rung is without, and why.
-std::string left_out(const FrontierRung& rung, const FrontierRow& row, const std::string& muscles,
+/// Which muscles a level is without, and why.
+std::string left_out(const FrontierLevel& level, const FrontierRow& row, const std::string& muscles,
                      const std::string& why) {
-  const auto& dt_s = rung.method.choice.dt_s;
+  const auto& dt_s = level.method.choice.dt_s;
   return fmt::format("{} of {} nodes{}{} is without {}: {}", row.method, row.nodes,
                      dt_s ? fmt::format(" at {:.3g} ms", *dt_s * 1e3) : "", row.loads ? " with the frame's loads" : "",
                      muscles, why);
@@ -143,7 +143,7 @@ bool nearer(double error_a, double cost_a, double error_b, double cost_b) {
 
 FrontierRequest short_frontier() {
   FrontierRequest request;
-  request.rungs = short_rungs();
+  request.levels = short_levels();
   return request;
 }
 
@@ -153,19 +153,19 @@ FrontierRequest long_frontier() {
   request.reference = {16, 16, 64};
   request.rounds = 15;
   request.call_s = 0.05;
-  request.rungs = short_rungs();
-  auto& all = request.rungs;
-  all.push_back(elements("ecd", Method::ecd, fine_cells));
-  all.push_back(elements("ecd", Method::ecd, {8, 8, 40}));
+  request.levels = short_levels();
+  auto& all = request.levels;
+  all.push_back(elements("explicit-central", Method::explicit_central, fine_cells));
+  all.push_back(elements("explicit-central", Method::explicit_central, {8, 8, 40}));
   all.back().mark = "the paper's 3321 nodes";
-  for (const int parts : {1, 4}) all.push_back(elements("caa", Method::caa, middle_cells, frontier_tick_s / parts));
+  for (const int parts : {1, 4})
+    all.push_back(elements("newmark", Method::newmark, middle_cells, frontier_tick_s / parts));
   all.push_back(elements("static", Method::statics, middle_cells));
-  all.push_back(elements("icd", Method::icd, middle_cells));
+  all.push_back(elements("implicit-central", Method::implicit_central, middle_cells));
   for (const std::uint32_t count : {4U, 8U, 12U, 16U, 24U, 32U}) {
-    all.push_back(vectors("reduced-plain", count, middle_cells, false));
+    all.push_back(modes("modal-plain", count, middle_cells, false));
   }
-  for (const std::uint32_t count : {4U, 8U, 10U, 12U, 16U, 24U, 32U})
-    all.push_back(vectors("reduced", count, fine_cells));
+  for (const std::uint32_t count : {4U, 8U, 10U, 12U, 16U, 24U, 32U}) all.push_back(modes("modal", count, fine_cells));
   return request;
 }
 
@@ -194,17 +194,17 @@ Frontier measure_frontier(const FrontierRequest& request) {
     for (std::size_t m = 0; m < muscles; ++m) {
       const FrontierReference& own = answers(m).reference;
       mesh.add(own.mesh);
-      fewer.add(own.vectors);
+      fewer.add(own.modes);
     }
     change.mesh = mesh.relative();
-    change.vectors = fewer.relative();
+    change.modes = fewer.relative();
     frontier.change.push_back(change);
 
-    std::vector<FrontierRow> rows(request.rungs.size());
+    std::vector<FrontierRow> rows(request.levels.size());
     std::vector<std::vector<std::vector<FrontierIndividual>>> individuals(rows.size());
     std::vector<FrontierPriced> priced;
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      rows[r] = row_of(request.rungs[r], loads);
+      rows[r] = row_of(request.levels[r], loads);
       FrontierError error;
       std::string why, without;
       for (std::size_t m = 0; m < muscles; ++m) {
@@ -217,12 +217,12 @@ Frontier measure_frontier(const FrontierRequest& request) {
           without += fmt::format("{}{}", without.empty() ? "" : ", ", muscle_name(request.muscles[m]));
         }
       }
-      if (!why.empty()) frontier.notes.push_back(left_out(request.rungs[r], rows[r], without, why));
+      if (!why.empty()) frontier.notes.push_back(left_out(request.levels[r], rows[r], without, why));
       if (error.reference_square == 0) continue;
       rows[r].error = error.relative();
       rows[r].error_max_m = error.largest_m;
       rows[r].uncertain = rows[r].error < 10 * change.own();
-      priced.push_back({&request.rungs[r], individuals[r], &rows[r]});
+      priced.push_back({&request.levels[r], individuals[r], &rows[r]});
     }
     price(priced, drives, loads, frontier);
     for (const FrontierPriced& p : priced) frontier.rows.push_back(std::move(*p.row));

@@ -13,7 +13,7 @@
 namespace mobil {
 
 /// A way that is measured. `name`: of the csv's column. `mark`: what it is of the paper's, empty for nothing.
-struct FrontierRung {
+struct FrontierLevel {
   std::string name;
   FrontierMethod method;
   std::string mark{};
@@ -27,7 +27,7 @@ struct FrontierRequest {
   std::vector<FrontierWalk> walks = frontier_walks();
   double seconds = 1.5;
   std::vector<bool> scenes = {false, true};  // with the frame's loads
-  std::vector<FrontierRung> rungs;           // the first is what ratios are to
+  std::vector<FrontierLevel> levels;         // the first is what ratios are to
   Cells reference = {8, 8, 32};
   std::size_t bytes = std::size_t{48} << 20;
   double call_s = 0.02;
@@ -45,24 +45,24 @@ FrontierRequest long_frontier();
 struct FrontierRow {
   std::string method, cells, mark;
   bool loads = false;
-  std::uint32_t nodes = 0, vectors = 0;
+  std::uint32_t nodes = 0, modes = 0;
   double dt_s = 0;  // mean over individuals
   double error = 0, error_max_m = 0;
   std::vector<double> error_of_muscle;
   double cost_us = 0, points_us = 0;
-  double ratio = 0, points_ratio = 0;  // the first rung's cost under the same loads over this one's
+  double ratio = 0, points_ratio = 0;  // the first level's cost under the same loads over this one's
   std::size_t memory_bytes = 0;        // of one individual, control points included
   bool on_frontier = false, points_on_frontier = false;
   bool uncertain = false;  // the reference's own change is more than a tenth of the error
 };
 
-/// How far the reference moves, relative as errors are: against the same on half its cells; with 24 vectors instead of
+/// How far the reference moves, relative as errors are: against the same on half its cells; with 24 modes instead of
 /// 32.
 struct FrontierChange {
   bool loads = false;
-  double mesh = 0, vectors = 0;
+  double mesh = 0, modes = 0;
 
-  double own() const { return mesh > vectors ? mesh : vectors; }
+  double own() const { return mesh > modes ? mesh : modes; }
 };
 
 struct Frontier {
@@ -70,12 +70,12 @@ struct Frontier {
   Machine machine;
   std::vector<FrontierRow> rows;
   std::vector<FrontierChange> change;  // a scene each
-  double shared_us = 0;                // the first rung's cost with the template's own size, line load alone
-  std::size_t least_muscles = 0;       // of the crowds
+  double shared_us = 0;                // the first level's cost with the template's own size, line load alone
+  std::size_t min_muscles = 0;         // of the crowds
   std::vector<std::string> notes;      // what was left out, and why
 };
 
-/// Fails on walks or bodies out of range or a reference that cannot be made. A rung that somebody cannot be stepped by
+/// Fails on walks or bodies out of range or a reference that cannot be made. A level that somebody cannot be stepped by
 /// is left out with a note.
 Frontier measure_frontier(const FrontierRequest& request);
 
@@ -94,14 +94,14 @@ std::string frontier_text(const Frontier& frontier);
 /// A muscle's reference under a scene's loads and its change.
 struct FrontierReference {
   FrontierAnswer truth;
-  FrontierError mesh, vectors;
+  FrontierError mesh, modes;
 };
 FrontierReference make_reference(const FrontierDrive& drive, const Cells& cells, bool loads);
 
 /// Fills in cost_us, points_us, memory_bytes, dt_s and the ratios of the rows of one scene. `individuals`: of each
-/// row's rung, of each drive, its sixteen.
+/// row's level, of each drive, its sixteen.
 struct FrontierPriced {
-  const FrontierRung* rung;
+  const FrontierLevel* level;
   std::span<const std::vector<FrontierIndividual>> individuals;
   FrontierRow* row;
 };

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "assets/fem/muscle_template.h"
-#include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/modal_basis.h"
 #include "demo/lab/effects/accuracy_measure.h"
 #include "demo/lab/frontier/frontier.h"
 #include "demo/program/must.h"
 #include "systems/bellies/belly_library.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/reduced.h"
+#include "systems/deformation/modal.h"
 
 namespace mobil {
 namespace {
@@ -105,21 +105,21 @@ std::vector<Lanes<float>> in_lanes(const std::vector<FrontierIndividual>& indivi
   return all;
 }
 
-void answer_by_vectors(const FrontierDrive& drive, const FrontierMethod& method,
-                       const std::vector<FrontierIndividual>& individuals, const Group& group, bool loads,
-                       const Calendar& calendar) {
-  const ReducedBasis& basis = *group.individual->basis;
+void answer_by_modes(const FrontierDrive& drive, const FrontierMethod& method,
+                     const std::vector<FrontierIndividual>& individuals, const Group& group, bool loads,
+                     const Calendar& calendar) {
+  const ModalBasis& basis = *group.individual->basis;
   const auto motion = in_lanes(individuals, &FrontierIndividual::motion, group);
   const auto shape = in_lanes(individuals, &FrontierIndividual::points, group);
-  std::vector<Lanes<float>> state(reduced_state_width(basis.vectors)), displacement(point_width);
+  std::vector<Lanes<float>> state(modal_state_width(basis.modes)), displacement(point_width);
   EndDrive<Lanes<float>> end{};
   FrameLoad<Lanes<float>> load{};
-  const ReducedBlock block{basis, drive.scale, state.data()->lane, motion.data()->lane, loads ? &load : nullptr};
+  const ModalBlock block{basis, drive.scale, state.data()->lane, motion.data()->lane, loads ? &load : nullptr};
   calendar.go(
       [&](double from_s, double to_s) {
         end = drive.end(from_s, to_s);
         if (loads) load = drive.load(from_s, to_s);
-        if (method.moving()) deform_reduced(block, {FarEnd::held, end}, static_cast<float>(calendar.call_s));
+        if (method.moving()) deform_modal(block, {FarEnd::held, end}, static_cast<float>(calendar.call_s));
       },
       [&](Lanes<float>* to) {
         const ControlPoints points{shape.data()->lane, displacement.data()->lane};
@@ -136,15 +136,15 @@ void answer_by_vectors(const FrontierDrive& drive, const FrontierMethod& method,
       });
 }
 
-constexpr std::uint32_t fewer_vectors = 24, vectors_of_a_coarse_mesh = 16;
+constexpr std::uint32_t fewer_modes = 24, modes_of_a_coarse_mesh = 16;
 
 Cells half(const Cells& cells) {
   return {cells[0] / 2, cells[1] / 2, cells[2] / 2};
 }
 
-/// Sixteen individuals, each with vectors of its own size alone, of a mesh and one of half its cells extrapolated.
-std::vector<FrontierIndividual> own_vectors(const FrontierDrive& drive, const Cells& cells, std::uint32_t vectors,
-                                            bool loads) {
+/// Sixteen individuals, each with modes of its own size alone, of a mesh and one of half its cells extrapolated.
+std::vector<FrontierIndividual> own_modes(const FrontierDrive& drive, const Cells& cells, std::uint32_t modes,
+                                          bool loads) {
   LegMuscles choice;
   choice.inertia = loads;
   std::vector<FrontierIndividual> all(lane_count);
@@ -155,23 +155,23 @@ std::vector<FrontierIndividual> own_vectors(const FrontierDrive& drive, const Ce
       if (same) all[lane] = all[before];
     }
     if (all[lane].basis != nullptr) continue;
-    all[lane].basis = reference_basis(drive.plan[lane], choice, cells, vectors);
+    all[lane].basis = reference_basis(drive.plan[lane], choice, cells, modes);
   }
   return all;
 }
 
-FrontierAnswer answer_with(const FrontierDrive& drive, std::vector<FrontierIndividual> individuals,
-                           std::uint32_t vectors, bool loads) {
+FrontierAnswer answer_with(const FrontierDrive& drive, std::vector<FrontierIndividual> individuals, std::uint32_t modes,
+                           bool loads) {
   FrontierMethod method;
-  method.choice.method = Method::reduced;
-  std::map<const ReducedBasis*, std::shared_ptr<const ReducedBasis>> cut;
+  method.choice.method = Method::modal;
+  std::map<const ModalBasis*, std::shared_ptr<const ModalBasis>> cut;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     FrontierIndividual& own = individuals[lane];
     auto& basis = cut[own.basis.get()];
-    if (basis == nullptr) basis = std::make_shared<const ReducedBasis>(truncated(*own.basis, vectors));
-    const auto belly = must(make_reduced_belly(*basis, static_cast<double>(drive.scale.across[lane]),
-                                               static_cast<double>(drive.scale.along[lane])));
-    set_vectors(own, basis, belly, method.choice.damping_per_s);
+    if (basis == nullptr) basis = std::make_shared<const ModalBasis>(truncated(*own.basis, modes));
+    const auto belly = must(make_modal_belly(*basis, static_cast<double>(drive.scale.across[lane]),
+                                             static_cast<double>(drive.scale.along[lane])));
+    set_modes(own, basis, belly, method.choice.damping_per_s);
   }
   return answer_of(drive, method, individuals, loads);
 }
@@ -229,8 +229,8 @@ FrontierAnswer answer_of(const FrontierDrive& drive, const FrontierMethod& metho
   answer.first = (drive.first + answer.stride - 1) / answer.stride * answer.stride;
   answer.displacement_m.resize(((drive.ticks() - answer.first) / answer.stride + 1) * point_width);
   for (const Group& group : groups_of(individuals)) {
-    if (method.reduced()) {
-      answer_by_vectors(drive, method, individuals, group, loads, calendar);
+    if (method.modal()) {
+      answer_by_modes(drive, method, individuals, group, loads, calendar);
     } else {
       answer_by_elements(drive, method, group, loads, calendar);
     }
@@ -269,15 +269,15 @@ double FrontierError::relative() const {
 }
 
 FrontierReference make_reference(const FrontierDrive& drive, const Cells& cells, bool loads) {
-  const std::uint32_t coarse_vectors = cells[0] < 8 ? vectors_of_a_coarse_mesh : most_vectors;
-  const auto fine = own_vectors(drive, cells, most_vectors, loads);
-  const auto coarse = own_vectors(drive, half(cells), coarse_vectors, loads);
-  auto truth = answer_with(drive, fine, most_vectors, loads);
-  const auto fewer = answer_with(drive, fine, fewer_vectors, loads);
-  const auto coarser = answer_with(drive, coarse, coarse_vectors, loads);
+  const std::uint32_t coarse_modes = cells[0] < 8 ? modes_of_a_coarse_mesh : max_modes;
+  const auto fine = own_modes(drive, cells, max_modes, loads);
+  const auto coarse = own_modes(drive, half(cells), coarse_modes, loads);
+  auto truth = answer_with(drive, fine, max_modes, loads);
+  const auto fewer = answer_with(drive, fine, fewer_modes, loads);
+  const auto coarser = answer_with(drive, coarse, coarse_modes, loads);
   FrontierReference reference{std::move(truth), {}, {}};
   reference.mesh.add(coarser, reference.truth, drive.walks);
-  reference.vectors.add(fewer, reference.truth, drive.walks);
+  reference.modes.add(fewer, reference.truth, drive.walks);
   return reference;
 }
 

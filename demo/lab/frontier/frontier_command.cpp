@@ -7,7 +7,7 @@
 #include <mobil/assets/files/output_file.h>
 #include <mobil/muscle_table.h>
 #include "demo/lab/frontier/frontier.h"
-#include "demo/lab/frontier/frontier_living.h"
+#include "demo/lab/frontier/frontier_active.h"
 #include "demo/program/commands.h"
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
@@ -24,14 +24,14 @@ void run_finite(const std::string& out) {
   auto results = must(OutputFolder::make(out));
   std::vector<Muscle> all;
   for (std::size_t m = 0; m < muscles().size(); ++m) all.push_back(static_cast<Muscle>(m));
-  const auto living = measure_living(all, &show_part);
+  const auto active = measure_active(all, &show_part);
   show("");
   const auto& folder = results.inside();
-  must(write_file(folder / "living.csv", living_csv(living)));
-  must(write_file(folder / "living.svg", svg(living_figure(living))));
+  must(write_file(folder / "active.csv", active_csv(active)));
+  must(write_file(folder / "active.svg", svg(active_figure(active))));
   must(results.put());
-  fmt::print("{}", living_text(living));
-  say_where(fmt::format("\nwritten {}: living.csv living.svg", out));
+  fmt::print("{}", active_text(active));
+  say_where(fmt::format("\nwritten {}: active.csv active.svg", out));
 }
 
 void run_frontier(const FrontierText& text) {
@@ -57,15 +57,16 @@ Subcommand frontier_command() {
   auto text = std::make_shared<FrontierText>();
   Subcommand command{.name = "frontier"};
   command.footer =
-      "Sixteen walks by six bodies and speeds move four muscle groups; every method, mesh, step and number of vectors\n"
+      "Sixteen walks by six bodies and speeds move four muscle groups; every method, mesh, step and number of modes\n"
       "gets the same line of action (and once more with gravity and the frame's motion), tick by tick, and is held\n"
       "against a reference refined until it hardly moves. How much it still moves is told, and what is nearer than\n"
       "ten times that is marked uncertain. Costs are processor time of one thread with thousands of muscles, all ways\n"
       "in turn; ratios are to the paper's choice, 81 nodes stepped explicitly by 2 ms.\n"
-      "On the frontier is what nothing else beats in both: nearer and cheaper. A reduced muscle that nobody looks at\n"
+      "On the frontier is what nothing else beats in both: nearer and cheaper. A modal muscle that nobody looks at\n"
       "has a state but no control points; its cost with them is given as well.\n"
-      "Methods (mobil muscle --help says what they are): static, ecd, icd, caa; reduced: so many vectors of a finer\n"
-      "mesh, its error extrapolated away (reduced-plain: left in; reduced-static: without motion of its own).\n"
+      "Methods (mobil muscle --help says what they are): static, explicit-central, implicit-central, newmark; modal: "
+      "so many modes of a finer\n"
+      "mesh, its error extrapolated away (modal-plain: left in; modal-static: without motion of its own).\n"
       "Examples: mobil frontier\n"
       "          mobil frontier --long --loads line --out frontier";
   command.options = {
@@ -77,7 +78,7 @@ Subcommand frontier_command() {
        .choices = {"line", "frame", "both"}},
       {"--finite", &text->finite,
        "Instead: what accuracy costs where muscles pull and are shaken, against tissue that keeps its volume "
-       "(living.csv, living.svg): three minutes"},
+       "(active.csv, active.svg): three minutes"},
       {"--out", &text->out, "Folder for frontier.csv and .svg, made if missing"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("frontier", attempt([&] { run_frontier(*text); })); };

@@ -8,8 +8,8 @@
 
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/muscles/human.h>
-#include "assets/surfaces/muscle_cage.h"
+#include <mobil/systems/muscles/person.h>
+#include "assets/surfaces/muscle_lattice.h"
 #include "demo/program/must.h"
 
 namespace mobil {
@@ -58,15 +58,15 @@ void mix(const Vec3<Lanes<float>>& a, const Vec3<Lanes<float>>& b, double part, 
 /// One walker's muscles into one lane of each drive.
 void record(const FrontierWalk& walk, std::size_t lane, std::vector<FrontierDrive>& drives) {
   Simulation simulation({.tick_s = frontier_tick_s});
-  const auto human = must(simulation.spawn(walk.body, {.speed_m_s = walk.speed_m_s}));
+  const auto person = must(simulation.spawn(walk.body, {.speed_m_s = walk.speed_m_s}));
   LegMuscles choice;
   choice.muscles.reset();
   for (const FrontierDrive& drive : drives) choice.muscles.set(static_cast<std::size_t>(drive.muscle));
   choice.inertia = true;
-  must(simulation.set_muscles(human, choice));
-  const Human who = *simulation.human(human);
+  must(simulation.set_muscles(person, choice));
+  const Person who = *simulation.person(person);
   for (FrontierDrive& drive : drives) {
-    const auto own = std::ranges::find(who.muscles, drive.muscle, [](const HumanMuscle& m) { return m.plan.muscle; });
+    const auto own = std::ranges::find(who.muscles, drive.muscle, [](const PersonMuscle& m) { return m.plan.muscle; });
     drive.plan[lane] = own->plan;
     drive.scale.across[lane] = own->plan.scale.across;
     drive.scale.along[lane] = own->plan.scale.along;
@@ -76,7 +76,7 @@ void record(const FrontierWalk& walk, std::size_t lane, std::vector<FrontierDriv
     simulation.tick();
     const auto part = static_cast<float>(ramp(static_cast<double>(t) * frontier_tick_s / ramp_s));
     for (FrontierDrive& drive : drives) {
-      const Entity muscle = simulation.muscle(human, drive.muscle, Side::right);
+      const Entity muscle = simulation.muscle(person, drive.muscle, Side::right);
       const auto end = simulation.get<EndDrive>(muscle);
       const auto load = simulation.get<FrameLoad>(muscle);
       if (!end || !load) throw Stopped("frontier: a muscle is gone from its walker");
@@ -181,13 +181,13 @@ std::vector<FrontierDrive> record_walks(std::span<const Muscle> muscles, std::sp
 }
 
 HexahedralMesh frontier_mesh(Muscle muscle, const Cells& cells) {
-  return must(bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading));
+  return must(bend_block(cells, muscle_lattice(muscle), reference_belly_m(muscle), belly_grading));
 }
 
-void set_vectors(FrontierIndividual& own, std::shared_ptr<const ReducedBasis> basis, const ReducedBelly& belly,
-                 double damping_per_s) {
-  own.motion.resize(reduced_motion_width(basis->vectors, basis->inputs));
-  own.points.resize(reduced_shape_width(basis->vectors, basis->inputs));
+void set_modes(FrontierIndividual& own, std::shared_ptr<const ModalBasis> basis, const ModalBelly& belly,
+               double damping_per_s) {
+  own.motion.resize(modal_motion_width(basis->modes, basis->inputs));
+  own.points.resize(modal_shape_width(basis->modes, basis->inputs));
   write_motion(belly, damping_per_s, frontier_tick_s, own.motion);
   write_shape(belly, damping_per_s, own.points);
   own.basis = std::move(basis);
@@ -207,7 +207,7 @@ std::vector<FrontierIndividual> frontier_individuals(const FrontierDrive& drive,
     own.shape = belly->shape->shape;
     own.steps = belly->steps;
     own.solver = std::move(belly->solver);
-    if (belly->basis != nullptr) set_vectors(own, belly->basis, *belly->motions, choice.damping_per_s);
+    if (belly->basis != nullptr) set_modes(own, belly->basis, *belly->motions, choice.damping_per_s);
   }
   return all;
 }

@@ -15,7 +15,7 @@
 #include <mobil/engine/error.h>
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
-#include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/modal_basis.h"
 #include "systems/bellies/belly_library.h"
 
 namespace mobil {
@@ -68,10 +68,10 @@ struct FrontierMethod {
   LegMuscles choice;
   bool fixed_step = false;
 
-  bool reduced() const { return choice.method == Method::reduced; }
-  bool moving() const { return !reduced() || choice.reduced.moving; }
+  bool modal() const { return choice.method == Method::modal; }
+  bool moving() const { return !modal() || choice.modal.moving; }
   /// Of the mesh that the answer is of.
-  const Cells& cells() const { return reduced() ? choice.reduced.cells : choice.cells; }
+  const Cells& cells() const { return modal() ? choice.modal.cells : choice.cells; }
 };
 
 /// What one individual is stepped with. Finite elements have `steps` a tick, and those that solve a solver; the others
@@ -80,7 +80,7 @@ struct FrontierIndividual {
   std::shared_ptr<const MuscleTemplate> shape;
   std::uint32_t steps = 1;
   std::shared_ptr<const BellySolver> solver;
-  std::shared_ptr<const ReducedBasis> basis;
+  std::shared_ptr<const ModalBasis> basis;
   std::vector<float> motion, points;
 
   bool alike(const FrontierIndividual& other) const {
@@ -88,9 +88,9 @@ struct FrontierIndividual {
   }
 };
 
-/// Makes `own` move along those vectors, with that body's motions.
-void set_vectors(FrontierIndividual& own, std::shared_ptr<const ReducedBasis> basis, const ReducedBelly& belly,
-                 double damping_per_s);
+/// Makes `own` move along those modes, with that body's motions.
+void set_modes(FrontierIndividual& own, std::shared_ptr<const ModalBasis> basis, const ModalBelly& belly,
+               double damping_per_s);
 
 /// The drive's sixteen, set up as people's muscles are. `loads`: for the frame's too. Fails on a choice out of range,
 /// or a step above somebody's critical one.

@@ -11,7 +11,7 @@
 #include "demo/lab/frontier/frontier.h"
 #include "demo/program/must.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/reduced.h"
+#include "systems/deformation/modal.h"
 
 namespace mobil {
 namespace {
@@ -33,26 +33,26 @@ C<Lanes<float>> alike(const C<Lanes<float>>& of, std::size_t lane) {
 }
 
 /// Blocks of sixteen alike, as a crowd's tables have them, of every muscle and individual as many as `bytes` ask for;
-/// at most `most_blocks`, and at least one of each muscle.
+/// at most `max_blocks`, and at least one of each muscle.
 class FrontierCrowd {
  public:
   /// `individuals`: of each drive its sixteen, or none; of one at least. They and `drives` must outlive the crowd.
   FrontierCrowd(const FrontierMethod& method, std::span<const FrontierDrive> drives,
                 std::span<const std::vector<FrontierIndividual>> individuals, bool loads, Stiffness stiffness,
-                std::size_t bytes, std::size_t most_blocks)
+                std::size_t bytes, std::size_t max_blocks)
       : method_(method), loads_(loads), stiffness_(stiffness) {
     const std::size_t input =
         sizeof(EndDrive<float>) + sizeof(BellyScale<float>) + (loads ? sizeof(FrameLoad<float>) : 0);
     const auto there = [](const std::vector<FrontierIndividual>& sixteen) { return !sixteen.empty(); };
     const FrontierIndividual& first = std::ranges::find_if(individuals, there)->front();
     const auto muscles = static_cast<std::size_t>(std::ranges::count_if(individuals, there));
-    if (method.reduced()) {
-      const ReducedBasis& basis = *first.basis;
-      points_ = reduced_shape_width(basis.vectors, basis.inputs);
+    if (method.modal()) {
+      const ModalBasis& basis = *first.basis;
+      points_ = modal_shape_width(basis.modes, basis.inputs);
       displacement_ = point_width;
       if (method.moving()) {
-        state_ = reduced_state_width(basis.vectors);
-        motion_ = reduced_motion_width(basis.vectors, basis.inputs);
+        state_ = modal_state_width(basis.modes);
+        motion_ = modal_motion_width(basis.modes, basis.inputs);
       }
     } else {
       displacement_ = nodal_width(method.choice.cells);
@@ -66,7 +66,7 @@ class FrontierCrowd {
       ticks_a_call_ = fixed_steps_ * *method.choice.dt_s / frontier_tick_s;
     }
     const std::size_t wanted = bytes / (bytes_each_ * lane_count);
-    const std::size_t each = std::max<std::size_t>(std::min(wanted, most_blocks) / muscles, 1);
+    const std::size_t each = std::max<std::size_t>(std::min(wanted, max_blocks) / muscles, 1);
     for (std::size_t m = 0; m < drives.size(); ++m) {
       if (individuals[m].empty()) continue;
       const FrontierDrive& drive = drives[m];
@@ -89,7 +89,7 @@ class FrontierCrowd {
       }
     }
     numbers_.resize(numbers * blocks_.size());
-    if (!method.reduced()) return;
+    if (!method.modal()) return;
     for (const Block& block : blocks_) {
       if (method.moving()) fill(block.individual->motion, &numbers_[block.first + state_]);
       fill(block.individual->points, &numbers_[block.first + state_ + motion_]);
@@ -97,12 +97,12 @@ class FrontierCrowd {
   }
 
   /// Everybody by a tick, or with a fixed step by the whole number of steps that is nearest to one. With
-  /// `control_points` those of a reduced method are placed too.
+  /// `control_points` those of a modal method are placed too.
   void tick(bool control_points) {
     const FlushDenormals flush;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      if (method_.reduced()) {
-        tick_vectors(b, control_points);
+      if (method_.modal()) {
+        tick_modes(b, control_points);
       } else {
         tick_elements(blocks_[b]);
       }
@@ -123,7 +123,7 @@ class FrontierCrowd {
     return sum / static_cast<double>(blocks_.size());
   }
   bool finite() const {
-    const std::size_t before = method_.reduced() ? state_ + motion_ + points_ : 0;
+    const std::size_t before = method_.modal() ? state_ + motion_ + points_ : 0;
     return std::ranges::all_of(blocks_, [&](const Block& block) {
       const auto shown = std::span(numbers_).subspan(block.first + before, displacement_);
       return std::ranges::all_of(shown, [](const Lanes<float>& numbers) {
@@ -162,23 +162,23 @@ class FrontierCrowd {
       deform_implicit(bellies, *own.solver, {FarEnd::held, block.end[turn_]}, steps, tick_s, scratch_.data()->lane);
     }
   }
-  void tick_vectors(std::size_t b, bool control_points) {
+  void tick_modes(std::size_t b, bool control_points) {
     const Block& block = blocks_[b];
     const Block& next = blocks_[std::min(b + 1, blocks_.size() - 1)];
-    const ReducedBlock bellies{*block.individual->basis,
-                               block.scale,
-                               column(block, 0),
-                               column(block, state_),
-                               loads_ ? &block.load[turn_] : nullptr,
-                               column(next, 0),
-                               column(next, state_)};
+    const ModalBlock bellies{*block.individual->basis,
+                             block.scale,
+                             column(block, 0),
+                             column(block, state_),
+                             loads_ ? &block.load[turn_] : nullptr,
+                             column(next, 0),
+                             column(next, state_)};
     const ControlPoints points{column(block, state_ + motion_), column(block, state_ + motion_ + points_), true,
                                column(next, state_ + motion_)};
     if (!method_.moving()) {
       place_static(bellies, points, {FarEnd::held, block.end[turn_]});
       return;
     }
-    deform_reduced(bellies, {FarEnd::held, block.end[turn_]}, static_cast<float>(frontier_tick_s));
+    deform_modal(bellies, {FarEnd::held, block.end[turn_]}, static_cast<float>(frontier_tick_s));
     if (control_points) place_control_points(bellies, points, {FarEnd::held, block.end[turn_]});
   }
 
@@ -213,7 +213,7 @@ struct Meter {
 /// As many blocks as fill the memory, or as fit into the time.
 std::unique_ptr<FrontierCrowd> crowd_of(const FrontierPriced& priced, std::span<const FrontierDrive> drives, bool loads,
                                         Stiffness stiffness, const FrontierRequest& request) {
-  const FrontierMethod& method = priced.rung->method;
+  const FrontierMethod& method = priced.level->method;
   FrontierCrowd few(method, drives, priced.individuals, loads, stiffness, request.bytes, 1);
   const double block_s = measure(1, [&] { few.tick(true); }).best_s * lane_count / static_cast<double>(few.muscles());
   const auto most = static_cast<std::size_t>(request.call_s / block_s);
@@ -230,7 +230,7 @@ void price(std::span<const FrontierPriced> all, std::span<const FrontierDrive> d
     meters[i].crowd = crowd_of(all[i], drives, loads, Stiffness::individual, request);
   }
   Meter shared{crowd_of(all.front(), drives, loads, Stiffness::shared, request), {}, {}};
-  const auto has_choice = [&](std::size_t i) { return all[i].rung->method.reduced() && all[i].rung->method.moving(); };
+  const auto has_choice = [&](std::size_t i) { return all[i].level->method.modal() && all[i].level->method.moving(); };
   for (int round = 0; round < request.rounds; ++round) {
     request.progress(loads ? "costs with the frame's loads" : "costs", static_cast<double>(round) / request.rounds);
     for (std::size_t i = 0; i < all.size(); ++i) meters[i].measure_once(has_choice(i));
@@ -249,8 +249,8 @@ void price(std::span<const FrontierPriced> all, std::span<const FrontierDrive> d
     row.dt_s = frontier_tick_s / meter.crowd->steps_a_tick();
     row.ratio = all.front().row->cost_us / row.cost_us;
     row.points_ratio = all.front().row->cost_us / row.points_us;
-    const bool least = frontier.least_muscles == 0 || meter.crowd->muscles() < frontier.least_muscles;
-    if (least) frontier.least_muscles = meter.crowd->muscles();
+    const bool least = frontier.min_muscles == 0 || meter.crowd->muscles() < frontier.min_muscles;
+    if (least) frontier.min_muscles = meter.crowd->muscles();
   }
   if (!loads) frontier.shared_us = shared.us(shared.ticks);
 }

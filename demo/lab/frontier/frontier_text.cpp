@@ -22,8 +22,8 @@ std::string percent(double part) {
 
 std::string named(const FrontierRow& row) {
   std::string text = fmt::format("{} {}", row.method, row.cells);
-  if (row.vectors > 0) text += fmt::format(", {} vectors", row.vectors);
-  if (row.method != "static" && row.vectors == 0) text += fmt::format(", {:.3g} ms", 1e3 * row.dt_s);
+  if (row.modes > 0) text += fmt::format(", {} modes", row.modes);
+  if (row.method != "static" && row.modes == 0) text += fmt::format(", {:.3g} ms", 1e3 * row.dt_s);
   return text;
 }
 
@@ -60,8 +60,8 @@ void add_scene(const Frontier& frontier, const FrontierChange& change, std::stri
                         fmt::format("{:.4g}", row->cost_us), fmt::format("{:.3g}", row->ratio),
                         fmt::format("{:.4g}", row->points_us), fmt::format("{:.3g}", row->points_ratio), also);
   }
-  text += fmt::format("  the reference's own change: {} from half the cells, {} from 24 vectors\n",
-                      percent(change.mesh), percent(change.vectors));
+  text += fmt::format("  the reference's own change: {} from half the cells, {} from 24 modes\n", percent(change.mesh),
+                      percent(change.modes));
   add_shown(frontier, change.loads, false, text);
   add_shown(frontier, change.loads, true, text);
   const auto far =
@@ -75,7 +75,7 @@ void add_scene(const Frontier& frontier, const FrontierChange& change, std::stri
 std::string reference_text(const Frontier& frontier) {
   const Cells& cells = frontier.request.reference;
   return fmt::format(
-      "32 vectors made for each body alone on a mesh of {}x{}x{} cells, extrapolated from it and one of half its "
+      "32 modes made for each body alone on a mesh of {}x{}x{} cells, extrapolated from it and one of half its "
       "cells; each motion integrated exactly",
       cells[0], cells[1], cells[2]);
 }
@@ -85,14 +85,14 @@ struct Series {
 };
 constexpr std::array series = {
     Series{"static", "static", "#8c6d31"},
-    Series{"ecd", "explicit (ECD)", "#1f77b4"},
-    Series{"icd", "implicit, consistent mass (ICD)", "#17a2b8"},
-    Series{"caa", "constant average acceleration (CAA)", "#9467bd"},
-    Series{"reduced-static", "reduced, static", "#bcbd22"},
-    Series{"reduced-plain", "reduced, not extrapolated", "#e377c2"},
-    Series{"reduced", "reduced, state alone", "#2ca02c"},
+    Series{"explicit-central", "explicit (ECD)", "#1f77b4"},
+    Series{"implicit-central", "implicit, consistent mass (ICD)", "#17a2b8"},
+    Series{"newmark", "constant average acceleration (CAA)", "#9467bd"},
+    Series{"modal-static", "modal, static", "#bcbd22"},
+    Series{"modal-plain", "modal, not extrapolated", "#e377c2"},
+    Series{"modal", "modal, state alone", "#2ca02c"},
 };
-constexpr std::string_view placed_label = "reduced, control points placed", placed_colour = "#ff7f0e",
+constexpr std::string_view placed_label = "modal, control points placed", placed_colour = "#ff7f0e",
                            frontier_label = "Pareto frontier", paper_label = "the paper's choices",
                            paper_colour = "#d62728";
 
@@ -119,12 +119,12 @@ void add_line(const Frontier& frontier, bool loads, bool placed, PlotPanel& pane
   panel.lines.push_back(std::move(line));
 }
 
-/// The number of vectors beside the point that is on the frontier, once a number.
+/// The number of modes beside the point that is on the frontier, once a number.
 std::string number_beside(const Frontier& frontier, const FrontierRow& row) {
   const bool bettered = std::ranges::any_of(frontier.rows, [&](const FrontierRow& other) {
-    return other.loads == row.loads && other.on_frontier && other.vectors == row.vectors && other.error < row.error;
+    return other.loads == row.loads && other.on_frontier && other.modes == row.modes && other.error < row.error;
   });
-  return row.on_frontier && !bettered && std::has_single_bit(row.vectors) ? std::to_string(row.vectors) : "";
+  return row.on_frontier && !bettered && std::has_single_bit(row.modes) ? std::to_string(row.modes) : "";
 }
 
 void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
@@ -140,9 +140,9 @@ void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
     if (!points.x.empty()) panel.points.push_back(std::move(points));
   };
   for (const Series& one : series) {
-    add(one.method, one.label, one.colour, &FrontierRow::cost_us, one.method == "reduced");
+    add(one.method, one.label, one.colour, &FrontierRow::cost_us, one.method == "modal");
   }
-  add("reduced", placed_label, placed_colour, &FrontierRow::points_us, false);
+  add("modal", placed_label, placed_colour, &FrontierRow::points_us, false);
   PlotPoints paper{{}, {}, {}, std::string(paper_colour), std::string(paper_label)};
   for (const FrontierRow& row : frontier.rows) {
     if (row.loads != loads || row.mark.empty()) continue;
@@ -163,7 +163,7 @@ std::string frontier_csv(const Frontier& frontier) {
   csv += ",paper\n";
   for (const FrontierRow& row : frontier.rows) {
     csv += fmt::format("{},{},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:d},{},{},{:.6g},{:.6g},{:d},{:d}", row.method,
-                       row.nodes, row.dt_s, row.vectors, row.error, row.error_max_m, row.cost_us, row.ratio,
+                       row.nodes, row.dt_s, row.modes, row.error, row.error_max_m, row.cost_us, row.ratio,
                        row.memory_bytes, row.on_frontier, row.loads ? "frame" : "line", row.cells, row.points_us,
                        row.points_ratio, row.points_on_frontier, row.uncertain);
     for (const double error : row.error_of_muscle) csv += std::isfinite(error) ? fmt::format(",{:.6g}", error) : ",";
@@ -180,7 +180,7 @@ std::string frontier_text(const Frontier& frontier) {
       "{} muscles, {} walks, {:.3g} s of each; against {}.\nCosts: {} ({}), one thread, crowds of at least {} "
       "muscles.\n",
       request.muscles.size(), request.walks.size(), request.seconds, reference_text(frontier), frontier.machine.cpu,
-      frontier.machine.target, frontier.least_muscles);
+      frontier.machine.target, frontier.min_muscles);
   for (const FrontierChange& change : frontier.change) add_scene(frontier, change, text);
   if (frontier.shared_us > 0) {
     const auto paper = std::ranges::find_if(frontier.rows, [](const FrontierRow& row) { return !row.loads; });
@@ -195,7 +195,7 @@ std::string frontier_text(const Frontier& frontier) {
 
 PlotFigure frontier_figure(const Frontier& frontier) {
   PlotFigure figure{"What accuracy costs",
-                    "Against a converged reference, over our own walks; one core. Numbers: vectors.",
+                    "Against a converged reference, over our own walks; one core. Numbers: modes.",
                     frontier.change.size(),
                     430,
                     340,

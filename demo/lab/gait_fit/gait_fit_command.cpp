@@ -257,7 +257,7 @@ Subcommand gait_fit_command() {
       "Example: mobil fit-gait --out assets/gait/step_table.cpp";
   add_options(command,
               {{"--out", &text->out, "Source file to write"},
-               {"--styles", &text->styles, "Write how this program's table changes with the manner of a walk instead"},
+               {"--styles", &text->styles, "Write how this program's table changes with the posture of a walk instead"},
                {"--excitation", &text->excitation, "Write how muscles are excited instead: a second"},
                {"--without", &text->without,
                 "slow, free or fast: leave this measured speed out and be judged by it all the same"},

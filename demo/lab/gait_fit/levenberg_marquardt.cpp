@@ -9,7 +9,7 @@ namespace mobil {
 namespace {
 
 constexpr double difference = 1e-4;
-constexpr int earliest_end = 5, most_retries = 9;
+constexpr int earliest_end = 5, max_retries = 9;
 
 double squares(const std::vector<double>& r) {
   double sum = 0;
@@ -41,7 +41,7 @@ double least_squares(const Residuals& residuals, std::span<const double> scale, 
   std::vector<double> now, there, tried(unknown.begin(), unknown.end());
   residuals(unknown, now);
   double sum = squares(now), damping = 1e-2;
-  for (int step = 0; step < options.most_steps; ++step) {
+  for (int step = 0; step < options.max_steps; ++step) {
     const Eigen::MatrixXd jacobian = derivatives(residuals, scale, unknown, now);
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
     normal.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
@@ -49,7 +49,7 @@ double least_squares(const Residuals& residuals, std::span<const double> scale, 
     const Eigen::VectorXd slope = jacobian.transpose() * Eigen::Map<const Eigen::VectorXd>(now.data(), jacobian.rows());
     const double least = 1e-3 * normal.trace() / static_cast<double>(n);
     double next = sum;
-    for (int retry = 0; retry < most_retries; ++retry, damping *= 4) {
+    for (int retry = 0; retry < max_retries; ++retry, damping *= 4) {
       Eigen::MatrixXd damped = normal;
       damped.diagonal() += damping * (normal.diagonal().array() + least).matrix();
       const Eigen::VectorXd change = -damped.ldlt().solve(slope);
@@ -60,7 +60,7 @@ double least_squares(const Residuals& residuals, std::span<const double> scale, 
       if (std::isfinite(next) && next < sum) break;
     }
     if (!(next < sum)) return sum;
-    const bool last = sum - next < options.least_gain * sum && step > earliest_end;
+    const bool last = sum - next < options.min_gain * sum && step > earliest_end;
     std::copy(tried.begin(), tried.end(), unknown.begin());
     now.swap(there);
     sum = next;

@@ -11,8 +11,8 @@ namespace mobil {
 using Residuals = std::function<void(std::span<const double> unknown, std::vector<double>& residual)>;
 
 struct LeastSquares {
-  int most_steps = 100;
-  double least_gain = 3e-6;  // of the sum of squares, below which a step is the last
+  int max_steps = 100;
+  double min_gain = 3e-6;  // of the sum of squares, below which a step is the last
 };
 
 /// Changes `unknown` toward the least sum of squares, and returns that sum. `scale`: by how much each unknown is likely

@@ -23,9 +23,9 @@ using namespace step_table;
 constexpr double degree = std::numbers::pi / 180;
 constexpr double evenness = 0.15;  // how strongly nodes are drawn to their neighbours', per scale of each number
 
-double solve(const StepNode& node, const StepWeights& weights, int most_steps, StepShape& shape) {
+double solve(const StepNode& node, const StepWeights& weights, int max_steps, StepShape& shape) {
   static constexpr StepShape scales = shape_scales();
-  return least_squares(step_residuals(node.task, node.targets, weights), scales, {most_steps}, shape);
+  return least_squares(step_residuals(node.task, node.targets, weights), scales, {max_steps}, shape);
 }
 
 bool keep(StepNode& node, const StepShape& shape, double cost) {
@@ -69,12 +69,12 @@ constexpr std::array<double, style_effects.size()> tried_by = {3,    5,    4,   
                                                                0.01, 0.01, -0.05, -0.2, 0.1,  5, 1};
 constexpr double insistence = 30;
 
-/// Instants of the usual step at which its manner is read, so that values change smoothly with the shape.
+/// Instants of the usual step at which its posture is read, so that values change smoothly with the shape.
 struct Instants {
   std::size_t toe_off, mid_swing, release;
   std::size_t loaded;              // greatest knee flexion of early stance
   std::size_t straightest;         // least one after that, before the heel rises
-  std::size_t most_bent;           // of the knee, in swing
+  std::size_t max_bent;            // of the knee, in swing
   std::size_t highest, lowest;     // of the hips
   std::size_t single, end_single;  // support on this foot: from, to
 };
@@ -100,7 +100,7 @@ Instants instants(const StepTask& task, const StepCycle& c) {
   i.release = at(0.53);
   i.loaded = greatest(c.knee, 0.06, 0.22);
   i.straightest = least(c.knee, 0.22, 0.46);
-  i.most_bent = greatest(c.knee, off, 0.95);
+  i.max_bent = greatest(c.knee, off, 0.95);
   i.highest = greatest(c.hips_up, 0, 0.5);
   i.lowest = least(c.hips_up, 0, 0.5);
   i.single = at(task.double_support);
@@ -120,7 +120,7 @@ double style_value(const StepTask& task, const StepShape& shape, const StepCycle
     const double rate = (usual.knee[i.release + 1] - usual.knee[i.release - 1]) * 0.5 * static_cast<double>(n);
     return -c.knee[i.release] / rate;
   }
-  if (of == &Style::swing_knee_deg) return degrees * c.knee[i.most_bent];
+  if (of == &Style::swing_knee_deg) return degrees * c.knee[i.max_bent];
   if (of == &Style::swing_ankle_deg) return degrees * c.ankle[i.mid_swing];
   if (of == &Style::toe_clearance_m) return c.toe_clear[i.mid_swing];
   if (of == &Style::foot_pivot_h) {
@@ -340,7 +340,7 @@ StyleChanges style_changes(const StepNode& node) {
       residual.push_back(insistence * ((now - before[e]) / by - 1));
     };
     StepShape shape = node.shape;
-    least_squares(asked, scales, {.most_steps = 40, .least_gain = 1e-4}, shape);
+    least_squares(asked, scales, {.max_steps = 40, .min_gain = 1e-4}, shape);
     const double reached = style_values(node.task, node.shape, shape)[e] - before[e];
     for (std::size_t i = 0; i < shape.size(); ++i) changes[e][i] = (shape[i] - node.shape[i]) / reached;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// A table of steps over speed and step length, fitted node by node; and how a step changes with the manner of a
+// A table of steps over speed and step length, fitted node by node; and how a step changes with the posture of a
 // walk, and stays in balance.
 
 #include <functional>

@@ -100,8 +100,8 @@ struct Aims {
   StepTask task;
   StepTargets targets;
   StepWeights weights;
-  std::array<double, 3> most_rate;  // of hip, knee and ankle, degrees a cycle
-  double least_rise, most_rise;     // of the centre of mass, m
+  std::array<double, 3> max_rate;  // of hip, knee and ankle, degrees a cycle
+  double min_rise, max_rise;       // of the centre of mass, m
 
   void gather(std::span<const double> unknown, std::vector<double>& residual) const;
   void peaks(GaitQuantity quantity, double weight, double spare, const Samples& ours, Gathered& all) const;
@@ -131,11 +131,11 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   std::copy(unknown.begin(), unknown.end(), shape.begin());
   evaluate_step(task, shape, c);
   Gathered all(residual);
-  const auto track = [&](GaitQuantity quantity, double weight, double least_sd, double most_sd) {
+  const auto track = [&](GaitQuantity quantity, double weight, double min_sd, double max_sd) {
     const Target& target = targets.curve[index(quantity)];
     const Samples ours = samples_of(c, quantity);
     all.curve(weight,
-              [&](std::size_t i) { return (ours[i] - target.mean[i]) / std::clamp(target.sd[i], least_sd, most_sd); });
+              [&](std::size_t i) { return (ours[i] - target.mean[i]) / std::clamp(target.sd[i], min_sd, max_sd); });
   };
   using enum GaitQuantity;
   track(hip, weights.angles, 2.5, 2.5);
@@ -177,9 +177,9 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   all.curve(15, [&](std::size_t i) { return bend(c.total_up, i) / gravity; });
   const Samples* turning[3] = {&c.hip, &c.knee, &c.ankle};
   for (std::size_t k = 0; k < 3; ++k)
-    all.curve(1.0 / 5, [&](std::size_t i) { return beyond(degrees * rate(*turning[k], i), most_rate[k]); });
+    all.curve(1.0 / 5, [&](std::size_t i) { return beyond(degrees * rate(*turning[k], i), max_rate[k]); });
   const auto [low, high] = std::ranges::minmax(c.centre_up);
-  all.one(1500 * (below(high - low, least_rise) + beyond(high - low, most_rise)));
+  all.one(1500 * (below(high - low, min_rise) + beyond(high - low, max_rise)));
   all.curve(3000, [&](std::size_t i) { return below(c.pad_up[i], 0) + beyond(c.pad_up[i], 0.008); });
   all.curve(8000, [&](std::size_t i) { return beyond(std::abs(c.pad_forward[i]), 0.003); });
   static constexpr StepShape scale = shape_scales();
@@ -250,7 +250,7 @@ Residuals step_residuals(const StepTask& task, const StepTargets& targets, const
   constexpr std::array<double, 3> allowed = {1.14, 1.14, 1.42};  // of the fastest measured
   for (std::size_t q = 0; q < 3; ++q) {
     const Samples& mean = targets.curve[q].mean;
-    for (std::size_t i = 0; i < n; ++i) aims->most_rate[q] = std::max(aims->most_rate[q], allowed[q] * rate(mean, i));
+    for (std::size_t i = 0; i < n; ++i) aims->max_rate[q] = std::max(aims->max_rate[q], allowed[q] * rate(mean, i));
   }
   return [aims](std::span<const double> unknown, std::vector<double>& residual) { aims->gather(unknown, residual); };
 }

@@ -92,25 +92,25 @@ Result<Contraction> contract_muscle(const ContractionRequest& request) {
   SimulationOptions options;
   options.tick_s = contraction_tick_s;
   Simulation simulation(options);
-  const auto human = simulation.spawn_posed({});
-  if (!human) return tl::unexpected(human.error());
+  const auto person = simulation.spawn_posed({});
+  if (!person) return tl::unexpected(person.error());
   LegMuscles choice;
   choice.muscles.reset();
   choice.muscles.set(static_cast<std::size_t>(request.muscle));
-  choice.method = Method::reduced;
+  choice.method = Method::modal;
   choice.activation = ExcitationSource::host;
-  if (auto added = simulation.set_muscles(*human, choice); !added) return tl::unexpected(added.error());
-  const Entity muscle = simulation.muscle(*human, request.muscle, Side::right);
+  if (auto added = simulation.set_muscles(*person, choice); !added) return tl::unexpected(added.error());
+  const Entity muscle = simulation.muscle(*person, request.muscle, Side::right);
   const auto ticks = static_cast<int>(std::lround(request.seconds / contraction_tick_s));
   Contraction made;
   made.csv =
       "time_s,excitation,activation,line_m,fibre_m,tendon_m,pennation_deg,muscle_force_n,belly_shortening_m,"
       "middle_section_ratio,volume_ratio\n";
-  double most_force = 0, most_short = 0, most_section = 0;
+  double max_force = 0, max_short = 0, max_section = 0;
   std::vector<double> forces;
   for (int tick = 0; tick < ticks; ++tick) {
     const bool on = tick >= on_at * ticks && tick < off_at * ticks;
-    if (auto set = simulation.set_excitation(*human, request.muscle, Side::right, on ? request.level : 0); !set)
+    if (auto set = simulation.set_excitation(*person, request.muscle, Side::right, on ? request.level : 0); !set)
       return tl::unexpected(set.error());
     simulation.tick();
     const auto pull = *simulation.get<Musculotendon>(muscle);
@@ -122,11 +122,11 @@ Result<Contraction> contract_muscle(const ContractionRequest& request) {
         pull.fibre_m, pull.tendon_m, pull.pennation_rad * 180 / std::numbers::pi_v<float>, pull.force_n, -pull.belly_m,
         section, simulation.get<BellyReport>(muscle)->volume_ratio);
     forces.push_back(double{pull.force_n});
-    most_force = std::max(most_force, double{pull.force_n});
-    most_short = std::max(most_short, -double{pull.belly_m});
-    most_section = std::max(most_section, section);
+    max_force = std::max(max_force, double{pull.force_n});
+    max_short = std::max(max_short, -double{pull.belly_m});
+    max_section = std::max(max_section, section);
   }
-  const auto risen = std::ranges::find_if(forces, [&](double force) { return force >= 0.9 * most_force; });
+  const auto risen = std::ranges::find_if(forces, [&](double force) { return force >= 0.9 * max_force; });
   const double rise_s = static_cast<double>(risen - forces.begin()) * contraction_tick_s - on_at * request.seconds;
   const BodyRequest body;
   made.summary = fmt::format(
@@ -135,21 +135,25 @@ Result<Contraction> contract_muscle(const ContractionRequest& request) {
       "mm,\n"
       "its middle section grows to {:.3f} of that at rest\n",
       muscle_name(request.muscle), body.height_m, body.mass_kg, request.level, on_at * request.seconds,
-      off_at * request.seconds, most_force, 1e3 * std::max(rise_s, 0.0), 1e3 * most_short, most_section);
+      off_at * request.seconds, max_force, 1e3 * std::max(rise_s, 0.0), 1e3 * max_short, max_section);
   return made;
 }
 
 constexpr const char* help_footer =
     "Methods. With K the stiffness, M the mass and f the load, K u + C u' + M u'' = f:\n"
     "  static  K u = f at every row: what is left when nothing moves fast.\n"
-    "  ecd     explicit central differences. Lumped mass, so a step is one product with K; stable only below the\n"
+    "  explicit-central     explicit central differences. Lumped mass, so a step is one product with K; stable only "
+    "below the\n"
     "          critical step 2/omega_max, which is computed and named. Beats a little fast: -(omega dt)^2/24.\n"
-    "  icd     the same with the consistent mass, which takes a solve a step and about halves the critical step.\n"
-    "  caa     constant average acceleration (Newmark 1/4, 1/2): a solve a step, stable at any; beats a little slow:\n"
+    "  implicit-central     the same with the consistent mass, which takes a solve a step and about halves the "
+    "critical step.\n"
+    "  newmark     constant average acceleration (Newmark 1/4, 1/2): a solve a step, stable at any; beats a little "
+    "slow:\n"
     "          +(omega dt)^2/12.\n"
-    "  reduced the block's motion along a few vectors that its load calls for, each integrated exactly: no critical\n"
-    "          step, no error of the step, and hardly any cost; what the vectors cannot show is missing.\n"
-    "  finite  ecd at finite strain: tissue that all but keeps its volume, with fibres that resist stretch. Poisson's\n"
+    "  modal the block's motion along a few modes that its load calls for, each integrated exactly: no critical\n"
+    "          step, no error of the step, and hardly any cost; what the modes cannot show is missing.\n"
+    "  finite  explicit-central at finite strain: tissue that all but keeps its volume, with fibres that resist "
+    "stretch. Poisson's\n"
     "          ratio has no part beyond the shear modulus. Its critical step holds for |cof F - 1| up to 0.65.\n"
     "Lumped and consistent mass bracket the true beat from below and above; they draw together as cells get smaller.\n"
     "\n"
@@ -157,9 +161,9 @@ constexpr const char* help_footer =
     "  mobil muscle --activation 1 --of soleus --out soleus.csv\n"
     "Example: a sideways nudge of 1 mN for 0.1 s, and how three methods ring after it:\n"
     "  printf 'time_s,force_x_n,force_y_n,force_z_n\\n0,0,0,0\\n0.05,.001,0,0\\n0.1,0,0,0\\n' > nudge.csv\n"
-    "  mobil muscle --load nudge.csv --dt 2ms --out ecd.csv\n"
-    "  mobil muscle --load nudge.csv --dt 2ms --method caa --out caa.csv\n"
-    "  mobil muscle --load nudge.csv --dt 2ms --method caa --mass lumped --damping 8 --out damped.csv";
+    "  mobil muscle --load nudge.csv --dt 2ms --out explicit-central.csv\n"
+    "  mobil muscle --load nudge.csv --dt 2ms --method newmark --out newmark.csv\n"
+    "  mobil muscle --load nudge.csv --dt 2ms --method newmark --mass lumped --damping 8 --out damped.csv";
 
 std::string summary(const MuscleRequest& request, const MuscleRun& result, double wall_s) {
   const MuscleTemplate& m = request.muscle;

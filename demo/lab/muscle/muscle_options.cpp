@@ -19,9 +19,11 @@ namespace {
 constexpr double longest_run_steps = 2e6;
 
 constexpr std::array<std::string_view, 2> precisions = {"single", "double"};
-constexpr std::array<std::string_view, 6> moving_methods = {"static", "ecd", "icd", "caa", "reduced", "finite"};
-constexpr std::array moving_method = {Method::statics, Method::ecd,     Method::icd,
-                                      Method::caa,     Method::reduced, Method::finite};
+constexpr std::array<std::string_view, 6> moving_methods = {
+    "static", "explicit-central", "implicit-central", "newmark", "modal", "finite"};
+constexpr std::array moving_method = {
+    Method::statics, Method::explicit_central, Method::implicit_central, Method::newmark, Method::modal,
+    Method::finite};
 
 std::vector<std::string> muscle_words() {
   std::vector<std::string> names;
@@ -31,7 +33,7 @@ std::vector<std::string> muscle_words() {
 
 /// Without --dt: static writes a row for every picture of a display; CAA steps eight times as often, so that the beat
 /// of the default block's first stretch (12 Hz) is a fifth of a per cent long.
-constexpr double static_step_s = 1.0 / 60, caa_step_s = 1.0 / 480;
+constexpr double static_step_s = 1.0 / 60, newmark_step_s = 1.0 / 480;
 
 /// Pulled by 1 N along z within 0.1 s, held, let go at 0.5 s.
 ForceHistory default_load() {
@@ -67,18 +69,20 @@ Result<Grading> parse_grading(const std::string& text) {
 
 /// The mass that a method takes, where nothing or the right thing was asked for.
 Result<Mass> choose_mass(Method method, const std::string& text) {
-  const Mass own = method == Method::icd || method == Method::caa ? Mass::consistent : Mass::lumped;
+  const Mass own = method == Method::implicit_central || method == Method::newmark ? Mass::consistent : Mass::lumped;
   if (text.empty()) return own;
   auto mass = choose<Mass>("--mass", text, mass_name);
   if (!mass) return mass;
-  if ((method == Method::ecd || method == Method::finite) && *mass == Mass::consistent) {
+  if ((method == Method::explicit_central || method == Method::finite) && *mass == Mass::consistent) {
     return fail(
-        "--mass consistent would need a solve at every explicit step, which is --method icd; --method ecd and finite "
+        "--mass consistent would need a solve at every explicit step, which is --method implicit-central; --method "
+        "explicit-central and finite "
         "take --mass lumped");
   }
-  if (method == Method::icd && *mass == Mass::lumped) {
+  if (method == Method::implicit_central && *mass == Mass::lumped) {
     return fail(
-        "--mass lumped needs no solve, which is --method ecd; --method icd (central differences that solve with the "
+        "--mass lumped needs no solve, which is --method explicit-central; --method implicit-central (central "
+        "differences that solve with the "
         "mass) takes --mass consistent");
   }
   return mass;
@@ -98,20 +102,22 @@ Result<Choices> read_choices(const MuscleText& text) {
   c.mass = read(choose_mass(c.method, text.mass));
   c.element = read(choose<Element>("--element", text.element, element_name));
   c.in_double = read(choose<std::size_t>("--precision", text.precision, precisions)) == 1;
-  if (c.method == Method::reduced && c.in_double)
-    read.refuse("--precision double has no reduced method; its steps are exact, leave the option out");
+  if (c.method == Method::modal && c.in_double)
+    read.refuse("--precision double has no modal method; its steps are exact, leave the option out");
   if (c.method == Method::finite && c.element == Element::bbar)
     read.refuse("--method finite has elements of one point; leave --element bbar out, or take another method");
   if (c.method == Method::finite && c.in_double)
-    read.refuse("--precision double has no finite method; leave the option out, or take ecd, icd, caa or static");
-  if (c.method != Method::reduced && !text.glb.empty())
-    read.refuse("--glb writes the vectors of --method reduced; add that, or leave --glb out");
+    read.refuse(
+        "--precision double has no finite method; leave the option out, or take explicit-central, implicit-central, "
+        "newmark or static");
+  if (c.method != Method::modal && !text.glb.empty())
+    read.refuse("--glb writes the modes of --method modal; add that, or leave --glb out");
   return read.result(c);
 }
 
 /// Whether a factorised operator is needed.
 bool solves(const Choices& choices) {
-  return !choices.in_double && choices.method != Method::ecd && choices.method != Method::reduced &&
+  return !choices.in_double && choices.method != Method::explicit_central && choices.method != Method::modal &&
          choices.method != Method::finite;
 }
 
@@ -136,7 +142,9 @@ Result<MuscleTemplate> make_template(const MuscleText& text, const Choices& choi
   options.mass = choices.mass;
   options.stiffness_damping_s = read(read_value("--stiffness-damping", text.stiffness_damping, Quantity::time, 0, 1));
   if (choices.method == Method::finite && options.stiffness_damping_s > 0)
-    read.refuse("--method finite is damped by --damping alone; leave --stiffness-damping out, or take --method ecd");
+    read.refuse(
+        "--method finite is damped by --damping alone; leave --stiffness-damping out, or take --method "
+        "explicit-central");
   options.foundation_hz = read(read_value("--foundation", text.foundation, Quantity::frequency, 0, 1000));
   const auto grading = read.result(read(parse_grading(text.grading)));
   if (!grading) return tl::unexpected(grading.error());
@@ -182,15 +190,15 @@ Result<Stepping> choose_step(const MuscleText& text, const MuscleTemplate& muscl
     dt = *given;
   }
   std::optional<double> limit;
-  double longest = method == Method::statics ? static_step_s : caa_step_s;
-  if (method == Method::ecd || method == Method::icd || method == Method::finite) {
+  double longest = method == Method::statics ? static_step_s : newmark_step_s;
+  if (method == Method::explicit_central || method == Method::implicit_central || method == Method::finite) {
     limit = limit_of(muscle);
     longest = 0.9 * *limit;
     if (dt && *dt > *limit) {
       const double rounded = std::floor(longest * 1e6) / 1e6;
       return fail(fmt::format(
           "--dt {} s is above the critical step {:.4g} s of this mesh, material and mass; use at most {:.3g} s (0.9 of "
-          "it), leave --dt out, or take --method caa, which is stable at any step",
+          "it), leave --dt out, or take --method newmark, which is stable at any step",
           *dt, *limit, rounded > 0 ? rounded : longest));
     }
   }
@@ -222,14 +230,17 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--grading", &text.grading,
        "How long elements in the middle are against those at the edges and ends: across,along, 0.01 to 100 each",
        block},
-      {"--method", &text.method, "static, ecd, icd, caa, reduced or finite, see below", time, words_of(moving_methods)},
-      {"--vectors", &text.vectors, "Of reduced: how many of the block's own vectors move, 1 to 32", time},
+      {"--method", &text.method, "static, explicit-central, implicit-central, newmark, modal or finite, see below",
+       time, words_of(moving_methods)},
+      {"--modes", &text.modes, "Of modal: how many of the block's own modes move, 1 to 32", time},
       {"--mass", &text.mass,
-       "lumped or consistent: ecd and finite are lumped, icd consistent, caa either (default: consistent)", time,
-       words_of(mass_name)},
+       "lumped or consistent: explicit-central and finite are lumped, implicit-central consistent, newmark either "
+       "(default: consistent)",
+       time, words_of(mass_name)},
       {"--dt", &text.dt,
-       "Step, s; ecd, icd and finite refuse one above the critical step (default: just within 0.9 of it; caa and "
-       "reduced 1/480, static 1/60)",
+       "Step, s; explicit-central, implicit-central and finite refuse one above the critical step (default: just "
+       "within 0.9 of it; newmark and "
+       "modal 1/480, static 1/60)",
        time},
       {"--seconds", &text.seconds, "How long, up to 3600 s", time},
       {"--damping", &text.damping, "alpha of C = alpha M + beta K, 0 to 1000 1/s: damps slow motion most", time},
@@ -245,8 +256,8 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--gravity", &text.gravity, "Acceleration of every mass in the block's frame, X,Y,Z, m/s2", load},
       {"--out", &text.out, "CSV time_s,u_x_m,u_y_m,u_z_m of the far face's centre, one row a step from t = 0", load},
       {"--glb", &text.glb,
-       "Of reduced: the block as GLB, its vectors as morph targets whose weights are the reduced coordinates; with up "
-       "to 8 vectors every viewer shows it",
+       "Of modal: the block as GLB, its modes as morph targets whose weights are the modal coordinates; with up "
+       "to 8 modes every viewer shows it",
        load},
       {"--activation", &text.activation,
        "In place of a block: excite a muscle of somebody who stands, 0 to 1, from a tenth to six tenths of --seconds; "
@@ -256,16 +267,16 @@ std::vector<Option> muscle_options(MuscleText& text) {
 }
 
 /// Vectors of the block itself, so that 32 of them come close to its full model.
-Result<ReducedBasis> make_block_basis(const MuscleText& text, const MuscleTemplate& muscle, bool weighed) {
-  const auto vectors = read_value("--vectors", text.vectors, Quantity::ratio, 1, most_vectors);
-  if (!vectors) return tl::unexpected(vectors.error());
-  if (*vectors != std::floor(*vectors)) return fail(fmt::format("--vectors {} must be a whole number", text.vectors));
+Result<ModalBasis> make_block_basis(const MuscleText& text, const MuscleTemplate& muscle, bool weighed) {
+  const auto modes = read_value("--modes", text.modes, Quantity::ratio, 1, max_modes);
+  if (!modes) return tl::unexpected(modes.error());
+  if (*modes != std::floor(*modes)) return fail(fmt::format("--modes {} must be a whole number", text.modes));
   const MuscleOptions& o = muscle.options;
   if (o.stiffness_damping_s > 0) {
-    return fail("--method reduced is damped by --damping alone; leave --stiffness-damping out, or take --method caa");
+    return fail("--method modal is damped by --damping alone; leave --stiffness-damping out, or take --method newmark");
   }
-  ReducedOptions options;
-  options.vectors = static_cast<std::uint32_t>(*vectors);
+  ModalBasisOptions options;
+  options.modes = static_cast<std::uint32_t>(*modes);
   options.far_end = o.far_end;
   options.frame_loads = weighed;
   options.corrected = false;
@@ -273,7 +284,7 @@ Result<ReducedBasis> make_block_basis(const MuscleText& text, const MuscleTempla
   options.damping_per_s = o.damping_per_s;
   options.middle_product = options.ratio_width = 1;
   options.control_cells = muscle.mesh.cells;
-  return make_reduced_basis(muscle.mesh, muscle.material, o.element, options);
+  return make_modal_basis(muscle.mesh, muscle.material, o.element, options);
 }
 
 Result<MuscleRequest> read_muscle_request(const MuscleText& text) {
@@ -293,8 +304,8 @@ Result<MuscleRequest> read_muscle_request(const MuscleText& text) {
     if (!made) return tl::unexpected(made.error());
     solver = std::move(*made);
   }
-  std::optional<ReducedBasis> basis;
-  if (choices->method == Method::reduced) {
+  std::optional<ModalBasis> basis;
+  if (choices->method == Method::modal) {
     auto made = make_block_basis(text, *muscle, gravity->x != 0 || gravity->y != 0 || gravity->z != 0);
     if (!made) return tl::unexpected(made.error());
     basis = std::move(*made);
@@ -321,13 +332,13 @@ std::string describe_method(const MuscleRequest& request) {
       "explicit central differences",
       "implicit central differences",
       "constant average acceleration",
-      "a few vectors, each integrated exactly",
+      "a few modes, each integrated exactly",
       "nothing",
       "explicit central differences at finite strain"};
   const auto at = static_cast<std::size_t>(request.method);
   const MuscleOptions& o = request.muscle.options;
   return fmt::format("{}: {}{}, {} elements, {} precision", method_name[at], long_name[at],
-                     request.basis ? fmt::format(", {} vectors", request.basis->vectors)
+                     request.basis ? fmt::format(", {} modes", request.basis->modes)
                      : request.method == Method::statics
                          ? ""
                          : fmt::format(", {} mass", mass_name[static_cast<std::size_t>(o.mass)]),

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/modal_basis.h"
+#include "demo/lab/reference/reference.h"
 #include "demo/program/progress.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/finite.h"
-#include "systems/deformation/reduced.h"
-#include "demo/lab/reference/reference.h"
+#include "systems/deformation/modal.h"
 
 namespace mobil {
 namespace {
@@ -34,7 +34,7 @@ class Belly {
 Result<ReferenceBelly> make_reference(const MuscleRequest& request) {
   const MuscleOptions& o = request.muscle.options;
   // At rest finite strain has no elastic force either, so that it begins as ECD does.
-  const Method method = request.method == Method::finite ? Method::ecd : request.method;
+  const Method method = request.method == Method::finite ? Method::explicit_central : request.method;
   return ReferenceBelly::make(request.muscle.mesh, request.muscle.terms,
                               {method, o.mass, o.far_end, request.dt_s, o.damping_per_s, o.stiffness_damping_s,
                                2 * std::numbers::pi * o.foundation_hz});
@@ -117,42 +117,42 @@ class SingleBelly : public Belly {
   BellyReport<Lanes<float>> report_{};
 };
 
-/// Sixteen times the same belly along the block's own vectors.
-class ReducedOne : public Belly {
+/// Sixteen times the same belly along the block's own modes.
+class ModalOne : public Belly {
  public:
-  static Result<std::unique_ptr<ReducedOne>> make(const MuscleRequest& request) {
-    auto own = make_reduced_belly(*request.basis, 1, 1);
+  static Result<std::unique_ptr<ModalOne>> make(const MuscleRequest& request) {
+    auto own = make_modal_belly(*request.basis, 1, 1);
     if (!own) return tl::unexpected(own.error());
-    return std::unique_ptr<ReducedOne>(new ReducedOne(request, *own));
+    return std::unique_ptr<ModalOne>(new ModalOne(request, *own));
   }
 
   void step(const Vec3<double>& now, const Vec3<double>& next) override {
     EndTraction<Lanes<float>> traction{};
     spread(now, traction.from_n);
     spread(next, traction.to_n);
-    deform_reduced(block_, traction, static_cast<float>(dt_s_));
+    deform_modal(block_, traction, static_cast<float>(dt_s_));
     place_control_points(block_, {shape_.data()->lane, displacement_.data()->lane}, traction);
   }
   double displacement(std::uint32_t node, std::size_t axis) override {
     return static_cast<double>(displacement_[3 * node + axis][0]);
   }
 
-  /// The reduced coordinates of the displacement.
+  /// The modal coordinates of the displacement.
   std::vector<float> coordinates() const {
     std::vector<float> shown;
     for (const Lanes<float>& lanes : displacement_) shown.push_back(lanes[0]);
-    double q[most_vectors];
+    double q[max_modes];
     fit_coordinates(basis_, 0, shown, q);
-    return {q, q + basis_.vectors};
+    return {q, q + basis_.modes};
   }
 
  private:
-  ReducedOne(const MuscleRequest& request, const ReducedBelly& own)
+  ModalOne(const MuscleRequest& request, const ModalBelly& own)
       : basis_(*request.basis),
         dt_s_(request.dt_s),
-        state_(reduced_state_width(basis_.vectors)),
-        motion_(reduced_motion_width(basis_.vectors, basis_.inputs)),
-        shape_(reduced_shape_width(basis_.vectors, basis_.inputs)),
+        state_(modal_state_width(basis_.modes)),
+        motion_(modal_motion_width(basis_.modes, basis_.inputs)),
+        shape_(modal_shape_width(basis_.modes, basis_.inputs)),
         displacement_(nodal_width(request.muscle.mesh.cells)) {
     for (std::size_t l = 0; l < lane_count; ++l) scale_.across[l] = scale_.along[l] = 1;
     spread(request.gravity_m_s2, frame_.constant_from);
@@ -178,21 +178,21 @@ class ReducedOne : public Belly {
     for (std::size_t i = 0; i < block.size(); ++i) std::fill_n(block[i].lane, lane_count, row[i]);
   }
 
-  const ReducedBasis& basis_;
+  const ModalBasis& basis_;
   double dt_s_;
   std::vector<Lanes<float>> state_, motion_, shape_, displacement_;
   BellyScale<Lanes<float>> scale_{};
   FrameLoad<Lanes<float>> frame_{};
-  ReducedBlock block_{basis_, scale_, state_.data()->lane, motion_.data()->lane, basis_.inputs > 3 ? &frame_ : nullptr};
+  ModalBlock block_{basis_, scale_, state_.data()->lane, motion_.data()->lane, basis_.inputs > 3 ? &frame_ : nullptr};
 };
 
-/// What a GLB of a reduced run shows, frames to come.
+/// What a GLB of a modal run shows, frames to come.
 BasisRecording begin_recording(const MuscleRequest& request) {
-  const ReducedBasis& basis = *request.basis;
-  const std::size_t width = nodal_width(request.muscle.mesh.cells), row = basis.vectors + std::size_t{1};
+  const ModalBasis& basis = *request.basis;
+  const std::size_t width = nodal_width(request.muscle.mesh.cells), row = basis.modes + std::size_t{1};
   BasisRecording recording{
-      request.muscle.mesh, std::vector<std::vector<float>>(basis.vectors), {}, static_cast<float>(request.dt_s)};
-  for (std::size_t v = 0; v < basis.vectors; ++v) {
+      request.muscle.mesh, std::vector<std::vector<float>>(basis.modes), {}, static_cast<float>(request.dt_s)};
+  for (std::size_t v = 0; v < basis.modes; ++v) {
     for (std::size_t i = 0; i < width; ++i) recording.target[v].push_back(basis.shape[i * row + 1 + v]);
   }
   return recording;
@@ -208,8 +208,8 @@ bool loaded_at_start(const MuscleRequest& request) {
 Result<void> start_at_rest(const MuscleRequest& request, SingleBelly& belly) {
   const auto force = force_at(request.load, 0);
   if (request.method == Method::statics) belly.step(force, force);
-  const bool half_a_step_back =
-      request.method == Method::ecd || request.method == Method::icd || request.method == Method::finite;
+  const bool half_a_step_back = request.method == Method::explicit_central ||
+                                request.method == Method::implicit_central || request.method == Method::finite;
   if (!half_a_step_back || !loaded_at_start(request)) return {};
   auto reference = make_reference(request);
   if (!reference) return tl::unexpected(reference.error());
@@ -225,7 +225,7 @@ Result<std::unique_ptr<Belly>> make_belly(const MuscleRequest& request) {
     if (!belly) return tl::unexpected(belly.error());
     return std::make_unique<DoubleBelly>(request, std::move(*belly));
   }
-  if (request.basis) return ReducedOne::make(request);
+  if (request.basis) return ModalOne::make(request);
   auto belly = std::make_unique<SingleBelly>(request);
   if (auto ok = start_at_rest(request, *belly); !ok) return tl::unexpected(ok.error());
   return belly;
@@ -244,8 +244,8 @@ Result<MuscleRun> run_muscle(const MuscleRequest& request) {
   };
   MuscleRun result;
   result.csv = "time_s,u_x_m,u_y_m,u_z_m\n";
-  auto* const reduced = request.glb.empty() ? nullptr : dynamic_cast<ReducedOne*>(belly->get());
-  if (reduced != nullptr) result.recording = begin_recording(request);
+  auto* const modal = request.glb.empty() ? nullptr : dynamic_cast<ModalOne*>(belly->get());
+  if (modal != nullptr) result.recording = begin_recording(request);
   ProgressBar progress("stepping", request.steps);
   for (std::size_t step = 0;; ++step) {
     const double time = static_cast<double>(step) * request.dt_s;
@@ -260,7 +260,7 @@ Result<MuscleRun> run_muscle(const MuscleRequest& request) {
       result.peak_time_s = time;
     }
     fmt::format_to(std::back_inserter(result.csv), "{:.9g},{:.9g},{:.9g},{:.9g}\n", time, u[0], u[1], u[2]);
-    if (reduced != nullptr) result.recording.weight.push_back(reduced->coordinates());
+    if (modal != nullptr) result.recording.weight.push_back(modal->coordinates());
     if (step == request.steps) return result;
     const double next = static_cast<double>(step + 1) * request.dt_s;
     (*belly)->step(force_at(request.load, time), force_at(request.load, next));

@@ -10,7 +10,7 @@
 
 #include <mobil/components/activation.h>
 #include <mobil/each.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include "assets/body/bent_legs.h"
 #include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/paper/paper.h"
@@ -35,20 +35,20 @@ LegMuscles pulling(ExcitationSource source, Method method) {
 ShownWalk standing(const LegBend& bend, float level) {
   Simulation simulation;
   const auto entity = must(simulation.spawn_posed(paper_body()));
-  const Body body = simulation.human(entity)->body;
+  const Body body = simulation.person(entity)->body;
   must(simulation.set_pose(entity, with_bent_legs(body, bend)));
   simulation.tick();
-  LegMuscles choice = pulling(ExcitationSource::host, Method::reduced);
-  choice.reduced.moving = false;
+  LegMuscles choice = pulling(ExcitationSource::host, Method::modal);
+  choice.modal.moving = false;
   must(simulation.set_muscles(entity, choice));
-  for (const OwnMuscle& own : simulation.muscles(entity)) {
+  for (const MuscleRef& own : simulation.muscles(entity)) {
     for (const Side side : {Side::right, Side::left}) must(simulation.set_excitation(entity, own.muscle, side, level));
   }
   for (int tick = 0; tick < 60; ++tick) simulation.tick();
-  const Human human = *simulation.human(entity);
-  const auto figure = must(make_figure(human));
+  const Person person = *simulation.person(entity);
+  const auto figure = must(make_figure(person));
   ShownWalk shown{begin_recording(figure, 1), {}};
-  record_frame(figure, simulation, human, shown.recording);
+  record_frame(figure, simulation, person, shown.recording);
   return shown;
 }
 
@@ -182,8 +182,7 @@ void paper_contraction(PaperRun& run) {
       at(calf.line_mm, 0.42) - at(calf.line_mm, 0.10), at(calf.tendon_mm, 0.42) - at(calf.tendon_mm, 0.10),
       at(calf.fibre_mm, 0.42) - at(calf.fibre_mm, 0.10));
   run.progress("legs", 0.3);
-  const CycleRequest push_off{
-      paper_body(), paper_gait(), pulling(ExcitationSource::phase, Method::reduced), {0.45}, {}};
+  const CycleRequest push_off{paper_body(), paper_gait(), pulling(ExcitationSource::phase, Method::modal), {0.45}, {}};
   run.write_picture(
       "The calf on tiptoe and the thigh, each relaxed and at full activation; push-off at 45 % of the cycle, linear "
       "and "

@@ -14,8 +14,8 @@
 #include <mobil/engine/world.h>
 #include <mobil/forces.h>
 #include <mobil/renderer.h>
-#include <mobil/systems/capture/matrix.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
+#include <mobil/systems/render/matrix.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/fem/muscle_template.h"
 #include "demo/anatomy/real_figure.h"
@@ -84,18 +84,18 @@ double thickness(const Simulation& simulation, const MusclePlan& plan, Entity mu
   return rest_thickness(plan) * std::sqrt(now / largest_section(mesh, plan.scale, {}));
 }
 
-void add_rows(const Simulation& simulation, const Human& human, TickRows& rows) {
-  const Entity entity = human.entity;
+void add_rows(const Simulation& simulation, const Person& person, TickRows& rows) {
+  const Entity entity = person.entity;
   rows.force.push_back(value(simulation.get<GroundReaction>(entity)->force_n[Side::right].y));
   const auto com = simulation.get<CentreOfMass>(entity)->position_m;
   rows.com_height.push_back(value(com.y));
   rows.com_sideways.push_back(value(com.x));  // walking toward +z
   rows.pelvis.push_back(value(simulation.get<Pose>(entity)->position_m[index(Segment::pelvis)].y));
   rows.knee.push_back(degrees * value(simulation.get<JointAngles>(entity)->knee_flexion[Side::right]));
-  rows.muscle.resize(human.muscles.size());
-  for (std::size_t m = 0; m < human.muscles.size(); ++m) {
-    const MusclePlan& plan = human.muscles[m].plan;
-    const auto& muscle = human.muscles[m].entity;
+  rows.muscle.resize(person.muscles.size());
+  for (std::size_t m = 0; m < person.muscles.size(); ++m) {
+    const MusclePlan& plan = person.muscles[m].plan;
+    const auto& muscle = person.muscles[m].entity;
     const auto line = *simulation.get<LineOfAction>(muscle[Side::right]);
     const auto belly = *simulation.get<BellyReport>(muscle[Side::right]);
     MuscleRows& own = rows.muscle[m];
@@ -107,21 +107,21 @@ void add_rows(const Simulation& simulation, const Human& human, TickRows& rows) 
   }
 }
 
-PaperCycle sample(const Simulation& simulation, const Human& human, const TickRows& rows) {
+PaperCycle sample(const Simulation& simulation, const Person& person, const TickRows& rows) {
   PaperCycle cycle;
-  cycle.body = human.body;
-  cycle.gait = human.gait;
-  cycle.cycle_s = 2 / value(human.gait.step_frequency_hz);
-  cycle.stance_s = (0.5 + value(human.gait.double_support_cycle)) * cycle.cycle_s;
+  cycle.body = person.body;
+  cycle.gait = person.gait;
+  cycle.cycle_s = 2 / value(person.gait.step_frequency_hz);
+  cycle.stance_s = (0.5 + value(person.gait.double_support_cycle)) * cycle.cycle_s;
   const auto over = [&](const std::vector<double>& values) { return sample_cycle(rows.phase, values); };
   cycle.com_height_m = over(rows.com_height);
   cycle.com_sideways_m = over(rows.com_sideways);
   cycle.pelvis_height_m = over(rows.pelvis);
   cycle.knee_flexion_deg = over(rows.knee);
   cycle.ground_n = sample_cycle(rows.phase, rows.force);
-  for (std::size_t m = 0; m < human.muscles.size(); ++m) {
-    const MusclePlan& plan = human.muscles[m].plan;
-    const Entity muscle = human.muscles[m].entity[Side::right];
+  for (std::size_t m = 0; m < person.muscles.size(); ++m) {
+    const MusclePlan& plan = person.muscles[m].plan;
+    const Entity muscle = person.muscles[m].entity[Side::right];
     const MuscleRows& own = rows.muscle[m];
     cycle.muscles.push_back({plan, value(simulation.get<LineOfAction>(muscle)->rest_length_m), rest_thickness(plan),
                              over(own.length), over(own.pull), over(own.elongation), over(own.volume),
@@ -131,11 +131,11 @@ PaperCycle sample(const Simulation& simulation, const Human& human, const TickRo
 }
 
 /// Those of the right leg: every muscle's right mesh comes before its left one, and all have as many edges.
-std::vector<Vec3<float>> right_mesh_edges(const Simulation& simulation, const Human& human) {
-  const auto both = mesh_edges(simulation, human);
+std::vector<Vec3<float>> right_mesh_edges(const Simulation& simulation, const Person& person) {
+  const auto both = mesh_edges(simulation, person);
   std::vector<Vec3<float>> own;
-  if (human.muscles.empty()) return own;
-  const std::size_t ends = both.size() / (2 * human.muscles.size());
+  if (person.muscles.empty()) return own;
+  const std::size_t ends = both.size() / (2 * person.muscles.size());
   for (std::size_t first = 0; first < both.size(); first += 2 * ends) {
     own.insert(own.end(), both.begin() + static_cast<long>(first), both.begin() + static_cast<long>(first + ends));
   }
@@ -215,22 +215,22 @@ PaperCycle walk_cycle(const CycleRequest& request) {
   const auto entity = must(simulation.spawn(request.body, request.gait));
   simulation.enable(entity, Feature::forces);
   if (request.muscles) must(simulation.set_muscles(entity, *request.muscles));
-  const Human human = *simulation.human(entity);
+  const Person person = *simulation.person(entity);
   Figure figure;
   if (!request.shown_at.empty())
-    figure = must(request.anatomy ? real_figure(human, *request.anatomy, false) : make_figure(human));
+    figure = must(request.anatomy ? real_figure(person, *request.anatomy, false) : make_figure(person));
   ShownWalk shown{begin_recording(figure, static_cast<float>(cycle_tick_s)), {}};
   TickRows rows;
   std::size_t next = 0;
   over_steady_cycle(simulation, entity, [&](double phase) {
-    add_rows(simulation, human, rows);
+    add_rows(simulation, person, rows);
     rows.phase.push_back(phase);
     for (; next < request.shown_at.size() && phase >= request.shown_at[next]; ++next) {
-      record_frame(figure, simulation, human, shown.recording);
-      shown.mesh_edge.push_back(right_mesh_edges(simulation, human));
+      record_frame(figure, simulation, person, shown.recording);
+      shown.mesh_edge.push_back(right_mesh_edges(simulation, person));
     }
   });
-  PaperCycle cycle = sample(simulation, human, rows);
+  PaperCycle cycle = sample(simulation, person, rows);
   cycle.shown = std::move(shown);
   return cycle;
 }

@@ -16,8 +16,8 @@
 #include <mobil/components/gait.h>
 #include <mobil/engine/error.h>
 #include <mobil/simulation.h>
-#include <mobil/systems/capture/camera.h>
-#include <mobil/systems/capture/image.h>
+#include <mobil/systems/render/camera.h>
+#include <mobil/systems/render/image.h>
 #include "demo/pictures/cycle_curve.h"
 
 namespace mobil {

@@ -13,7 +13,7 @@
 #include <mobil/engine/geometry.h>
 #include <mobil/engine/world.h>
 #include <mobil/muscle_table.h>
-#include <mobil/systems/muscles/human.h>
+#include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "assets/fem/muscle_template.h"
 #include "demo/lab/compare/compare_judge.h"
@@ -322,12 +322,12 @@ void paper_figure14(PaperRun& run) {
   const auto entity = must(simulation.spawn(paper_body(), paper_gait()));
   LegMuscles choice = only({Muscle::hamstrings});
   choice.drive = Drive::force;
-  choice.method = Method::caa;
+  choice.method = Method::newmark;
   choice.cells = paper_mesh;
   choice.dt_s = step_s;
   must(simulation.set_muscles(entity, choice));
   const Entity muscle = simulation.muscle(entity, Muscle::hamstrings, Side::right);
-  const BellyScale<float> scale = simulation.human(entity)->muscles.front().plan.scale;
+  const BellyScale<float> scale = simulation.person(entity)->muscles.front().plan.scale;
   std::vector<Row> rows;
   over_steady_cycle(simulation, entity, [&](double phase) {
     if (phase >= 0 && phase <= 1) rows.push_back(row_now(simulation, muscle, scale, phase));

@@ -16,18 +16,19 @@
 namespace mobil {
 namespace {
 
-struct Person {
+struct StaturePerson {
   const char* what;
   float height_m, mass_kg;
   Constitution constitution;
 };
-constexpr std::array people = {
-    Person{"reference", 1.80F, 80, Constitution::athletic}, Person{"taller", 1.95F, 80, Constitution::athletic},
-    Person{"shorter", 1.65F, 80, Constitution::athletic}, Person{"thinner", 1.80F, 65, Constitution::thin},
-    Person{"heavier", 1.80F, 100, Constitution::heavy}};
+constexpr std::array people = {StaturePerson{"reference", 1.80F, 80, Constitution::athletic},
+                               StaturePerson{"taller", 1.95F, 80, Constitution::athletic},
+                               StaturePerson{"shorter", 1.65F, 80, Constitution::athletic},
+                               StaturePerson{"thinner", 1.80F, 65, Constitution::thin},
+                               StaturePerson{"heavier", 1.80F, 100, Constitution::heavy}};
 
 std::string label(std::size_t person) {
-  const Person& p = people[person];
+  const StaturePerson& p = people[person];
   return fmt::format("{}: {:.2f} m, {:.0f} kg, {}", p.what, p.height_m, p.mass_kg,
                      constitution_name[static_cast<std::size_t>(p.constitution)]);
 }
@@ -240,7 +241,7 @@ PlotFigure step_length_figure(const std::vector<PaperCycle>& walks) {
 
 void paper_stature(PaperRun& run) {
   std::vector<PaperCycle> walks;
-  for (const Person& person : people) {
+  for (const StaturePerson& person : people) {
     run.progress("walking", static_cast<double>(walks.size()) / people.size());
     CycleRequest request{{}, paper_gait(), only({Muscle::quadriceps, Muscle::hamstrings}), {0.0}, {}};
     request.body.height_m = person.height_m;

@@ -115,7 +115,8 @@ Result<void> check(const ReferenceOptions& o, const Cells& cells) {
     return fail(fmt::format("damping {} 1/s and {} s and foundation {} 1/s must be finite, 0 or more", o.damping_per_s,
                             o.stiffness_damping_s, o.foundation_1_s));
   }
-  if (o.method > Method::caa) return fail("the reference steps by static, ecd, icd or caa; take one of those");
+  if (o.method > Method::newmark)
+    return fail("the reference steps by static, explicit-central, implicit-central or newmark; take one of those");
   if (cells[2] < 2 && o.end == FarEnd::held) return fail("a held belly of one layer of elements has no node to move");
   return {};
 }
@@ -145,8 +146,8 @@ struct ReferenceBelly::State {
 
 ReferenceBelly::State::State(const HexahedralMesh& m, const StiffnessTerms& terms, const ReferenceOptions& options)
     : mesh(m), o(options), far_share(far_shares(m)) {
-  if (o.method == Method::ecd) o.mass = Mass::lumped;
-  if (o.method == Method::icd) o.mass = Mass::consistent;
+  if (o.method == Method::explicit_central) o.mass = Mass::lumped;
+  if (o.method == Method::implicit_central) o.mass = Mass::consistent;
   const double dt = o.dt_s;
   mass = mass_matrix(terms, o);
   elastic = stiffness_matrix(terms, o);
@@ -160,15 +161,15 @@ ReferenceBelly::State::State(const HexahedralMesh& m, const StiffnessTerms& term
     case Method::statics:
       operator_.compute(of_moving(stiffness, moving));
       break;
-    case Method::ecd:
-    case Method::icd:
+    case Method::explicit_central:
+    case Method::implicit_central:
       operator_.compute(of_moving(mass, moving));
       break;
-    case Method::caa:
+    case Method::newmark:
       operator_.compute(of_moving(
           Matrix((2 / dt + o.damping_per_s) * mass + dt / 2 * stiffness + o.stiffness_damping_s * elastic), moving));
       break;
-    case Method::reduced:
+    case Method::modal:
     case Method::none:
     case Method::finite:
       break;
@@ -265,12 +266,12 @@ void ReferenceBelly::start(const ReferenceLoad& load) {
     case Method::statics:
       s.settle(load);
       break;
-    case Method::ecd:
-    case Method::icd:
+    case Method::explicit_central:
+    case Method::implicit_central:
       s.v(s.moving) = -s.o.dt_s / 2 * s.solve(s.force(load));
       break;
-    case Method::caa:
-    case Method::reduced:
+    case Method::newmark:
+    case Method::modal:
     case Method::none:
     case Method::finite:
       break;
@@ -283,12 +284,12 @@ void ReferenceBelly::step(const ReferenceLoad& now, const ReferenceLoad& next) {
   switch (s.o.method) {
     case Method::statics:
       return s.settle(next);
-    case Method::ecd:
-    case Method::icd:
+    case Method::explicit_central:
+    case Method::implicit_central:
       return s.step_explicitly(now, next);
-    case Method::caa:
+    case Method::newmark:
       return s.step_by_mean_acceleration(now, next);
-    case Method::reduced:
+    case Method::modal:
     case Method::none:
     case Method::finite:
       break;
@@ -305,7 +306,7 @@ std::span<double> ReferenceBelly::velocity() {
 ReferenceReport ReferenceBelly::report() const {
   const State& s = *state_;
   const Vector inner = s.elastic * s.u;
-  const bool across_a_step = s.o.method == Method::ecd || s.o.method == Method::icd;
+  const bool across_a_step = s.o.method == Method::explicit_central || s.o.method == Method::implicit_central;
   ReferenceReport report{0, 0, s.v.dot(s.mass * s.v) / 2, (across_a_step ? s.before : s.u).dot(s.stiffness * s.u) / 2};
   const std::uint32_t first = first_insertion_node(s.mesh.cells);
   for (std::uint32_t i = 0; i < plane_nodes(s.mesh.cells); ++i) {

@@ -17,7 +17,7 @@ namespace mobil {
 
 /// One belly and how it is stepped: C = α·M + β·K, foundation K_f = ω_f²·M in x and y alone.
 struct ReferenceOptions {
-  Method method = Method::ecd;
+  Method method = Method::explicit_central;
   Mass mass = Mass::lumped;  // of ECD lumped, of ICD consistent, whatever is asked
   FarEnd end = FarEnd::free;
   double dt_s = 0;                 // of static unused

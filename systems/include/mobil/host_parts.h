@@ -1,6 +1,6 @@
 #pragma once
-// The host's own parts (mobil/engine/key.h) on people and muscles, and entities of the host's own: the one door to what
-// rows are made of.
+// The host's own parts (mobil/engine/archetype.h) on people and muscles, and entities of the host's own: the one door
+// to what rows are made of.
 //
 //   simulation.parts().add(person, Fatigue<float>{0.2F});
 //   simulation.parts().each([](const Rows& rows, const Pose<Lanes<float>>& pose, Fatigue<Lanes<float>>& fatigue) { …
@@ -30,7 +30,7 @@ class HostParts {
   /// Adds a part that is not there yet.
   template <class P>
   Result<void> add(Entity entity, const P& part) {
-    return result_of("add", ours(key_part(part).id) ? Status::not_yours : world_.add(entity, part));
+    return result_of("add", ours(component_id(part).id) ? Status::not_yours : world_.add(entity, part));
   }
   /// Overwrites a component's row.
   template <template <class> class C>
@@ -54,14 +54,14 @@ class HostParts {
   /// An entity of the host's own, of its own parts.
   template <class... P>
   Result<Entity> create(const P&... parts) {
-    if ((ours(key_part(parts).id) || ...)) return fail(Status::not_yours);
+    if ((ours(component_id(parts).id) || ...)) return fail(Status::not_yours);
     return world_.create(parts...);
   }
   /// Destroys an entity that `create` made.
   Result<void> destroy(Entity entity) {
     const auto place = world_.find(entity);
     if (!place) return fail(Status::stale_entity);
-    const auto one_of_ours = [&](const KeyPart& part) { return ours(part.id); };
+    const auto one_of_ours = [&](const ComponentId& part) { return ours(part.id); };
     if (std::ranges::any_of(place.table->key(), one_of_ours)) return fail(Status::not_yours);
     return result_of("destroy", world_.destroy(entity));
   }

@@ -8,9 +8,9 @@
 //   Lod lod = simulation.lod();
 //   lod.set_scene({.camera = Viewpoint{.position_m = eye, .forward = gaze}, .tolerance_px = 1});
 //   lod.prepare();                                           // once: no tick then waits for bases and meshes
-//   lod.manage(human);                                       // with leg muscles of its own, or as options say
+//   lod.manage(person);                                       // with leg muscles of its own, or as options say
 //   simulation.advance(frame_seconds);                       // chooses and switches
-//   lod.why(human, Muscle::hamstrings)->text;                // "reduced-8: 0.9 mm of 1.2 mm allowed; …"
+//   lod.why(person, Muscle::hamstrings)->text;                // "modal-8: 0.9 mm of 1.2 mm allowed; …"
 //
 // It costs nothing unless it manages people, and changes only those. Its decisions are on the person's row
 // (mobil/components/lod.h). Its progress is a global of the world. Both are state. With `machine_factor` given, or
@@ -33,9 +33,9 @@
 #include <mobil/engine/phase.h>
 #include <mobil/muscle_table.h>
 #include <mobil/systems/accuracy/accuracy_table.h>
-#include <mobil/systems/accuracy/ladder.h>
+#include <mobil/systems/accuracy/lod_table.h>
 #include <mobil/systems/lod/background.h>
-#include <mobil/systems/states/tiers.h>
+#include <mobil/systems/states/lod_state.h>
 
 namespace mobil::inline v0_3 {
 
@@ -51,8 +51,8 @@ struct Viewpoint {
   float reach_m = 200;
 };
 
-/// What the scene needs of everybody; PersonNeeds overrides it for one person.
-struct SceneNeeds {
+/// What the scene needs of everybody; LodOverrides overrides it for one person.
+struct LodScene {
   MuscleSet muscles = muscle_groups();
   /// How far a control point may be from where it belongs, m. Of a camera: pixels, from which distance makes metres.
   std::optional<float> tolerance_m{};
@@ -74,7 +74,7 @@ struct SceneNeeds {
 };
 
 /// Overrides the scene's needs for one person.
-struct PersonNeeds {
+struct LodOverrides {
   std::optional<MuscleSet> muscles{};
   std::optional<float> tolerance_m{};
   std::optional<bool> looked_at{};  // counts as seen, or as near but unseen, whatever the camera sees
@@ -98,7 +98,7 @@ struct LodOptions {
   /// Everybody is looked at every so many looks (`every` says how often one is).
   std::uint32_t stagger = 4;
   /// Factor on predicted errors, for bodies and walks other than the measured ones. Set by
-  /// 13 other bodies at 0.8 to 1.9 m/s, with inertia and without (relevance_show_test): with 1.25 at least 99.7 % of
+  /// 13 other bodies at 0.8 to 1.9 m/s, with inertia and without (lod_show_test): with 1.25 at least 99.7 % of
   /// ticks kept to a promised tolerance; and at up to 2 m/s of the reference body's height errors were at most 1.93
   /// times the table's, where 2.5 would still be within twice the tolerance. It speaks of muscles that have been
   /// simulated for two seconds: one that is taken up begins at rest, and what that excites falls by e⁻⁴ a second.
@@ -108,7 +108,7 @@ struct LodOptions {
   /// Seconds that the last tick's deformation took; left out: of the schedule's timings what deforms.
   std::function<double(const Schedule&)> measured_s{};
   /// Of people who get muscles by being managed: all but muscles and method, which are chosen. Of muscles that pull so
-  /// are finite shape and tension (living_rungs), unless `finite_shape` is false: then linear bellies serve.
+  /// are finite shape and tension (active_levels), unless `finite_shape` is false: then linear bellies serve.
   LegMuscles leg_muscles{};
   /// Makes bases that methods lack while ticks go on; with none they are made in the tick that takes them up. Until
   /// `making_ticks` after it was first called for a method is not taken up, and the next coarser one serves: what was
@@ -152,12 +152,12 @@ inline constexpr std::array<std::string_view, 9> reason_name = {"tolerance",    
                                                                 "out of sight", "out of reach",  "not wanted",
                                                                 "forced",       "refused",       "switch pending"};
 
-/// Why a muscle has the method that it has. `rung` is of the ladder of `living` muscles or of others; costs are of one
-/// leg's muscle, a tick; of living ones how much of its volume it has more or less.
+/// Why a muscle has the method that it has. `level` is of the lod_table of `active` muscles or of others; costs are of
+/// one leg's muscle, a tick; of active ones how much of its volume it has more or less.
 struct Choice {
   MuscleMethod method;
-  bool living = false;
-  std::size_t rung = 0;
+  bool active = false;
+  std::size_t level = 0;
   float predicted_error_m = 0, tolerance_m = 0, predicted_volume_off = 0;
   double predicted_cost_us = 0;
   Reason reason = Reason::tolerance;
@@ -182,9 +182,9 @@ class Lod {
   /// What the scene needs, from the next tick on. It is no state: a simulation that restores a snapshot keeps its own.
   /// Errors: a tolerance, budget or camera that is not finite and positive, muscles that are not in the table; nothing
   /// has changed.
-  Result<void> set_scene(const SceneNeeds& needs);
+  Result<void> set_scene(const LodScene& needs);
   /// What was last set.
-  const SceneNeeds& scene() const;
+  const LodScene& scene() const;
 
   /// Makes what methods share that the scene, and people with these tolerances of their own, may call for in bodies of
   /// usual build, with the simulation's jobs: then no tick waits for that. With a camera or a budget these are all
@@ -196,10 +196,10 @@ class Lod {
   /// From the next tick on this person's muscles are chosen; asked again, by other needs. A person without
   /// muscles gets those of the needs or the scene, where these name some. Errors: a stale handle, a tolerance that is
   /// not positive, what Simulation::set_muscles refuses.
-  Result<void> manage(Entity human, const PersonNeeds& needs = {});
+  Result<void> manage(Entity person, const LodOverrides& needs = {});
   /// The same of many, each named once, with the simulation's jobs. Errors, besides: somebody named twice; nobody is
   /// managed then who was not, nor has other needs.
-  Result<void> manage(std::span<const Entity> people, const PersonNeeds& needs = {});
+  Result<void> manage(std::span<const Entity> people, const LodOverrides& needs = {});
   /// The same of many walkers without muscles, who fall asleep at once: they get muscles, and are managed, from waking
   /// on. `options.leg_muscles` and the scene say which. Who cannot fall asleep is managed awake. Returns how many
   /// sleep. Errors: a stale handle, somebody named twice, somebody with muscles, what Simulation::set_muscles
@@ -208,24 +208,24 @@ class Lod {
   /// The person is no longer managed; muscles stay as they are, and those that were to come begin. A sleeper wakes.
   /// Errors: a stale handle, somebody who is not managed (Status::missing), what muscles are refused for; nothing has
   /// changed.
-  Result<void> release(Entity human);
+  Result<void> release(Entity person);
   /// The same of many, each named once; all or none.
   Result<void> release(std::span<const Entity> people);
 
   /// A method of the caller's choice, until `unforce`. Errors: someone not managed, what Simulation::set_method
   /// refuses.
-  Result<void> force(Entity human, Muscle muscle, const MuscleMethod& method);
+  Result<void> force(Entity person, Muscle muscle, const MuscleMethod& method);
   /// The method is chosen again. Errors: a stale handle; Status::missing where the person, or that muscle, is not
   /// managed.
-  Result<void> unforce(Entity human, Muscle muscle);
+  Result<void> unforce(Entity person, Muscle muscle);
 
   /// What was chosen in all ticks of the last `advance` or `tick`.
   const LodReport& report() const;
-  /// How many muscles have each rung of a ladder, both legs'; last, those with a method that was forced or refused.
-  std::array<std::size_t, rung_count + 1> muscles_by_rung(bool living = false) const;
+  /// How many muscles have each level of a lod_table, both legs'; last, those with a method that was forced or refused.
+  std::array<std::size_t, level_count + 1> muscles_by_level(bool active = false) const;
   /// Why a muscle has its method. Errors: a stale handle; Status::missing where the person is not managed or has no
   /// such muscle.
-  Result<Choice> why(Entity human, Muscle muscle) const;
+  Result<Choice> why(Entity person, Muscle muscle) const;
 
  private:
   LodWork& work() const;

@@ -1,7 +1,7 @@
 #pragma once
 // A game's own skeleton drives a person: its bones, however many, in its axes and units, become the 48 segments.
 //
-//   const auto map = Retarget::make(simulation.human(person)->body, bones, rest, {PoseAxes::z_up_left_handed, 100});
+//   const auto map = Retarget::make(simulation.person(person)->body, bones, rest, {PoseAxes::z_up_left_handed, 100});
 //   simulation.set_pose(person, *map->pose(bones_now));                     // before each tick
 //
 // Each segment turns as its bone has turned from the rest pose, whatever way the bone's own axes point; the vertebrae

@@ -2,10 +2,10 @@
 // The facade: spawn people, give them muscles, advance time, read what became of them.
 //
 //   Simulation simulation;
-//   const Entity human = *simulation.spawn({.height_m = 1.80F, .mass_kg = 80});
-//   simulation.set_muscles(human);
+//   const Entity person = *simulation.spawn({.height_m = 1.80F, .mass_kg = 80});
+//   simulation.set_muscles(person);
 //   simulation.advance(frame_seconds);
-//   simulation.get<Pose>(human)->position_m[index(Segment::head)];
+//   simulation.get<Pose>(person)->position_m[index(Segment::head)];
 //
 // Everything else is a table: `world()` has all components to read (mobil/engine/world.h; mobil/each.h for a block at a
 // time), `schedule()` all systems in the order they run.
@@ -33,8 +33,8 @@
 #include <mobil/components/leg_muscles.h>
 #include <mobil/components/pose.h>
 #include <mobil/engine/module.h>
-#include <mobil/systems/muscles/own_muscle.h>
-#include <mobil/systems/people/person.h>
+#include <mobil/systems/muscles/muscle_ref.h>
+#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/person_state.h>
 #include <mobil/systems/people/spawn.h>
 #include <mobil/systems/people/step_event.h>
@@ -68,7 +68,7 @@ enum class Arrival : std::uint8_t { moved, jumped };
 
 class Avoidance;      // mobil/avoidance.h
 class HostParts;      // mobil/host_parts.h
-struct Human;         // mobil/systems/muscles/human.h
+struct Person;        // mobil/systems/muscles/person.h
 class Lod;            // mobil/lod.h
 class MuscleLibrary;  // mobil/muscle_library.h
 class Schedule;       // mobil/schedule.h
@@ -98,9 +98,9 @@ class Simulation {
   /// name the segment: a stale handle, a walker (Status::missing), a place not within 1000 km, a quaternion whose
   /// length is not 1 within 1 %; the pose then stays. Muscles with inertia feel the way from the last pose, and so does
   /// fat that wobbles, unless it has `jumped`.
-  Result<void> set_pose(Entity human, const Pose<float>& pose, Arrival arrival = Arrival::moved);
+  Result<void> set_pose(Entity person, const Pose<float>& pose, Arrival arrival = Arrival::moved);
   /// The person goes, with their muscles; the handles are stale from then on. Errors: a stale handle.
-  Result<void> despawn(Entity human);
+  Result<void> despawn(Entity person);
 
   /// Many at once, with the simulation's jobs: the same bits as one by one, in a fraction of the time. `entities` is as
   /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is
@@ -111,15 +111,15 @@ class Simulation {
   /// Asks a person to walk otherwise, from the next step on; speeds far from the present one are reached over several
   /// steps. A speed of 0 stops, a positive one starts again; what is left out stays, the style among it. Errors: a
   /// stale handle, a gait out of range; nothing has changed then.
-  Result<void> change_gait(Entity human, const GaitChange& change);
+  Result<void> change_gait(Entity person, const GaitChange& change);
   /// The same with all of a walk said anew: what is left out is as in a GaitRequest{}.
-  Result<void> set_gait(Entity human, const GaitRequest& gait);
+  Result<void> set_gait(Entity person, const GaitRequest& gait);
   /// What a walker is to do, as set_gait takes it; nothing for a stale handle and for posed people.
-  std::optional<GaitRequest> gait_request(Entity human) const;
+  std::optional<GaitRequest> gait_request(Entity person) const;
   /// Asks a person to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left), the shorter way round, a
   /// part of it each step; who stands turns on the spot. Errors: a stale handle, a heading that is not finite;
   /// nothing has changed.
-  Result<void> turn_to(Entity human, float heading_rad);
+  Result<void> turn_to(Entity person, float heading_rad);
   /// The same and turn_to of many walkers at once, each named once, with the simulation's jobs. Who cannot walk so (a
   /// gait out of range, a posed person) is left as they are, and counted in the answer. Errors: a stale handle,
   /// somebody named twice; nothing has changed.
@@ -128,7 +128,7 @@ class Simulation {
   /// to the right and back; at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.85 m, in proportion to the
   /// leg. It begins within a quarter of a second and takes two steps of 0.3 to 0.5 s. Errors: a stale handle, a posed
   /// person, somebody who is to walk, a way out of range; nothing has changed.
-  Result<void> step_aside(Entity human, float left_m, float ahead_m);
+  Result<void> step_aside(Entity person, float left_m, float ahead_m);
 
   /// People become of that state who may (PersonState says who); those who are already are left alone. Returns how
   /// many of these are in it now. Compact people who are to fall asleep and may not are full. `full` wakes sleepers and
@@ -153,7 +153,7 @@ class Simulation {
   /// rounding of places. Ground reaction follows with the next tick. Compact people stay compact, sleepers asleep, but
   /// for those whom a level of detail put to sleep: they wake. Errors: a stale handle, a posed person, a place not
   /// within 1000 km, a heading not within ±10000; nothing has changed then.
-  Result<void> place(Entity human, float x_m, float z_m, float heading_rad);
+  Result<void> place(Entity person, float x_m, float z_m, float heading_rad);
   /// The same of many. All or none. Errors: the same, with the number of the person; somebody named twice.
   Result<void> place(std::span<const PlaceRequest> places);
 
@@ -206,7 +206,7 @@ class Simulation {
     return set_method(std::span(&person, 1), muscle, method);
   }
   /// Current method; Method::none if the person has no such muscle.
-  MuscleMethod method(Entity human, Muscle muscle) const;
+  MuscleMethod method(Entity person, Muscle muscle) const;
 
   /// How hard a muscle is to pull from the next tick on, a share of the most that it can: for muscles chosen with
   /// ExcitationSource::host, which begin at 0.01, or where another source left them. It holds until it is set again;
@@ -259,11 +259,11 @@ class Simulation {
   /// divided into may be added up (state_hash_of in engine/state_hash.h).
   std::uint64_t state_sum() const;
 
-  /// An entity's row of a component, or why there is none: get<Pose>(human).
+  /// An entity's row of a component, or why there is none: get<Pose>(person).
   template <template <class> class C>
   Result<C<float>> get(Entity entity) const {
     Result<C<float>> row{tl::in_place};
-    if (const Status status = read(entity, component_part<C>(), &*row); status != Status::ok) return fail(status);
+    if (const Status status = read(entity, component_id<C>(), &*row); status != Status::ok) return fail(status);
     return row;
   }
   /// The value of an entity's tag.
@@ -279,15 +279,15 @@ class Simulation {
   HostParts parts();
 
   /// A person with body and plans of muscles, made when asked for (some microseconds); nothing for a stale handle.
-  std::optional<Human> human(Entity entity) const;
+  std::optional<Person> person(Entity entity) const;
   /// All people, in the order of their rows; until somebody comes or goes.
   std::vector<Entity> people() const;
   /// False for a stale handle and for entities that are not people.
   bool is_person(Entity entity) const;
   /// A person's muscles in the table's order; empty for a stale handle, without muscles, asleep and compact.
-  std::vector<OwnMuscle> muscles(Entity human) const;
+  std::vector<MuscleRef> muscles(Entity person) const;
   /// A person's muscle; a stale handle where there is none.
-  Entity muscle(Entity human, Muscle muscle, Side side) const;
+  Entity muscle(Entity person, Muscle muscle, Side side) const;
 
   /// All tables, to be read.
   const World& world() const;
@@ -301,9 +301,9 @@ class Simulation {
   struct Core;  // systems/simulation_core.h
 
   explicit Simulation(std::unique_ptr<Core> core);
-  Status read(Entity entity, const KeyPart& component, void* row) const;
+  Status read(Entity entity, const ComponentId& component, void* row) const;
   Status read_tag(Entity entity, std::uint64_t tag, std::uint64_t& value) const;
-  Result<void> ask(Entity human, const Result<Gait<float>>& gait);
+  Result<void> ask(Entity person, const Result<Gait<float>>& gait);
 
   std::unique_ptr<Core> core_;
 };

@@ -32,9 +32,9 @@ struct StepReport {
   /// infinity: in the last tick, and in all since timings were last reset.
   std::uint64_t restarted_bellies = 0, total_restarted_bellies = 0;
   /// People beyond a limit of joints, ground or pelvis while they change their walk, sleepers left out
-  /// (mobil/systems/limits/limit_watch.h): in the last tick, and summed over all ticks since timings were last reset.
-  /// `broken_limits` tells which limits.
-  std::uint64_t beyond_limits = 0, total_beyond_limits = 0;
+  /// (mobil/systems/limits/limit_monitor.h): in the last tick, and summed over all ticks since timings were last reset.
+  /// `limit_violations` tells which limits.
+  std::uint64_t limit_violations = 0, total_limit_violations = 0;
   std::vector<PhaseReport> phases{};
 };
 

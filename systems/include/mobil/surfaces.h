@@ -25,7 +25,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// One of a person's muscles, by Side: of Simulation::human, or of Simulation::muscle for each side.
+/// One of a person's muscles, by Side: of Simulation::person, or of Simulation::muscle for each side.
 struct SurfaceMuscle {
   Muscle muscle{};
   std::array<Entity, 2> entity;

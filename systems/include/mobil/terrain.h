@@ -6,7 +6,7 @@
 //   simulation.terrain().set_heights([&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
 //     for (std::size_t i = 0; i < at.size(); ++i) out[i].height_m = my_world.height(at[i].x_m, at[i].z_m);
 //   });
-//   simulation.terrain().manage({&human, 1});
+//   simulation.terrain().manage({&person, 1});
 //   simulation.advance(frame_seconds);
 //
 // The ground is asked for once a step and person: under the foothold to come and a little behind and ahead of it, for
@@ -28,7 +28,7 @@ namespace mobil::inline v0_3 {
 /// Where the ground is asked for, m, and by whom.
 struct TerrainQuery {
   float x_m, z_m;
-  Entity human;
+  Entity person;
 };
 
 /// The ground there: its height, m; how much it rises toward +X and toward +Z, m per m. Of a normal n: −n.x/n.y and
@@ -80,12 +80,12 @@ class Terrain {
 
   /// For a host whose ground is not a function: it lies in another language, or is looked up by jobs of its own. Gives
   /// the places of the next tick, and changes nothing; they are good until the next call of this kind.
-  std::span<const TerrainQuery> ask();
+  std::span<const TerrainQuery> query();
   /// The ground at the places of the last `ask`, in their order, once, and before the next tick: a foot jumps that
   /// hears later how high its foothold is. Until then the last height holds. Who has gone or taken a step since then is
   /// left as they are, and asked for again. Returns how many answers were unusable. Errors: not as many as were asked
   /// for (Status::not_valid); nothing has changed.
-  Result<std::size_t> answer(std::span<const TerrainHeight> heights);
+  Result<std::size_t> resolve(std::span<const TerrainHeight> heights);
 
   /// What was asked in all ticks of the last `advance` or `tick`.
   const TerrainReport& report() const;

@@ -3,7 +3,7 @@
     import mobil
     world = mobil.World()
     people = world.spawn(height_m=[1.6, 1.7, 1.8], mass_kg=70, speed_m_s=1.4, place=[[0, 0, 0], [1, 0, 0], [2, 0, 0]],
-                         muscles=mobil.muscles(method="reduced"))
+                         muscles=mobil.muscles(method="modal"))
     world.tick(60)
     world.poses(people)                                       # (3, 48, 7): place and quaternion of each segment
     world.joints(people)[:, mobil.JOINTS.index("knee_flexion_right")]
@@ -34,7 +34,7 @@ from .names import (
     StyleParameter,
 )
 from .plots import plot_walk
-from .skin import OwnSkin, Skin
+from .skin import CustomSkin, Skin
 from .structs import method, muscles
 from .surfaces import Part, Surfaces
 from .surroundings import AvoidanceReport, TerrainReport
@@ -58,7 +58,7 @@ __all__ = [
     "MUSCLES",
     "MissingError",
     "OutOfMemoryError",
-    "OwnSkin",
+    "CustomSkin",
     "PARENTS",
     "PERSON",
     "PhaseCost",

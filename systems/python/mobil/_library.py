@@ -47,7 +47,8 @@ def _declarations(header: pathlib.Path) -> str:
     begin = text.index("#define MOBIL_INTERFACE")
     lines = text[begin : text.rindex("#ifdef __cplusplus")].splitlines()
     kept = [line for line in lines if not line.startswith("#") or line.startswith("#define MOBIL_INTERFACE")]
-    return "\n".join(kept).replace("MOBIL_API ", "")
+    plain = re.sub(r"MOBIL_RENAMED\((\w+), (\w+), \w+\)", r"\1 \2", "\n".join(kept))
+    return re.sub(r"MOBIL_API |MOBIL_DEPRECATED\(.*?\)", "", plain)
 
 
 def _find() -> pathlib.Path | str:

@@ -101,7 +101,7 @@ class Terrain(surroundings.Terrain):
         _old("mobil.Terrain", "World.terrain")
         super().__init__(world)
         world.terrain.set_heights(heights)
-        self.set_slowing(slows_down)
+        self.set_speed_scaling(slows_down)
 
     def update(self) -> int:
         _old("Terrain.update", "Terrain.report: ticks ask")

@@ -10,7 +10,7 @@ from ._library import ffi, lib, text
 SIDES = ("right", "left")
 CONSTITUTIONS = ("thin", "average", "athletic", "heavy")
 SEXES = ("man", "woman")
-METHODS = ("static", "ecd", "icd", "caa", "reduced", "none", "finite")
+METHODS = ("static", "explicit_central", "implicit_central", "newmark", "modal", "none", "finite")
 ELEMENTS = ("full", "bbar", "one_point")
 MASSES = ("lumped", "consistent")
 DRIVES = ("displacement", "force")

@@ -60,7 +60,7 @@ class Skin:
         return out
 
 
-class OwnSkin:
+class CustomSkin:
     """A mesh of one's own of a right leg, as from a scan, and its mirror image, which move with the body's skin.
 
     positions: (vertices, 3) in the world's axes and unit, the person standing at the origin in the anatomical position
@@ -87,17 +87,17 @@ class OwnSkin:
         mesh.indices, mesh.index_count = ffi.from_buffer("unsigned int[]", corners), corners.size
         mesh.detail = names.number_of(detail, DETAILS, "detail")
         mesh.shorts_stay = shorts_stay
-        made = ffi.new("mobil_own_skin**")
-        world._do(lib.mobil_bind_own_skin(world._sim, _one(like), mesh, made))
-        self._skin = ffi.gc(made[0], lib.mobil_drop_own_skin)
-        self.vertex_count: int = lib.mobil_own_skin_vertex_count(self._skin)
-        index: npt.NDArray[np.uint32] = np.empty(lib.mobil_own_skin_index_count(self._skin), np.uint32)
-        lib.mobil_own_skin_indices(self._skin, ffi.from_buffer("unsigned int[]", index), index.size)
+        made = ffi.new("mobil_custom_skin**")
+        world._do(lib.mobil_bind_custom_skin(world._sim, _one(like), mesh, made))
+        self._skin = ffi.gc(made[0], lib.mobil_drop_custom_skin)
+        self.vertex_count: int = lib.mobil_custom_skin_vertex_count(self._skin)
+        index: npt.NDArray[np.uint32] = np.empty(lib.mobil_custom_skin_index_count(self._skin), np.uint32)
+        lib.mobil_custom_skin_indices(self._skin, ffi.from_buffer("unsigned int[]", index), index.size)
         self.triangles = index.reshape(-1, 3)
         count = ffi.new("size_t*")
-        lib.mobil_own_skin_rest(self._skin, ffi.NULL, 0, count)
+        lib.mobil_custom_skin_rest(self._skin, ffi.NULL, 0, count)
         rest: npt.NDArray[np.uint32] = np.empty(count[0], np.uint32)
-        lib.mobil_own_skin_rest(self._skin, ffi.from_buffer("unsigned int[]", rest), rest.size, ffi.NULL)
+        lib.mobil_custom_skin_rest(self._skin, ffi.from_buffer("unsigned int[]", rest), rest.size, ffi.NULL)
         self.rest = rest.reshape(-1, 3)
         """Of the triangles of Skin(world, sex, detail), those that are to be drawn besides."""
 
@@ -110,5 +110,5 @@ class OwnSkin:
         targets = ffi.new("mobil_skin_target[]", max(people.size, 1))
         for i in range(people.size):
             _target(targets[i], people[i], out[i], flexing)
-        world._do(lib.mobil_write_own_skin(world._sim, self._skin, targets, 0, people.size))
+        world._do(lib.mobil_write_custom_skin(world._sim, self._skin, targets, 0, people.size))
         return out

@@ -35,14 +35,14 @@ def _fill(kind: str, given: Mapping[str, Any]) -> Any:
 
 
 def muscles(**fields: Any) -> Any:
-    """How leg muscles deform: muscles(method="reduced", vectors=8, activation="phase").
+    """How leg muscles deform: muscles(method="modal", modes=8, activation="phase").
 
-    `muscles`: names (names.MUSCLES), usual the four groups; `method`: "static", "ecd", "icd", "caa", "reduced",
+    `muscles`: names (names.MUSCLES), usual the four groups; `method`: "static", "explicit_central", "implicit_central", "newmark", "modal",
     "none" or "finite"; all other fields are those of mobil_muscles in mobil.h, in SI units.
     """
     return _fill("muscles", fields)
 
 
 def method(name: str, **fields: Any) -> Any:
-    """How one muscle is simulated: method("reduced", vectors=4, control_points=0)."""
+    """How one muscle is simulated: method("modal", modes=4, control_points=0)."""
     return _fill("method", {"method": name, **fields})

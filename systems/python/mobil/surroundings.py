@@ -21,9 +21,9 @@ class AvoidanceReport(NamedTuple):
     people: int
     chose: int
     """How often a step was chosen."""
-    kept_claim: int
+    kept_reservation: int
     """Of these, by who had to keep to what others know of them."""
-    gave_way: int
+    yielded: int
     """Of these, by who gave way to somebody that chose at the same time."""
     waiting: int
     """Who stood though they want to walk."""
@@ -52,13 +52,13 @@ class Avoidance:
         """No more; they go on as they now do, and from slopes that slow them as they want."""
         self._world._do(lib.mobil_avoidance_manage(self._world._sim, *_all(people), 0))
 
-    def want(self, people: People, speed_m_s: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:
+    def set_desired_velocity(self, people: People, speed_m_s: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:
         """Where they want to go, and how fast (0: to stand)."""
         people = _people(people)
         rows = np.empty((people.size, 2), np.float32)
         rows[:, 0] = speed_m_s
         rows[:, 1] = heading_rad
-        self._world._do(lib.mobil_avoidance_want(self._world._sim, *_all(people), _floats(rows), 0))
+        self._world._do(lib.mobil_avoidance_set_desired_velocity(self._world._sim, *_all(people), _floats(rows), 0))
 
     def set_walls(self, walls: npt.ArrayLike) -> None:
         """Straight walls instead of those before: (n, 2, 3), from where to where, in the world's axes."""
@@ -128,9 +128,9 @@ class Terrain:
         self._world._do(lib.mobil_terrain_set_heights(self._world._sim, call, ffi.NULL))
         self._world._heights = call  # lives as long as it may be called
 
-    def set_slowing(self, on: bool = True) -> None:
+    def set_speed_scaling(self, on: bool = True) -> None:
         """Walkers slow down on slopes and stairs, and go on as asked where it is level; or no more."""
-        self._world._do(lib.mobil_terrain_set_slowing(self._world._sim, on))
+        self._world._do(lib.mobil_terrain_set_speed_scaling(self._world._sim, on))
 
     def manage(self, people: People) -> None:
         """They are on that ground from the next tick on."""
@@ -140,25 +140,25 @@ class Terrain:
         """They walk on the level plane through the origin again."""
         self._world._do(lib.mobil_terrain_manage(self._world._sim, *_all(people), 0))
 
-    def ask(self) -> tuple[Floats, People]:
+    def query(self) -> tuple[Floats, People]:
         """Without set_heights: where the ground has to be known before the next tick, places (n, 3), and whose they are
         (n,)."""
         count = ffi.new("size_t*")
-        self._world._do(lib.mobil_terrain_ask(self._world._sim, ffi.NULL, 0, ffi.NULL, 0, count))
+        self._world._do(lib.mobil_terrain_query(self._world._sim, ffi.NULL, 0, ffi.NULL, 0, count))
         places, who = np.empty((count[0], 3), np.float32), np.zeros(count[0], PERSON)
         if count[0]:
             at, ids = _floats(places), _ids(who)
-            self._world._do(lib.mobil_terrain_ask(self._world._sim, at, 0, ids, count[0], ffi.NULL))
+            self._world._do(lib.mobil_terrain_query(self._world._sim, at, 0, ids, count[0], ffi.NULL))
         return places, who
 
-    def answer(self, heights: npt.ArrayLike, normals: npt.ArrayLike = (0.0, 0.0, 0.0)) -> int:
-        """The ground at the places of the last ask(); how many answers were not numbers, or hung over."""
+    def resolve(self, heights: npt.ArrayLike, normals: npt.ArrayLike = (0.0, 0.0, 0.0)) -> int:
+        """The ground at the places of the last query(); how many answers were not numbers, or hung over."""
         values = np.asarray(heights, np.float32).reshape(-1)
         rows = np.empty((len(values), 4), np.float32)
         rows[:, 0] = values
         rows[:, 1:] = normals
         unusable = ffi.new("size_t*")
-        self._world._do(lib.mobil_terrain_answer(self._world._sim, _floats(rows), 0, len(rows), unusable))
+        self._world._do(lib.mobil_terrain_resolve(self._world._sim, _floats(rows), 0, len(rows), unusable))
         return int(unusable[0])
 
     @property

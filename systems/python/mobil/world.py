@@ -231,21 +231,21 @@ class World(OldWorld):
         walk["style"] = dict(zip(names.STYLE, style.tolist()))
         return walk
 
-    def broken_limits(self, person: People) -> list[str]:
+    def limit_violations(self, person: People) -> list[str]:
         """The limits of ground, joints and pelvis that a walker is beyond now: of nearly everybody none."""
         length = ffi.new("size_t*")
-        self._do(lib.mobil_broken_limits(self._sim, _one(person), ffi.NULL, 0, length))
+        self._do(lib.mobil_limit_violations(self._sim, _one(person), ffi.NULL, 0, length))
         if length[0] == 0:
             return []
         text = ffi.new("char[]", length[0] + 1)
-        self._do(lib.mobil_broken_limits(self._sim, _one(person), text, length[0] + 1, ffi.NULL))
+        self._do(lib.mobil_limit_violations(self._sim, _one(person), text, length[0] + 1, ffi.NULL))
         return ffi.string(text).decode().splitlines()
 
     @property
-    def beyond_limits(self) -> int:
+    def people_beyond_limits(self) -> int:
         """How many people were beyond such a limit in the last tick."""
         people = ffi.new("size_t*")
-        self._do(lib.mobil_beyond_limits(self._sim, people, ffi.NULL))
+        self._do(lib.mobil_limit_violation_counts(self._sim, people, ffi.NULL))
         return people[0]
 
     def place(self, people: People, place: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:

@@ -1,4 +1,4 @@
-// SAYS: an Entity is two Whole<F>, index and generation
+// SAYS: an Entity is two UInt32<F>, index and generation
 #include <mobil/host_parts.h>
 #include <mobil/simulation.h>
 

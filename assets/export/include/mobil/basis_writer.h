@@ -1,5 +1,5 @@
 #pragma once
-// A belly that moves along a few vectors as a GLB: its boundary, the vectors as morph targets, its reduced coordinates
+// A belly that moves along a few modes as a GLB: its boundary, the modes as morph targets, its modal coordinates
 // as their weights over time. A viewer that morphs needs nothing else of us.
 
 #include <filesystem>

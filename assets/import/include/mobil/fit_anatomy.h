@@ -24,7 +24,7 @@ struct FittedMuscle {
 };
 
 /// `bones`: both sides, the left the mirror image of the right, each in its segment's frame (names end in _right,
-/// _left). `muscles`: right side, world axes, the body in the anatomical position at x = z = 0; not bound to a cage
+/// _left). `muscles`: right side, world axes, the body in the anatomical position at x = z = 0; not bound to a lattice
 /// yet. `others`: further muscles, of no group, as the muscles; `skins`, too.
 struct FittedAnatomy {
   std::vector<BoneSurface> bones;

@@ -19,7 +19,7 @@ struct MeshFile {
 };
 
 /// What a file may hold at most.
-inline constexpr std::size_t most_mesh_bytes = 256'000'000, most_mesh_triangles = 5'000'000;
+inline constexpr std::size_t max_mesh_bytes = 256'000'000, max_mesh_triangles = 5'000'000;
 
 /// Reads .obj, .stl, .ply, .gltf or .glb, told by the name's end in any case, and nothing else. Fails with one line
 /// that begins with the path, and names the line where the file has lines, for: a missing file, another format, a file

@@ -19,7 +19,7 @@ enum class ExcitationSource : std::uint8_t { none, phase, host, moments };
 inline constexpr std::array<std::string_view, 4> excitation_source_name = {"none", "phase", "host", "moments"};
 
 /// What an excitation and an activation may be: shares of the most that the muscle can.
-inline constexpr float least_activation = 0.01F, most_activation = 1;
+inline constexpr float min_activation = 0.01F, max_activation = 1;
 
 /// How hard a muscle is asked to pull and how hard it does, both from 0.01 to 1. Of a group: means of its members', by
 /// their volumes. With ExcitationSource::host `excitation` is what the host asked for last, of all its members.
@@ -35,7 +35,7 @@ struct Activation {
 template <class F>
 struct Musculotendon {
   F fibre_m, tendon_m, pennation_rad, force_n, belly_m;
-  Whole<F> slack;
+  UInt32<F> slack;
 };
 
 /// Run-time sized columns, a few floats for each of the row's members: length of its path, m, written with the line of
@@ -71,7 +71,7 @@ struct AskedForces {
 template <class F>
 struct MomentReserve {
   F hip_nm[2], knee_nm[2], ankle_nm[2];
-  Whole<F> at_most[2];
+  UInt32<F> at_most[2];
 };
 
 /// Activation, and the fibre's length over its optimal one.

@@ -27,7 +27,7 @@ struct LimbLengths {
   F thigh_m, shank_m, upper_arm_m, forearm_m;
 };
 
-/// What a caller asks of a body. Ranges: height 1.2–2.2 m, mass 30–200 kg and at that height what a living body may
+/// What a caller asks of a body. Ranges: height 1.2–2.2 m, mass 30–200 kg and at that height what a real body may
 /// have (`living_mass_kg`), each part of the biotype 0.1–12, limbs 0.6–1.6 times what the height makes them. Limbs of
 /// their own are for posed people (mobil/retarget.h): a walker's gait is that of a leg in proportion.
 struct BodyRequest {
@@ -49,7 +49,7 @@ constexpr bool has_own_limbs(const BodyRequest& request) {
 enum class BodyNote : std::uint8_t {
   ectomorphy = 1,   // was asked otherwise than height and mass make it; what they make is taken
   fat_raised = 2,   // the endomorphy asked would leave more lean mass than anybody has at that height
-  fat_lowered = 4,  // it would leave less than a living body has
+  fat_lowered = 4,  // it would leave less than a real body has
   muscle = 8,       // constitution and mesomorphy ask for more muscle than the lean mass holds
 };
 
@@ -100,7 +100,7 @@ struct BodySize {
 template <class F>
 struct Physique {
   F endo, meso, ecto;  // Biotype
-  Whole<F> build;      // build_word
+  UInt32<F> build;     // build_word
 };
 /// Constitution and sex in a word.
 inline constexpr std::uint32_t constitutions = static_cast<std::uint32_t>(Constitution::heavy) + 1;

@@ -11,7 +11,7 @@ inline constexpr float fade_s = 0.25F;
 /// How long ago the change was, in ticks.
 template <class F>
 struct Fade {
-  Whole<F> ticks;
+  UInt32<F> ticks;
 };
 
 /// Run-time sized columns: by how much displacement (m, three a node) and then velocity (m/s, three a node) of what was

@@ -29,9 +29,9 @@ struct Footing {
   F moved_x_m[3], moved_z_m[3];
   F lift_early_m, lift_late_m;
   F stance_x_m, stance_z_m, landing_x_m, landing_z_m;
-  Whole<F> steps, stance_side, known;
+  UInt32<F> steps, stance_side, known;
   F slows_for, level_speed_m_s, level_length_m;
-  Whole<F> looked_at;
+  UInt32<F> looked_at;
 };
 
 /// All that is kept by FootholdOf.

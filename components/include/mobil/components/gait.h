@@ -33,8 +33,8 @@ struct Gait {
   F double_support_cycle;
   F heading_rad;          // to turn to
   F left_m, ahead_m;      // to step aside and ahead, of who stands; once for each of:
-  Whole<F> displacement;  // tells one such step from the next
-  Whole<F> revision;      // tells one request from the next
+  UInt32<F> displacement;  // tells one such step from the next
+  UInt32<F> revision;      // tells one request from the next
   GaitStyleOf<F> style;
 };
 
@@ -79,9 +79,9 @@ namespace swing_toes {
 inline constexpr float from = 0.25F, to = 0.85F;
 }
 
-/// The manner of a walk at a heel strike: amplitudes and postures that blend from one strike to the next. Angles rad.
+/// The posture of a walk at a heel strike: amplitudes and postures that blend from one strike to the next. Angles rad.
 template <class F>
-struct Manner {
+struct PostureParameters {
   F pelvis_rotation, pelvis_list, pelvis_tilt, pelvis_tilt_wave;
   F shoulder_rotation, leg_back, leg_forward;  // range of the hip-to-ankle line, which the opposite arm follows
   F arm_back, arm_forward, elbow_back, elbow_forward, arm_abduction, forearm_pronation, finger_flexion;
@@ -91,7 +91,7 @@ struct Manner {
 /// and what was left to turn then (systems/gait/step_plan.cpp), so it is known before either step is solved. Standing
 /// is a strike too, of length 0 and no speed. m, s, rad.
 template <class F>
-struct Strike {
+struct HeelStrike {
   F speed_m_s;                // of the gait that it belongs to; 0: standing
   F length_m;                 // from the trailing foothold to the leading one
   F pace_hz;                  // steps a second
@@ -100,7 +100,7 @@ struct Strike {
   F double_support;           // after it, of the cycle
   F own_style;                // how much of the style is the gait's own; the rest is the usual one
   F shape[step_shape::size];  // of a steady walk (mobil/components/step_shape.h), lengths in m
-  Manner<F> manner;
+  PostureParameters<F> posture;
 };
 
 /// How many polynomials another way of the hips has.
@@ -130,11 +130,11 @@ struct StepPlan {
   F phase_rate_from, phase_rate_to;  // of the phase of the step over the time as a part of the step
   F trailing_half_width_m, trailing_toe_out;
   F slant_rad;                      // of who stands: the heading of a step aside, beside the way the body faces
-  Whole<F> swaps;                   // 1: of who stands, the other foot becomes the stance foot as this step begins
-  Whole<F> displacement, revision;  // of the gait that it was solved for
-  Whole<F> settled;                 // 1: the next step is this one mirrored, as long as the gait stays
-  Whole<F> clamped;                 // 1: the centre of pressure that this step asks for lies beyond the soles
-  Strike<F> from, to;
+  UInt32<F> swaps;                  // 1: of who stands, the other foot becomes the stance foot as this step begins
+  UInt32<F> displacement, revision;  // of the gait that it was solved for
+  UInt32<F> settled;                 // 1: the next step is this one mirrored, as long as the gait stays
+  UInt32<F> clamped;                 // 1: the centre of pressure that this step asks for lies beyond the soles
+  HeelStrike<F> from, to;
   Quintic<F> even_m;  // by p: the hips' way without what is periodic
   /// The other foot from toe-off to heel strike, by the part of the swing: its pitch and its ankle's place relative to
   /// the stance foothold, without the bumps of its shape.
@@ -157,10 +157,10 @@ struct StepPlan {
 template <class F>
 struct GaitState {
   F time_s;
-  Whole<F> stance_side, steps;
+  UInt32<F> stance_side, steps;
   F line_x_m, line_z_m, heading_rad;
   F anchor_x_m, anchor_z_m;
-  Whole<F> anchor_steps;
+  UInt32<F> anchor_steps;
   F turn_rad, turn_before_rad, chord_rad, chord_before_rad;
   F bend_per_m, bend_before_per_m, bend_next_per_m;  // curvature on the stance foot, the one before and the next
   F shift_m, shift_before_m, shift_next_m;           // of the stance foothold, of the one before and of the next

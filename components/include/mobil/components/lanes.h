@@ -21,9 +21,9 @@ struct alignas(64) Lanes {
   constexpr const T& operator[](std::size_t i) const { return lane[i]; }
 };
 
-/// The unsigned integer that goes with a scalar: Whole<float> is a number, Whole<Lanes<float>> sixteen of them.
+/// The unsigned integer that goes with a scalar: UInt32<float> is a number, UInt32<Lanes<float>> sixteen of them.
 template <class F>
-using Whole = std::conditional_t<std::is_same_v<F, Lanes<float>>, Lanes<std::uint32_t>, std::uint32_t>;
+using UInt32 = std::conditional_t<std::is_same_v<F, Lanes<float>>, Lanes<std::uint32_t>, std::uint32_t>;
 
 /// A point, direction or other vector; the field that holds it says its unit and frame.
 template <class F>

@@ -1,6 +1,8 @@
 #pragma once
 // Where the bones of one leg are, as its lines of action need them.
 
+#include <cstdint>
+
 #include <mobil/components/lanes.h>
 
 namespace mobil::inline v0_3 {
@@ -31,7 +33,8 @@ struct LegClock {
 };
 
 /// Both legs of a person, right first, as they are looked up by their muscles.
-struct LegPost {
+struct PublishedLeg {
+  static constexpr std::uint64_t stable_id = 0x70b491471d4294ea;
   struct alignas(64) Leg {
     LegFrames<float> frames;
     LegClock<float> clock;

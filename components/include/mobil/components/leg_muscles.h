@@ -13,12 +13,12 @@ namespace mobil::inline v0_3 {
 /// with the spring force of the paper's equations 2 and 3.
 enum class Drive : std::uint8_t { displacement, force };
 
-/// Bellies that move along a few vectors of a finer mesh (Method::reduced).
-struct ReducedChoice {
-  std::uint32_t vectors = 12;  // 1–32
+/// Bellies that move along a few modes of a finer mesh (Method::modal).
+struct ModalOptions {
+  std::uint32_t modes = 12;    // 1–32
   bool moving = true;          // false: the static answer alone, which has no state
-  bool corrected = true;       // the mesh's own error extrapolated away (assets/reduction/reduced_basis.h)
-  Cells cells = {4, 4, 16};    // of the mesh that the vectors are of; has all nodes of LegMuscles::cells
+  bool corrected = true;       // the mesh's own error extrapolated away (assets/reduction/modal_basis.h)
+  Cells cells = {4, 4, 16};    // of the mesh that the modes are of; has all nodes of LegMuscles::cells
   /// Whether someone looks: control points are placed (NodalDisplacement). Without, the state alone goes on.
   bool control_points = true;
   /// Whether BellyReport is written, which takes more than half as long as placing the control points.
@@ -30,27 +30,27 @@ struct ReducedChoice {
   /// Whether control points are where linear statics has them, even where LegMuscles::finite_shape says otherwise.
   bool linear_shape = false;
 
-  friend bool operator==(const ReducedChoice&, const ReducedChoice&) = default;
+  friend bool operator==(const ModalOptions&, const ModalOptions&) = default;
 };
 
 /// How one muscle is simulated, at its person's other choices.
 struct MuscleMethod {
-  Method method = Method::ecd;
-  ReducedChoice reduced{};  // of Method::reduced
+  Method method = Method::explicit_central;
+  ModalOptions modal{};  // of Method::modal
 };
 
-/// Whether its tension stiffens it: of reduced bellies that move.
+/// Whether its tension stiffens it: of modal bellies that move.
 constexpr bool is_tuned(const MuscleMethod& method) {
-  return method.method == Method::reduced && method.reduced.moving && method.reduced.tuned;
+  return method.method == Method::modal && method.modal.moving && method.modal.tuned;
 }
 
 /// Alike in all that the method depends on. Whose control points are linear anyway is alike with and without
-/// ReducedChoice::linear_shape: of such a muscle Simulation::method answers with what it was chosen as.
+/// ModalOptions::linear_shape: of such a muscle Simulation::method answers with what it was chosen as.
 inline bool same_method(const MuscleMethod& a, MuscleMethod b) {
-  if (a.method != b.method || a.method != Method::reduced) return a.method == b.method;
-  if (is_tuned(a) == is_tuned(b)) b.reduced.tuned = a.reduced.tuned;
-  if (!a.reduced.control_points) b.reduced.linear_shape = a.reduced.linear_shape;
-  return a.reduced == b.reduced;
+  if (a.method != b.method || a.method != Method::modal) return a.method == b.method;
+  if (is_tuned(a) == is_tuned(b)) b.modal.tuned = a.modal.tuned;
+  if (!a.modal.control_points) b.modal.linear_shape = a.modal.linear_shape;
+  return a.modal == b.modal;
 }
 
 /// Cells for close-ups, with all nodes of the paper's {2, 2, 8}.
@@ -61,8 +61,8 @@ struct LegMuscles {
   /// Which ones: the groups unless a scene comes close (muscle_members()) or calls for few.
   MuscleSet muscles{(1U << muscle_group_count) - 1};
   Drive drive = Drive::displacement;
-  Method method = Method::ecd;
-  ReducedChoice reduced{};  // of Method::reduced
+  Method method = Method::explicit_central;
+  ModalOptions modal{};  // of Method::modal
   Material material{};
   Element element = Element::full;  // but of Method::finite, whose elements have one point
   Mass mass = Mass::lumped;         // of CAA; ECD's is lumped, ICD's consistent, static has none
@@ -95,24 +95,24 @@ struct LegMuscles {
 /// Whether a muscle of this choice has control points (NodalDisplacement); whether these are reported (BellyReport);
 /// whether it feels its frame's motion (FrameLoad); and whether it pulls (Activation).
 constexpr bool has_control_points(const LegMuscles& choice) {
-  return choice.method != Method::none && (choice.method != Method::reduced || choice.reduced.control_points);
+  return choice.method != Method::none && (choice.method != Method::modal || choice.modal.control_points);
 }
 constexpr bool is_reported(const LegMuscles& choice) {
-  return has_control_points(choice) && (choice.method != Method::reduced || choice.reduced.reported);
+  return has_control_points(choice) && (choice.method != Method::modal || choice.modal.reported);
 }
 constexpr bool feels_frame(const LegMuscles& choice) {
-  const bool moves = choice.method == Method::reduced && choice.reduced.moving;
+  const bool moves = choice.method == Method::modal && choice.modal.moving;
   return choice.inertia && (moves || has_control_points(choice));
 }
 constexpr bool has_activation(const LegMuscles& choice) {
   return choice.activation != ExcitationSource::none;
 }
 constexpr bool is_tuned(const LegMuscles& choice) {
-  return is_tuned(MuscleMethod{choice.method, choice.reduced});
+  return is_tuned(MuscleMethod{choice.method, choice.modal});
 }
 /// Whether its control points are those of finite strain on top of a linear method.
 constexpr bool has_finite_shape(const LegMuscles& choice) {
-  const bool linear = choice.method == Method::reduced && choice.reduced.linear_shape;
+  const bool linear = choice.method == Method::modal && choice.modal.linear_shape;
   return has_control_points(choice) && !linear && choice.method != Method::finite &&
          choice.finite_shape.value_or(has_activation(choice));
 }

@@ -19,8 +19,8 @@ enum class Muscle : std::uint8_t { hamstrings, quadriceps, triceps_surae, tibial
 inline constexpr std::size_t muscle_group_count = 4;
 
 /// Some of them, by number.
-inline constexpr std::size_t most_muscles = 32;
-using MuscleSet = std::bitset<most_muscles>;
+inline constexpr std::size_t max_muscles = 32;
+using MuscleSet = std::bitset<max_muscles>;
 
 /// Elements of a belly's mesh along x, y and z.
 using Cells = std::array<std::uint32_t, 3>;
@@ -45,21 +45,21 @@ enum class Strain : std::uint8_t { small, finite };
 
 /// How a belly's motion follows from its loads (section 6.3 of the paper): K·u = f; explicit central differences with
 /// the lumped mass (ECD); implicit central differences, that is with the consistent mass (ICD); constant average
-/// acceleration (CAA); a few vectors of a finer mesh, each of whose motions is integrated exactly (reduced); not at
+/// acceleration (CAA); a few modes of a finer mesh, each of whose motions is integrated exactly (modal); not at
 /// all (none: the line of action alone); or central differences at finite strain (finite), for close-ups.
-enum class Method : std::uint8_t { statics, ecd, icd, caa, reduced, none, finite };
-inline constexpr std::array<std::string_view, 7> method_name = {"static",  "ecd",  "icd",   "caa",
-                                                                "reduced", "none", "finite"};
+enum class Method : std::uint8_t { statics, explicit_central, implicit_central, newmark, modal, none, finite };
+inline constexpr std::array<std::string_view, 7> method_name = {
+    "static", "explicit-central", "implicit-central", "newmark", "modal", "none", "finite"};
 inline constexpr Method last_method = Method::finite;
 
 /// Mass matrix: lumped at the nodes (diagonal), or consistent with the shape functions.
 enum class Mass : std::uint8_t { lumped, consistent };
 inline constexpr std::array<std::string_view, 2> mass_name = {"lumped", "consistent"};
 
-/// The human a muscle belongs to: entity index and generation, and the side of the body.
+/// The person a muscle belongs to: entity index and generation, and the side of the body.
 template <class F>
 struct MuscleOwner {
-  Whole<F> index, generation, side;
+  UInt32<F> index, generation, side;
 };
 
 /// Size of a belly against its template: x and y are S = `across` times the template's, z is l = `along` times it. With
@@ -132,7 +132,7 @@ struct FrameHistory {
   Vec3<F> start_m, step_m;
   Quat<F> rotation;
   Vec3<F> turn_rad;
-  Whole<F> known;
+  UInt32<F> known;
 };
 
 /// What a deforming belly did, written once a tick. Elongation: mean displacement of the far face along z. Reaction:
@@ -150,21 +150,31 @@ struct BellyReport {
 struct NodalDisplacement {};
 struct NodalVelocity {};
 
-/// Run-time sized columns of reduced bellies (systems/deformation/reduced.h says what is in them): how their vectors
+/// Run-time sized columns of modal bellies (systems/deformation/modal.h says what is in them): how their modes
 /// move; what one individual's motions are like; and, only where someone looks, how its control points follow.
-struct ReducedState {};
-struct ReducedMotion {};
-struct ReducedShape {};
+struct ModalState {
+  static constexpr std::uint64_t stable_id = 0x62b37cecc8dc5c87;
+};
+struct ModalMotion {
+  static constexpr std::uint64_t stable_id = 0x6d3aef306ec57708;
+};
+struct ModalShape {
+  static constexpr std::uint64_t stable_id = 0xb61604878239759f;
+};
 
 /// Tags of muscle tables: the number of equal steps that a tick is cut into, of who steps explicitly, does so at finite
-/// strain, solves, and settles to the static answer; reduced bellies that show the static answer alone; and floats that
+/// strain, solves, and settles to the static answer; modal bellies that show the static answer alone; and floats that
 /// one block is worked on with.
 struct Substeps {};
 struct FiniteSteps {};
 struct SolvedSteps {};
 struct StaticSteps {};
-struct ReducedStatic {};
-struct ReducedTuned {};
+struct ModalStatic {
+  static constexpr std::uint64_t stable_id = 0x933122594e4ec4c0;
+};
+struct ModalTuned {
+  static constexpr std::uint64_t stable_id = 0x7f0896c9b438a398;
+};
 struct ScratchFloats {};
 
 /// What is counted (Tally) of bellies whose numbers were not finite at a tick's end, and which began anew.

@@ -2,6 +2,7 @@
 // Walkers who are asleep: nobody is near enough to see them, and where they are follows at once from a few words.
 
 #include <cstddef>
+#include <cstdint>
 
 #include <mobil/components/gait_style.h>
 #include <mobil/components/lanes.h>
@@ -15,10 +16,10 @@ namespace mobil::inline v0_3 {
 /// Gait::revision and, from bit 16 on, Gait::displacement.
 template <class F>
 struct SteadyWalk {
-  Whole<F> clock, step_units, steps, anchor_steps;
+  UInt32<F> clock, step_units, steps, anchor_steps;
   F anchor_x_m, anchor_z_m, heading_rad;
   F asked_heading_rad, speed_m_s, step_length_m;  // what is asked, with the last word
-  Whole<F> requests;
+  UInt32<F> requests;
 };
 
 /// A sleeper: the walk and the body. With SleepingStyle or OwnStyle it is all that a walker's row follows from.
@@ -27,13 +28,13 @@ struct Asleep {
   SteadyWalk<F> walk;
   F height_m, mass_kg, extra_fat;  // BodySize
   F endo, meso, ecto;              // Physique
-  Whole<F> build;
+  UInt32<F> build;
 };
 
 /// A style on the grid (`snapped`): a byte a parameter, four to a word.
 template <class F>
 struct SleepingStyle {
-  Whole<F> bytes[(gait_parameters.size() + 3) / 4];
+  UInt32<F> bytes[(gait_parameters.size() + 3) / 4];
 };
 /// One that is not: four times as large.
 template <class F>
@@ -46,7 +47,7 @@ struct OwnStyle {
 template <class F>
 struct Unsettled {
   SteadyWalk<F> before;
-  Whole<F> asked_tick, until_tick;
+  UInt32<F> asked_tick, until_tick;
 };
 /// Of who does not walk steadily within some steps: they are to be woken.
 inline constexpr std::uint32_t never_settles = 0xFFFFFFFF;
@@ -55,7 +56,9 @@ inline constexpr std::uint32_t never_settles = 0xFFFFFFFF;
 /// chooses muscles then; steps are watched again; fat wobbles again, from rest.
 struct SleepsWithForces {};
 struct SleepsManaged {};
-struct SleepsWatched {};
+struct SleepsWithStepEvents {
+  static constexpr std::uint64_t stable_id = 0xf10c8cc55fc2d74e;
+};
 struct SleepsWithFat {};
 
 /// The nearest style of those that take least memory asleep: each parameter a whole number of 254ths of its range away

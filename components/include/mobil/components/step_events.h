@@ -10,7 +10,8 @@ namespace mobil::inline v0_3 {
 /// stood begins to step.
 enum class StepEventKind : std::uint8_t { heel_strike, toe_off, stopped, started };
 
-/// What came to pass in one walker's steps in a tick, in that order. Published (mobil/engine/key.h) by who is watched.
+/// What came to pass in one walker's steps in a tick, in that order. Published (mobil/engine/archetype.h) by who is
+/// watched.
 struct StepEvents {
   struct One {
     std::uint16_t at;  // units of the walker's clock (systems/gait/gait.h) since the tick began

@@ -23,22 +23,22 @@ struct BoneSurface {
   SurfaceMesh mesh;
 };
 
-/// One vertex of a muscle surface: eight nodes of its cage with trilinear weights (sum 1), and how much it follows the
-/// cage, the bone of origin and the bone of insertion (sum 1).
+/// One vertex of a muscle surface: eight nodes of its lattice with trilinear weights (sum 1), and how much it follows
+/// the lattice, the bone of origin and the bone of insertion (sum 1).
 struct VertexBinding {
   std::uint16_t node[8];
   float node_weight[8];
-  float cage, origin, insertion;
+  float lattice, origin, insertion;
 };
 
 /// A muscle surface in the anatomical position, world axes, the body standing at x = z = 0 (m), right side.
-/// Each vertex: p = cage · frame(rest_in_cage + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀).
+/// Each vertex: p = lattice · frame(rest_in_lattice + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀).
 /// T carries the attachment as the bone does; it turns from as the bone does (`…_turn` 0) to as the muscle does (1).
 struct MuscleSurface {
   SurfaceMesh mesh;
   Segment origin = Segment::pelvis, insertion = Segment::shank_right;
   std::vector<VertexBinding> binding;
-  std::vector<Vec3<float>> rest_in_cage;  // the vertex in the muscle's rest frame, m
+  std::vector<Vec3<float>> rest_in_lattice;  // the vertex in the muscle's rest frame, m
   Vec3<float> origin_m{}, insertion_m{};  // where it is attached
   Quat<float> rest_rotation{0, 0, 0, 1};  // of the muscle's frame
   float origin_turn = 0, insertion_turn = 0;

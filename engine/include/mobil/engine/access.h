@@ -26,8 +26,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include <mobil/engine/archetype.h>
 #include <mobil/engine/clock.h>
-#include <mobil/engine/key.h>
 #include <mobil/engine/world.h>
 
 namespace mobil::inline v0_3 {
@@ -257,7 +257,7 @@ template <Access::Mode mode, class T>
 struct ColumnParameter {
   static constexpr Access access() { return {mode, type_id<T>(), type_name<T>()}; }
   static bool bind(const World&, const Table& table, Bound& bound) {
-    const KeyPart* part = find_part(table.key(), type_id<T>());
+    const ComponentId* part = find_component(table.key(), type_id<T>());
     if (part == nullptr || !has_column(part->kind)) return false;
     bound.first_word = table.column(part->id);
     bound.words = static_cast<std::uint32_t>(part->value);
@@ -273,7 +273,7 @@ template <class T>
 struct TagParameter {
   static constexpr Access access() { return {}; }
   static bool bind(const World& world, const Table& table, Bound& bound) {
-    const KeyPart* part = find_part(table.key(), type_id<T>());
+    const ComponentId* part = find_component(table.key(), type_id<T>());
     if (part == nullptr || has_column(part->kind)) return false;
     bound.tag = part->value;
     bound.resource = world.resource(part->value);
@@ -401,7 +401,7 @@ struct Parameter<Shared<T>> : TagParameter<T> {
 template <class Tag>
 struct Parameter<Scratch<Tag>> : AnywhereParameter {
   static bool bind(const World&, const Table& table, Bound& bound) {
-    const KeyPart* part = find_part(table.key(), type_id<Tag>());
+    const ComponentId* part = find_component(table.key(), type_id<Tag>());
     if (part != nullptr && part->kind == PartKind::tag) bound.scratch_floats = part->value;
     return true;
   }

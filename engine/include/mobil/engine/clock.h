@@ -69,7 +69,7 @@ class Clock {
   /// Length of a tick, s.
   double tick_s() const { return to_seconds(tick_); }
   /// The most ticks that a frame amounts to.
-  std::uint32_t most_ticks() const { return static_cast<std::uint32_t>((max_frame_ + tick_ - 1) / tick_); }
+  std::uint32_t max_ticks() const { return static_cast<std::uint32_t>((max_frame_ + tick_ - 1) / tick_); }
   /// Time fed that has not made a whole tick yet.
   double remainder_s() const { return to_seconds(remainder_); }
 

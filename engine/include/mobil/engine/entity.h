@@ -39,13 +39,13 @@ class EntityRegister {
 
   /// Indices given out so far, also those of entities that are gone.
   std::size_t size() const { return slots_.size(); }
-  /// The living entity of an index; a stale handle where there is none.
+  /// The alive entity of an index; a stale handle where there is none.
   Entity at(std::uint32_t index) const {
     return index < slots_.size() && slots_[index].location.table != nobody ? Entity{index, slots_[index].generation}
                                                                            : Entity{};
   }
 
-  /// A new living entity, at table 0 and row 0 until its place is set.
+  /// A new alive entity, at table 0 and row 0 until its place is set.
   Entity create() {
     std::uint32_t index = first_free_;
     if (index == nobody) {
@@ -79,7 +79,7 @@ class EntityRegister {
            slots_[entity.index].location.table != nobody;
   }
 
-  /// Frees the slot of a living entity.
+  /// Frees the slot of a alive entity.
   void destroy(Entity entity) {
     Slot& slot = slots_[entity.index];
     slot.location.table = nobody;

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <mobil/engine/key.h>
+#include <mobil/engine/archetype.h>
 
 namespace mobil::inline v0_3 {
 

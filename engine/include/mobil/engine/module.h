@@ -4,7 +4,7 @@
 //
 //   Module fatigue() {
 //     return {.name = "fatigue",
-//             .parts = {component_part<Fatigue>()},
+//             .parts = {component_id<Fatigue>()},
 //             .systems = [](ScheduleBuilder& systems) { systems.add("fatigue", &tire); }};
 //   }
 //   Simulation simulation({.modules = {fatigue()}});
@@ -21,9 +21,9 @@
 #include <string>
 #include <vector>
 
+#include <mobil/engine/archetype.h>
 #include <mobil/engine/error.h>
 #include <mobil/engine/globals.h>
-#include <mobil/engine/key.h>
 #include <mobil/engine/phase.h>
 
 namespace mobil::inline v0_3 {
@@ -34,15 +34,15 @@ struct SavedWorld;  // engine/snapshot.h
 class Table;
 class World;
 
-/// An immutable resource that snapshots name by the module's name and its own. `part`: key_part(Shared<T>{}).
+/// An immutable resource that snapshots name by the module's name and its own. `part`: component_id(Shared<T>{}).
 struct NamedResource {
   std::string name{};
-  KeyPart part;
+  ComponentId part;
   std::shared_ptr<const void> resource;
 };
 template <class T>
 NamedResource named_resource(std::string name, std::shared_ptr<const T> resource) {
-  return {std::move(name), key_part(Shared<T>{}), std::move(resource)};
+  return {std::move(name), component_id(Shared<T>{}), std::move(resource)};
 }
 
 struct Module {
@@ -50,9 +50,9 @@ struct Module {
   std::string name{};
   /// Of what the parts mean. A snapshot with rows of this module, made with another version of it, is refused.
   std::uint32_t version = 1;
-  /// Everything that its rows may have: components (`component_part<C>()`), fields (`key_part(FieldWidth<Tag>{})`),
-  /// tags, shared resources and published structs (`key_part(…)` of an empty one). Each part is one module's.
-  std::vector<KeyPart> parts{};
+  /// Everything that its rows may have: components (`component_id<C>()`), fields (`component_id(FieldWidth<Tag>{})`),
+  /// tags, shared resources and published structs (`component_id(…)` of an empty one). Each part is one module's.
+  std::vector<ComponentId> parts{};
   /// Resources that its rows may share. A snapshot keeps their names; what it does not know here is refused.
   std::vector<NamedResource> resources{};
   /// Values that are state, but no entity's (mobil/engine/globals.h). Each is one module's.
@@ -61,7 +61,7 @@ struct Module {
   /// or 0; one a table at most. `make` makes it of blocks [begin, end) of such a table, with the bits that the last
   /// tick gave it; from any thread. Both or neither. What another system writes into such a column is not in snapshots:
   /// after a restore it is there once that system has run.
-  std::function<std::uint64_t(const TableKey& key)> follows{};
+  std::function<std::uint64_t(const Archetype& key)> follows{};
   std::function<void(Table& table, const World& world, std::size_t begin, std::size_t end)> make{};
   /// Adds its systems; may be empty.
   std::function<void(ScheduleBuilder&)> systems{};
@@ -69,7 +69,7 @@ struct Module {
   std::vector<Phase> before{}, after{};
   /// Whether a table's key makes sense, asked before a snapshot's rows are given a table; may be empty. `world` has the
   /// key's resources.
-  std::function<Result<void>(const TableKey& key, const World& world)> check_key{};
+  std::function<Result<void>(const Archetype& key, const World& world)> check_key{};
   /// Whether the rows of a saved table that has one of these parts are sound: numbers that lists are read by are in
   /// range. May be empty. Asked after sizes and layouts were checked.
   std::function<Result<void>(const SavedWorld& saved, std::uint32_t table)> check_rows{};

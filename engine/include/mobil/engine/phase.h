@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/archetype.h>
 #include <mobil/engine/clock.h>
 #include <mobil/engine/jobs.h>
-#include <mobil/engine/key.h>
 
 namespace mobil::inline v0_3 {
 
@@ -73,8 +73,8 @@ struct Frame {
 /// A phase of a module (Module::before, Module::after). A `before` phase that throws ends the tick before its systems
 /// run, and the tick does not count. What earlier phases did stays, and the next tick begins with the phase that threw.
 /// After an `after` phase that throws the tick counts, and the phases behind it do not run for that tick.
-/// A phase that may lack memory takes it before it changes anything, or works within a World::Attempt. A phase can call
-/// the simulation that runs it, except `tick` and `advance`.
+/// A phase that may lack memory takes it before it changes anything, or works within a World::Transaction. A phase can
+/// call the simulation that runs it, except `tick` and `advance`.
 struct Phase {
   std::string name;
   std::function<void(const Frame& frame)> run;

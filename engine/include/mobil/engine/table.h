@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <mobil/components/lanes.h>
+#include <mobil/engine/archetype.h>
 #include <mobil/engine/entity.h>
-#include <mobil/engine/key.h>
 
 namespace mobil::inline v0_3 {
 
@@ -28,13 +28,13 @@ class Table {
   /// What `column` answers where the table has no such part.
   static constexpr std::uint32_t no_column = std::numeric_limits<std::uint32_t>::max();
 
-  Table(const TableKey& key, std::pmr::memory_resource* memory);
+  Table(const Archetype& key, std::pmr::memory_resource* memory);
   ~Table();
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
 
   /// Parts, rows, and blocks of sixteen rows (the last may be partly filled).
-  const TableKey& key() const { return key_; }
+  const Archetype& key() const { return key_; }
   std::uint32_t row_count() const { return rows_; }
   std::size_t block_count() const { return (rows_ + lane_count - 1) / lane_count; }
   /// Words of one row's state, all columns together.
@@ -96,10 +96,10 @@ class Table {
   bool is_parked_as(std::uint32_t row) const { return row % lane_count == 0 && row / lane_count == rows_ / lane_count; }
   std::size_t chunk_bytes(std::size_t blocks) const;
   static std::size_t alignment_of(std::size_t bytes);
-  void add_chunk(std::size_t least_blocks);
+  void add_chunk(std::size_t min_blocks);
   void drop_chunk();
 
-  TableKey key_;
+  Archetype key_;
   std::pmr::vector<std::uint32_t> first_word_;  // by part of the key
   std::pmr::vector<Chunk> chunks_;              // of memory, each several blocks
   std::pmr::vector<float*> blocks_;             // more than there are rows for: those of chunks begun, one at least

@@ -22,7 +22,7 @@ class TableList {
   const std::pmr::vector<Table*>& find(World& world) {
     for (; seen_ < world.tables().size(); ++seen_) {
       Table& table = world.tables()[seen_];
-      const auto has = [&](std::uint64_t part) { return find_part(table.key(), part) != nullptr; };
+      const auto has = [&](std::uint64_t part) { return find_component(table.key(), part) != nullptr; };
       if (std::ranges::any_of(parts_, has)) found_.push_back(&table);
     }
     return found_;

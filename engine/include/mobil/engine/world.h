@@ -1,6 +1,6 @@
 #pragma once
 // Entities and what they are made of. Every combination of parts is a table; adding or removing a part moves the
-// entity's row to another one. See mobil/engine/key.h for the kinds of parts.
+// entity's row to another one. See mobil/engine/archetype.h for the kinds of parts.
 //
 //   World world;
 //   const auto mesh = world.share(std::make_shared<const Mesh>(…));
@@ -25,10 +25,10 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/archetype.h>
 #include <mobil/engine/entity.h>
 #include <mobil/engine/globals.h>
 #include <mobil/engine/jobs.h>
-#include <mobil/engine/key.h>
 #include <mobil/engine/members.h>
 #include <mobil/engine/table.h>
 
@@ -71,21 +71,21 @@ class World {
   void create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs = {});
   /// As the last remake_from, of many entities of one table, alive, each named once, which move to another table: the
   /// values of `parts` are as in create_many, but parts that they have already keep their own.
-  void remake_many(std::span<const Entity> entities, std::span<const PartValue> parts,
-                   std::span<const std::uint64_t> owned, const Jobs& jobs = {});
-  /// While one lives, what create_many and remake_many do, and what becomes of entities remade, can be undone,
+  void change_archetype(std::span<const Entity> entities, std::span<const PartValue> parts,
+                        std::span<const std::uint64_t> owned, const Jobs& jobs = {});
+  /// While one lives, what create_many and change_archetype do, and what becomes of entities remade, can be undone,
   /// and is at its end unless it was kept: rows and handles are those of before, also handles given out later. Undoing
   /// and keeping take no memory. Until then the old rows of who was remade stay in their tables: nobody goes over
-  /// tables, nobody is destroyed, and in a table that others left nobody is created, or leaves but by remake_many. One
-  /// within another is part of it: what the inner one kept is undone with the outer one.
-  class Attempt {
+  /// tables, nobody is destroyed, and in a table that others left nobody is created, or leaves but by change_archetype.
+  /// One within another is part of it: what the inner one kept is undone with the outer one.
+  class Transaction {
    public:
-    explicit Attempt(World& world, const Jobs& jobs = {});
-    ~Attempt();
-    Attempt(const Attempt&) = delete;
-    Attempt& operator=(const Attempt&) = delete;
+    explicit Transaction(World& world, const Jobs& jobs = {});
+    ~Transaction();
+    Transaction(const Transaction&) = delete;
+    Transaction& operator=(const Transaction&) = delete;
     /// What was done stays.
-    void keep();
+    void commit();
 
    private:
     World& world_;
@@ -125,11 +125,11 @@ class World {
   Status set(Entity entity, const C<float>& row);
   template <class Tag>
   Status set(Entity entity, const TagValue<Tag>& tag) {
-    return replace_tag(entity, key_part(tag));
+    return replace_tag(entity, component_id(tag));
   }
   template <class T>
   Status set(Entity entity, const Shared<T>& shared) {
-    return replace_tag(entity, key_part(shared));
+    return replace_tag(entity, component_id(shared));
   }
   /// One part less: a component by its template (`remove<Pose>`), a field or tag by its type.
   template <template <class> class C>
@@ -166,7 +166,7 @@ class World {
   template <class Tag>
   tl::expected<std::uint64_t, Status> get(Entity entity) const {
     static_assert(!is_row<Tag>, "name the component without its number type: get<Pose>(entity)");
-    return part_of(entity, type_id<Tag>()).map([](const KeyPart& part) { return part.value; });
+    return part_of(entity, type_id<Tag>()).map([](const ComponentId& part) { return part.value; });
   }
   /// An entity's shared resource, null when stale or missing.
   template <class T>
@@ -185,9 +185,9 @@ class World {
   }
 
   /// The component whose first two words are the index and generation of the entity that a row belongs to: said once,
-  /// while the world is empty. An entity whose row names a living owner is among its members from then on, until one of
+  /// while the world is empty. An entity whose row names a alive owner is among its members from then on, until one of
   /// them is gone or the row names another; systems must not write it.
-  void set_owner_part(const KeyPart& part) { owner_part_ = part.id; }
+  void set_owner_part(const ComponentId& part) { owner_part_ = part.id; }
   std::uint64_t owner_part() const { return owner_part_; }
   /// Calls `f(member)` for each entity that belongs to `owner`, in ascending order of their indices. `f` changes
   /// nothing.
@@ -210,8 +210,8 @@ class World {
     const T* raw = resource.get();
     return {raw, own(std::move(resource), content)};
   }
-  /// The same of a resource whose type is known as a part alone: key_part(Shared<T>{}).
-  KeyPart share_as(KeyPart part, std::shared_ptr<const void> resource) {
+  /// The same of a resource whose type is known as a part alone: component_id(Shared<T>{}).
+  ComponentId share_as(ComponentId part, std::shared_ptr<const void> resource) {
     part.value = own(std::move(resource), 0);
     return part;
   }
@@ -256,17 +256,17 @@ class World {
     bool operator<(const RowAt& other) const { return table != other.table ? table < other.table : row < other.row; }
   };
 
-  Place<Table> create_row(const TableKey& key, Entity& entity);
+  Place<Table> create_row(const Archetype& key, Entity& entity);
   std::uint32_t add_rows(std::uint32_t table, std::span<const PartValue> parts, std::uint32_t count, const Jobs& jobs);
   void erase_row(const EntityRegister::Location& at);
   void remove_rows(std::pmr::vector<RowAt>& gone, const Jobs& jobs);
   void destroy_together(std::span<const Entity> entities, const Jobs& jobs);
-  Status add_part(Entity entity, const KeyPart& part);
+  Status add_part(Entity entity, const ComponentId& part);
   Status remove_part(Entity entity, std::uint64_t id);
-  Status replace_tag(Entity entity, const KeyPart& tag);
-  void move(Entity entity, const TableKey& key);
-  std::uint32_t table_of(const TableKey& key);
-  tl::expected<KeyPart, Status> part_of(Entity entity, std::uint64_t id) const;
+  Status replace_tag(Entity entity, const ComponentId& tag);
+  void move(Entity entity, const Archetype& key);
+  std::uint32_t table_of(const Archetype& key);
+  tl::expected<ComponentId, Status> part_of(Entity entity, std::uint64_t id) const;
   Status read_field(Entity entity, std::uint64_t id, std::span<float> out) const;
   Status write_field(Entity entity, std::uint64_t id, std::span<const float> in);
   std::uint64_t own(std::shared_ptr<const void> resource, std::uint64_t content);
@@ -277,7 +277,7 @@ class World {
   void write_from(Place<Table> place, std::span<const PartValue> parts);
 
   template <class T>
-  static void write_part(Place<Table>, const T&) {}  // no part: key_part says so
+  static void write_part(Place<Table>, const T&) {}  // no part: component_id says so
   template <template <class> class C>
   static void write_part(Place<Table> place, const C<float>& row) {
     place.table->write(place.row, place.table->column(type_id<C<float>>()), ComponentLayout<C>::words, &row);
@@ -300,14 +300,14 @@ class World {
   Globals globals_;
   Members members_;
   std::uint64_t owner_part_ = 0;
-  TableKey scratch_;  // the key being put together, kept for its memory
+  Archetype scratch_;  // the key being put together, kept for its memory
   struct Moves {      // rows that are to take others' places, by table; kept for the same reason
     std::pmr::vector<std::uint32_t> table;
     std::pmr::vector<RowMove> move;
   };
   Moves moves_;
   std::pmr::vector<RowAt> going_;
-  struct Journal {  // of an Attempt
+  struct Journal {  // of an Transaction
     bool open = false;
     std::pmr::vector<RowAt> left;    // rows that entities were remade from
     std::pmr::vector<Entity> moved;  // whose those are
@@ -321,7 +321,7 @@ template <class... P>
 Entity World::create(const P&... parts) {
   static_assert(distinct({part_id<P>...}), "each component, field and tag once");
   scratch_.clear();
-  (insert_part(scratch_, key_part(parts)), ...);
+  (insert_component(scratch_, component_id(parts)), ...);
   Entity entity;
   [[maybe_unused]] const Place<Table> place = create_row(scratch_, entity);
   (write_part(place, parts), ...);
@@ -334,7 +334,7 @@ Status World::remake(Entity entity, const P&... parts) {
   static_assert(distinct({part_id<P>...}), "each component, field and tag once");
   if (!alive(entity)) return Status::stale_entity;
   scratch_.clear();
-  (insert_part(scratch_, key_part(parts)), ...);
+  (insert_component(scratch_, component_id(parts)), ...);
   if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
   [[maybe_unused]] const Place<Table> place = find(entity);
   (write_part(place, parts), ...);
@@ -344,7 +344,7 @@ Status World::remake(Entity entity, const P&... parts) {
 
 template <class P>
 Status World::add(Entity entity, const P& part) {
-  const Status status = add_part(entity, key_part(part));
+  const Status status = add_part(entity, component_id(part));
   if (status != Status::ok) return status;
   write_part(find(entity), part);
   relate(entity);

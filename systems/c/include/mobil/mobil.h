@@ -40,6 +40,22 @@
 #else
 #define MOBIL_API __attribute__((visibility("default")))
 #endif
+/* Old names, which go in 0.5, still compile, with a warning that gives the new one. */
+#if defined(__GNUC__)
+#define MOBIL_DEPRECATED(use) __attribute__((deprecated("use " use)))
+#define MOBIL_RENAMED(type, name, old) \
+  __extension__ union {                \
+    type name;                         \
+    type old MOBIL_DEPRECATED(#name);  \
+  }
+#else
+#define MOBIL_DEPRECATED(use)
+#define MOBIL_RENAMED(type, name, old) \
+  union {                              \
+    type name;                         \
+    type old;                          \
+  }
+#endif
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -243,10 +259,10 @@ MOBIL_API int mobil_enable(mobil_sim* sim, const mobil_id* ids, size_t count, in
 
 enum {
   MOBIL_STATIC,
-  MOBIL_ECD,
-  MOBIL_ICD,
-  MOBIL_CAA,
-  MOBIL_REDUCED,
+  MOBIL_EXPLICIT_CENTRAL,
+  MOBIL_IMPLICIT_CENTRAL,
+  MOBIL_NEWMARK,
+  MOBIL_MODAL,
   MOBIL_NONE,
   MOBIL_FINITE
 };                                                            /* method; the last wants cells of 4, 4, 16 */
@@ -265,9 +281,9 @@ enum {
 typedef struct mobil_method {
   size_t size;
   int method;
-  int vectors; /* of MOBIL_REDUCED, as all that follows: 1 to 32 */
+  MOBIL_RENAMED(int, modes, vectors); /* of MOBIL_MODAL, as all that follows: 1 to 32 */
   int moving, corrected, control_points, reported, tuned, linear_shape; /* 0 or 1 */
-  unsigned int reduced_cells[3];
+  unsigned int modal_cells[3];
 } mobil_method;
 
 /* How leg muscles deform. */
@@ -275,8 +291,9 @@ typedef struct mobil_muscles {
   size_t size;
   unsigned int muscles; /* a bit each, 1 << MOBIL_HAMSTRINGS and so on; usual: the four groups */
   int method;           /* and what of mobil_method stands here again */
-  int vectors, moving, corrected, control_points, reported, tuned, linear_shape;
-  unsigned int reduced_cells[3];
+  MOBIL_RENAMED(int, modes, vectors);
+  int moving, corrected, control_points, reported, tuned, linear_shape;
+  unsigned int modal_cells[3];
   int element, mass, drive, activation;
   int inertia, line_motion; /* 0 or 1 */
   int finite_shape;         /* 0 or 1; below 0: where there is activation */

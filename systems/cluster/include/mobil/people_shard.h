@@ -31,7 +31,7 @@ PersonCommand go(std::uint64_t number);
 PersonCommand walk(std::uint64_t number, float speed_m_s);
 PersonCommand turn(std::uint64_t number, float heading_rad);
 PersonCommand place(std::uint64_t number, float x_m, float z_m, float heading_rad);
-/// `asleep_beyond_m`: as SceneNeeds has it; 0: nobody sleeps from then on.
+/// `asleep_beyond_m`: as LodScene has it; 0: nobody sleeps from then on.
 PersonCommand look(const Viewpoint& camera, float tolerance_px, float asleep_beyond_m);
 
 /// What all shards of a crowd share.
@@ -41,7 +41,7 @@ struct PeopleShardOptions {
   SimulationOptions simulation{};
   /// Of everybody who comes; left out: they have none, and nothing is chosen.
   std::optional<LegMuscles> muscles{};
-  SceneNeeds scene{};  // until the first `look`
+  LodScene scene{};  // until the first `look`
 };
 
 class PeopleShard : public Shard {

@@ -24,7 +24,7 @@ struct HexahedralMesh {
 /// One cross-section of a bent block at the fraction t (0–1) of its length: where its centre lies off the z axis, and
 /// how far the block's own x and y directions reach from there, m: (semi_x, shear_y) and (shear_x, semi_y). Without
 /// shear, the half-widths of an ellipse along x and y.
-struct CageStation {
+struct LatticeStation {
   float t, offset_x_m, offset_y_m, semi_x_m, semi_y_m;
   float shear_x_m = 0, shear_y_m = 0;
 };
@@ -89,7 +89,7 @@ Result<void> check_cells(const Cells& cells);
 /// between them). A section blends a square grid with its elliptical image (2 : 3), so that its edges' middles touch
 /// the ellipse and its corners stay elements. Fails on a bad station or grading, or, naming the element, where one
 /// would be inverted or flat.
-Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m,
+Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const LatticeStation> stations, double length_m,
                                   const Grading& grading = {});
 
 /// A template's mesh at one individual's size.
@@ -108,7 +108,7 @@ HexahedralMesh scaled(HexahedralMesh mesh, const BellyScale<F>& by) {
 double volume(const HexahedralMesh& mesh);
 
 /// Elements flatter than this are refused.
-inline constexpr double least_scaled_jacobian = 1e-3;
+inline constexpr double min_scaled_jacobian = 1e-3;
 
 /// Smallest over the eight corners of det(e₁,e₂,e₃) / (|e₁||e₂||e₃|): 1 for a box, 0 or less where inverted.
 double scaled_jacobian(const HexahedralMesh& mesh, std::uint32_t element);

@@ -44,7 +44,7 @@ struct MusclePlan {
   /// Size against the muscle's template (the reference body's).
   BellyScale<float> scale{};
   LegScale<float> leg_scale{};
-  std::array<MemberPlan, most_row_members> member{};  // in the row's order
+  std::array<MemberPlan, max_row_members> member{};  // in the row's order
 };
 
 /// Fails on a body without positive lengths or masses, in one line.

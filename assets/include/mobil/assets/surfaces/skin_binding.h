@@ -36,9 +36,9 @@ inline constexpr SkinBend hip_bend{0.12, 0.20}, knee_bend{0.10, 0.10}, ankle_ben
 
 /// Weights add up to 1; frames that are not used weigh 0.
 struct SkinVertex {
-  static constexpr std::size_t most_frames = 4;
-  std::array<std::uint16_t, most_frames> frame{};
-  std::array<float, most_frames> weight{};
+  static constexpr std::size_t max_frames = 4;
+  std::array<std::uint16_t, max_frames> frame{};
+  std::array<float, max_frames> weight{};
 };
 
 struct SkinBinding {

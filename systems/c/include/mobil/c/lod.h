@@ -72,7 +72,9 @@ MOBIL_API int mobil_lod_why(mobil_sim* sim, mobil_id id, int muscle, char* line,
 /* One method with its numbers, of those among which is chosen, and what was measured of it. */
 typedef struct mobil_level {
   const char* name;
-  int method, vectors, moving; /* as in mobil_method */
+  int method; /* these three as in mobil_method */
+  MOBIL_RENAMED(int, modes, vectors);
+  int moving;
   float error_m;               /* of control points, the 99.9th percentile over a walk, in that body */
   float cost_us; /* of both legs' muscles and their control points, a tick of 1/60 s, on an Intel Xeon of 3 GHz */
 } mobil_level;

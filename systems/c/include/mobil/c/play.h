@@ -18,9 +18,9 @@ MOBIL_API int mobil_place_many(mobil_sim* sim, const mobil_id* ids, size_t count
  * walk. A line each ("a knee is bent by 146 deg; the limit is 143.8"), all ended by a 0, are written to `text`; *length
  * is how many characters they have without it, and may be null. Without `text` the call writes nothing else; with too
  * little room it writes nothing else and returns MOBIL_ROOM. */
-MOBIL_API int mobil_broken_limits(mobil_sim* sim, mobil_id id, char* text, size_t room, size_t* length);
+MOBIL_API int mobil_limit_violations(mobil_sim* sim, mobil_id id, char* text, size_t room, size_t* length);
 /* How many people were beyond a limit in the last tick, and how many in all ticks together. Either may be null. */
-MOBIL_API int mobil_beyond_limits(mobil_sim* sim, size_t* people, size_t* all);
+MOBIL_API int mobil_limit_violation_counts(mobil_sim* sim, size_t* people, size_t* all);
 
 /* What can happen in a walker's steps. */
 enum {

@@ -55,7 +55,7 @@ MOBIL_API int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets,
 /* ---- A skin of one's own ----------------------------------------------------------------------------------------- */
 
 /* A mesh of legs, as from a scan, that moves with the skin of a body. */
-typedef struct mobil_own_skin mobil_own_skin;
+typedef struct mobil_custom_skin mobil_custom_skin;
 /* Vertices of a right leg, three floats each, in the host's axes and unit, the person standing at the origin in the
  * anatomical position and heading ahead, and its triangles, wound so that the front is outside in the host's axes. It
  * may be closed flat at its top, which is left out; over the last 6 cm it comes to the body's skin. The left leg is its
@@ -73,17 +73,18 @@ typedef struct mobil_leg_mesh {
 } mobil_leg_mesh;
 /* Bound once to a person's body, a quarter of a second to one; good for people of the same sex and of similar build.
  * Outlives the person and the surfaces. */
-MOBIL_API int mobil_bind_own_skin(mobil_sim* sim, mobil_id like, const mobil_leg_mesh* mesh, mobil_own_skin** out);
-MOBIL_API void mobil_drop_own_skin(mobil_own_skin* skin);                 /* null is allowed */
-MOBIL_API size_t mobil_own_skin_vertex_count(const mobil_own_skin* skin); /* of both legs */
-MOBIL_API size_t mobil_own_skin_index_count(const mobil_own_skin* skin);
+MOBIL_API int mobil_bind_custom_skin(mobil_sim* sim, mobil_id like, const mobil_leg_mesh* mesh,
+                                     mobil_custom_skin** out);
+MOBIL_API void mobil_drop_custom_skin(mobil_custom_skin* skin);                 /* null is allowed */
+MOBIL_API size_t mobil_custom_skin_vertex_count(const mobil_custom_skin* skin); /* of both legs */
+MOBIL_API size_t mobil_custom_skin_index_count(const mobil_custom_skin* skin);
 /* Three a triangle, wound as mobil_skin_indices; `room` of them at least. */
-MOBIL_API int mobil_own_skin_indices(const mobil_own_skin* skin, unsigned int* out, size_t room);
+MOBIL_API int mobil_custom_skin_indices(const mobil_custom_skin* skin, unsigned int* out, size_t room);
 /* Of mobil_skin_indices of its detail, what is not in its place: to be drawn besides. Null `out`: `count` alone. */
-MOBIL_API int mobil_own_skin_rest(const mobil_own_skin* skin, unsigned int* out, size_t room, size_t* count);
+MOBIL_API int mobil_custom_skin_rest(const mobil_custom_skin* skin, unsigned int* out, size_t room, size_t* count);
 /* As mobil_write_skin, the vertices of this mesh; of the targets `detail` does not matter. */
-MOBIL_API int mobil_write_own_skin(mobil_sim* sim, const mobil_own_skin* skin, const mobil_skin_target* targets,
-                                   size_t stride, size_t count);
+MOBIL_API int mobil_write_custom_skin(mobil_sim* sim, const mobil_custom_skin* skin, const mobil_skin_target* targets,
+                                      size_t stride, size_t count);
 
 /* ---- Contact ----------------------------------------------------------------------------------------------------- */
 

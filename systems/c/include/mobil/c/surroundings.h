@@ -15,24 +15,27 @@ typedef struct mobil_avoidance_options {
                         clear of walls, discs and who avoids nobody; who comes nearer to others turns them */
 } mobil_avoidance_options;
 
-/* Counts of all ticks of the last mobil_advance or mobil_tick. `people`: looked at in the last tick. `chose`: choices of
- * a step. `kept_claim`: choices that kept to the announced step. `gave_way`: choices that gave way to a simultaneous
- * one. `waiting`: choices to stand although the walker wants to walk. */
+/* Counts of all ticks of the last mobil_advance or mobil_tick. `people`: looked at in the last tick. `chose`: choices
+ * of a step. `kept_reservation`: choices that kept to the announced step. `yielded`: choices that gave way to a
+ * simultaneous one. `waiting`: choices to stand although the walker wants to walk. */
 typedef struct mobil_avoidance_counts {
   size_t size;
-  size_t people, chose, kept_claim, gave_way, waiting;
+  size_t people, chose;
+  MOBIL_RENAMED(size_t, kept_reservation, kept_claim);
+  MOBIL_RENAMED(size_t, yielded, gave_way);
+  size_t waiting;
 } mobil_avoidance_counts;
 
 /* Sets the room of people managed from now on; `options` null: usual. */
 MOBIL_API int mobil_avoidance_set_options(mobil_sim* sim, const mobil_avoidance_options* options);
 /* From now on these walkers keep out of each other's way, and want what they were last asked to do (who does so already
  * keeps their wish and room); or no more (`on` 0), and go on as they now do, facing their way; whom a slope alone slows
- * goes on from it as they want. All or none. Who avoids others is asked by mobil_avoidance_want: what mobil_change_walk
- * asks lasts until the next step. */
+ * goes on from it as they want. All or none. Who avoids others is asked by mobil_avoidance_set_desired_velocity: what
+ * mobil_change_walk asks lasts until the next step. */
 MOBIL_API int mobil_avoidance_manage(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
 /* Where they want to go, all or none: rows of two floats, a speed in m/s (0: to stand) and a heading in rad. */
-MOBIL_API int mobil_avoidance_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes,
-                                   size_t stride);
+MOBIL_API int mobil_avoidance_set_desired_velocity(mobil_sim* sim, const mobil_id* ids, size_t count,
+                                                   const float* wishes, size_t stride);
 /* Straight walls instead of those before: rows of six floats, two places. Heights do not count. Give them again after
  * mobil_shift_origin, as discs. */
 MOBIL_API int mobil_avoidance_set_walls(mobil_sim* sim, const float* walls, size_t stride, size_t count);
@@ -58,24 +61,24 @@ typedef struct mobil_terrain_counts {
 } mobil_terrain_counts;
 
 /* Answers from now on, on the thread that ticks: 27 places for who takes a step (33 for who is new, or was put
- * elsewhere). Null: use mobil_terrain_ask. */
+ * elsewhere). Null: use mobil_terrain_query. */
 MOBIL_API int mobil_terrain_set_heights(mobil_sim* sim, mobil_heights heights, void* user);
 /* From now on these walkers stand on that ground, or (`on` 0) again on the level plane through the origin. All or none.
  */
 MOBIL_API int mobil_terrain_manage(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
 /* From the next answers on, walkers on that ground slow down on slopes and stairs, one step after they come there, and
- * go on as asked where it is level; or no more (`on` 0). What mobil_change_walk and mobil_avoidance_want ask is meant
- * for level ground. Usual: off. */
-MOBIL_API int mobil_terrain_set_slowing(mobil_sim* sim, int on);
+ * go on as asked where it is level; or no more (`on` 0). What mobil_change_walk and
+ * mobil_avoidance_set_desired_velocity ask is meant for level ground. Usual: off. */
+MOBIL_API int mobil_terrain_set_speed_scaling(mobil_sim* sim, int on);
 /* For a host without mobil_heights: where the ground has to be known before the next tick, as mobil_heights is asked;
  * `who` may be null. *count is how many places there are. Without `places` the call writes nothing else; with too
  * little room it writes nothing else and returns MOBIL_ROOM. Asking changes nothing. */
-MOBIL_API int mobil_terrain_ask(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room,
-                                size_t* count);
-/* The ground at the places of the last mobil_terrain_ask, in their order, before the next tick, as mobil_heights
+MOBIL_API int mobil_terrain_query(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room,
+                                  size_t* count);
+/* The ground at the places of the last mobil_terrain_query, in their order, before the next tick, as mobil_heights
  * answers; `unusable` (may be null) is how many answers could not be used. If walkers slow down on slopes, call it
  * without places too. It then adapts walks that were requested since the last call. */
-MOBIL_API int mobil_terrain_answer(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable);
+MOBIL_API int mobil_terrain_resolve(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable);
 /* Writes what the ground was asked. */
 MOBIL_API int mobil_terrain_report(mobil_sim* sim, mobil_terrain_counts* out);
 

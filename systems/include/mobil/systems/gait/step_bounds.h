@@ -46,9 +46,9 @@ struct StepBounds {
 };
 
 /// What bounds are before anything was noted: below all that is.
-inline constexpr float least_bound = -10;
+inline constexpr float min_bound = -10;
 inline void clear_bounds(StepBounds<Lanes<float>>& bounds) {
-  for (Lanes<float>& value : bounds.value) value = in_every_lane<Lanes<float>>(least_bound);
+  for (Lanes<float>& value : bounds.value) value = in_every_lane<Lanes<float>>(min_bound);
 }
 
 /// Notes in `bounds` what goes further than there in the pose that `pose_skeleton` makes of a step

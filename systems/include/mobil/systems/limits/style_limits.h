@@ -29,7 +29,7 @@ struct StyleChange {
 std::string described(const StyleChange& change);
 
 /// What looking at styles works in, kept from one time to the next.
-struct StyleWork {
+struct StyleLimitWork {
   std::vector<std::size_t> near, far, farther;  // who is looked at; far: in stopping too; farther: and in changing
   std::vector<std::uint8_t> breaks;
 };
@@ -45,10 +45,10 @@ struct StyleWork {
 ///   all others: stops, turns and changes of speed too. They keep 7° clear of the ends of ankles and 3° of hips in
 ///   walking and stopping, but may always go 3° further than the usual walk.
 /// Two turns and one change of speed are looked at (`Looking`). Other ones may go beyond a limit, and are counted
-/// (mobil/systems/limits/limit_watch.h). Bits depend on neither neighbours nor threads. `moved`: what was, gait by
+/// (mobil/systems/limits/limit_monitor.h). Bits depend on neither neighbours nor threads. `moved`: what was, gait by
 /// gait, as long as `gaits`; or empty. Takes memory in `work` alone, which keeps it, and for what is moved.
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
-                      StyleWork& work, std::span<std::vector<StyleChange>> moved = {});
+                      StyleLimitWork& work, std::span<std::vector<StyleChange>> moved = {});
 /// The same of one.
 std::vector<StyleChange> keep_walk_limits(const BodySize<float>& size, Gait<float>& gait);
 

@@ -45,7 +45,7 @@ struct WalkReach {
   Lanes<float> value[bound_count];
   std::array<WalkPart, lane_count> part[bound_count];
 };
-/// Of the steady walk and of stops; of turns and changes of speed, `least_bound` where those are not looked at.
+/// Of the steady walk and of stops; of turns and changes of speed, `min_bound` where those are not looked at.
 struct WalkExtremes {
   WalkReach steady, changing;
 };

@@ -20,7 +20,7 @@ enum class PersonState : std::uint8_t {
   /// CentreOfMass on request, in some microseconds; PoseWriter computes sixteen people's at a time. each<Pose> skips
   /// them. Control points later are within 4 µm of where they would be. These people cannot become compact: people with
   /// forces, or on terrain; people whose muscles place control points, have effects or parts of the host's, have a
-  /// method other than reduced or none, or fade.
+  /// method other than modal or none, or fade.
   compact,
   /// A walker whom nobody sees: the rows go, and a hundred bytes are left from which the person comes back where they
   /// would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking. A host's own

@@ -59,7 +59,7 @@ struct FallingAsleep {
 /// Walkers of one table, whose styles are all on the grid or all not: their rows keep of the parts that `owned` names
 /// (ids, sorted) none but what sleepers have, and `more`; all others stay.
 void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const> sleepers,
-                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, FallingAsleep& work);
+                  std::span<const ComponentId> more, std::span<const std::uint64_t> owned, FallingAsleep& work);
 
 /// Whether a sleeper is still about what was asked last: then they must wake to be asked for more.
 bool is_busy(const World& world, Entity person, const SleepTime& time);

@@ -10,9 +10,9 @@
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/leg_muscles.h>
+#include <mobil/engine/archetype.h>
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
-#include <mobil/engine/key.h>
 
 namespace mobil::inline v0_3 {
 
@@ -27,11 +27,11 @@ struct SpawnRequest {
   std::optional<LegMuscles> muscles{};
   /// Further parts of the person's row, components of zeros: of a host's own, or `managed_parts()` where a level of
   /// detail will manage them, so that nothing moves then. The memory is the caller's.
-  std::span<const KeyPart> parts{};
+  std::span<const ComponentId> parts{};
 };
 
 struct StyleChange;  // mobil/systems/limits/style_limits.h
-struct StyleWork;
+struct StyleLimitWork;
 
 /// Lists what Simulation::spawn, change_gait and set_gait change of a requested walk, in the order of the changes.
 /// They change it where it would break, or nearly reach, a limit of joints or ground. Simulation::gait_request then
@@ -39,7 +39,7 @@ struct StyleWork;
 Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& gait);
 /// Moves a gait requested of a walker, awake or asleep, within the limits of walks
 /// (mobil/systems/limits/style_limits.h). Does nothing if the walker has that gait already.
-void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleWork& work);
+void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleLimitWork& work);
 
 /// What could not be made, and of which of the people.
 struct NotMade {

@@ -38,9 +38,9 @@ struct SurfaceChoice {
 
 /// A muscle's mesh at rest in one body, right side: in the muscle's frame, and the frame.
 struct RestMesh {
-  HexahedralMesh cage;
+  HexahedralMesh lattice;
   RestFrame frame;
-  double least_passage_m;  // for bind_muscle
+  double min_passage_m;  // for bind_muscle
 };
 /// Errors: cells out of range.
 Result<RestMesh> rest_mesh(const Body& body, Muscle muscle, const Cells& cells);
@@ -93,7 +93,7 @@ struct BodySurfaces {
   std::array<bool, 2> sides{};
   std::vector<Driver> driver;
   std::vector<Piece> piece;
-  std::size_t most_nodes = 0, most_places = 0;
+  std::size_t max_nodes = 0, max_places = 0;
 };
 
 /// What makes the surfaces of one body those of another: few numbers, so that a crowd shares what was bound once.

@@ -3,13 +3,13 @@
 
 #include <span>
 
-#include <mobil/assets/surfaces/own_skin.h>
+#include <mobil/assets/surfaces/custom_skin.h>
 
 namespace mobil::inline v0_3 {
 
 /// Positions and unit normals of all its vertices. `skin_position`, `skin_normal`: of the body's skin (place_skin), of
 /// the detail that the mesh was bound to. `position`, `normal`: as many as own.vertex. Some 10 ns a vertex.
-void follow_skin(const OwnSkin& own, std::span<const Vec3<float>> skin_position,
+void follow_skin(const CustomSkin& own, std::span<const Vec3<float>> skin_position,
                  std::span<const Vec3<float>> skin_normal, std::span<Vec3<float>> position,
                  std::span<Vec3<float>> normal);
 

@@ -24,36 +24,37 @@ struct alignas(32) Eight {
 };
 
 /// What vertices of one hexahedron take from its nodes: trilinear weights, and the vertex in the muscle's rest frame.
-struct CageBlock {
+struct LatticeBlock {
   Eight node_weight[8];
-  Vec3<Eight> rest_in_cage;
+  Vec3<Eight> rest_in_lattice;
 };
 
 /// What they take from their bones: the vertex in the standing body, and shares (sum 1).
 struct BoneBlock {
   Vec3<Eight> rest;
-  Eight origin, insertion, cage;
+  Eight origin, insertion, lattice;
 };
 
-/// A muscle's surface. Blocks lie in this order: those of the cage alone, those of cage and bones, those of bones
-/// alone; the first two kinds have a CageBlock and nodes, the last two a BoneBlock. Lanes left over repeat a vertex. A
-/// vertex' place is its number among all lanes.
+/// A muscle's surface. Blocks lie in this order: those of the lattice alone, those of lattice and bones, those of bones
+/// alone; the first two kinds have a LatticeBlock and nodes, the last two a BoneBlock. Lanes left over repeat a vertex.
+/// A vertex' place is its number among all lanes.
 struct PackedSurface {
   SurfaceRest rest;
-  std::uint32_t nodes = 0;           // of the cage
-  std::size_t cage_only_blocks = 0;  // of `cage`
+  std::uint32_t nodes = 0;              // of the lattice
+  std::size_t lattice_only_blocks = 0;  // of `lattice`
   std::vector<std::array<std::uint16_t, 8>> node;
-  std::vector<CageBlock> cage;
+  std::vector<LatticeBlock> lattice;
   std::vector<BoneBlock> bone;
   VertexRings rings;
   std::vector<PlacedAlong> along;  // by vertex; empty: no tangents
 
   std::size_t vertices() const { return rings.vertex.size(); }
-  std::size_t places() const { return block_vertices * (cage_only_blocks + bone.size()); }
+  std::size_t places() const { return block_vertices * (lattice_only_blocks + bone.size()); }
 };
 
-/// Packs a surface that is bound to a cage of `nodes` nodes; `along`: of each vertex, or nothing. Errors, in one line
-/// that names the surface: not bound, or to other nodes; triangles of vertices that are not there; too many vertices.
+/// Packs a surface that is bound to a lattice of `nodes` nodes; `along`: of each vertex, or nothing. Errors, in one
+/// line that names the surface: not bound, or to other nodes; triangles of vertices that are not there; too many
+/// vertices.
 Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& body, std::uint32_t nodes,
                                    std::span<const AlongStencil> along = {});
 

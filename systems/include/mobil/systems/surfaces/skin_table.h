@@ -19,7 +19,7 @@ struct LegAngles {
 LegAngles leg_angles_of(const Pose<float>& pose, Side side);
 
 /// The least and the greatest angles that tables are fitted to. A table reads angles beyond as these.
-inline constexpr LegAngles least_leg_angles{-0.35F, 0, -0.70F}, most_leg_angles{1.57F, 1.92F, 0.35F};
+inline constexpr LegAngles min_leg_angles{-0.35F, 0, -0.70F}, max_leg_angles{1.57F, 1.92F, 0.35F};
 
 /// 1 and the products of angles that a table has: h, k, a; their squares, hk and ka; k³, hk² and k²a.
 inline constexpr std::size_t skin_terms = 12;

@@ -16,7 +16,7 @@
 namespace mobil::inline v0_3 {
 
 /// Places are numbered by 16 bits, doubled.
-inline constexpr std::size_t most_places = 32768;
+inline constexpr std::size_t max_places = 32768;
 
 /// Twice the place of each of six vertices (what addresses are made of); fewer neighbours repeat some of them.
 using VertexRing = std::array<std::uint16_t, 6>;
@@ -48,7 +48,7 @@ struct VertexRings {
 };
 
 /// Rings of a mesh of triangles, whatever its topology (a vertex on a boundary counts itself). `place`: where each
-/// vertex is looked up, below most_places. Errors: an index out of range.
+/// vertex is looked up, below max_places. Errors: an index out of range.
 Result<VertexRings> vertex_rings(std::span<const std::uint32_t> triangle, std::span<const std::uint16_t> place);
 
 }  // namespace mobil::inline v0_3

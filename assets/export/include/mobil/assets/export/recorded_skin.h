@@ -5,7 +5,7 @@
 
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/assets/surfaces/body_skin.h>
-#include <mobil/assets/surfaces/own_skin.h>
+#include <mobil/assets/surfaces/custom_skin.h>
 
 namespace mobil::inline v0_3 {
 
@@ -14,11 +14,11 @@ namespace mobil::inline v0_3 {
 /// matrices, which at a bent elbow loses a little of the girth that the library's own skin keeps.
 /// `own`: what has taken the place of some of it, which is left out.
 std::vector<SkinnedSurface> recorded_skin(const BodySkin& skin, std::size_t first_cloth = 0,
-                                          const OwnSkin* own = nullptr);
+                                          const CustomSkin* own = nullptr);
 /// A skin mesh of somebody's own, of that cloth. `bare`: the body's skin that it was bound to; `position`, `normal`: of
 /// its vertices where that stands (follow_skin). Each follows the segments that the skin nearest to it does.
-SkinnedSurface recorded_own_skin(const BodySkin& bare, const OwnSkin& own, std::span<const Vec3<float>> position,
-                                 std::span<const Vec3<float>> normal, std::size_t cloth);
+SkinnedSurface recorded_custom_skin(const BodySkin& bare, const CustomSkin& own, std::span<const Vec3<float>> position,
+                                    std::span<const Vec3<float>> normal, std::size_t cloth);
 /// Where its segments stand.
 std::array<Vec3<float>, segment_count> standing_of(const BodySkin& skin);
 

@@ -1,0 +1,204 @@
+// People who change their walk: who goes beyond a limit of ground, joints or pelvis is counted and told. The poses
+// of all ticks say who does (tests/simulation/walk_watch.h).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <mobil/engine/world.h>
+#include <mobil/simulation.h>
+#include <mobil/step_report.h>
+#include <mobil/systems/limits/limit_monitor.h>
+#include <mobil/systems/limits/walk_limits.h>
+#include "tests/simulation/walk_watch.h"
+
+namespace mobil::limit_monitor_test {
+using namespace style_limits_test;
+
+struct Found {
+  std::size_t people = 0, beyond = 0;     // walked, and went beyond a limit
+  std::uint64_t seen = 0;                 // ticks in which somebody was beyond one
+  std::uint64_t missed = 0, surplus = 0;  // ticks that the count left out; ticks that it has beside those told
+  Walked worst;                           // of ticks that it left out
+};
+
+/// What somebody is to do at some time: a heading, or else a speed, with a style of their own or the one that they
+/// have.
+struct Change {
+  double time_s;
+  std::optional<float> heading_rad{}, speed_m_s{};
+  std::optional<GaitStyle> style{};
+};
+using Changes = std::vector<Change>;
+
+/// Turns of any size, stops, speeds and, where asked for, styles, a third of a second to four seconds apart.
+Changes random_changes(Dice& dice, float speed_m_s, double seconds, bool styles) {
+  Changes changes;
+  float heading = 0;
+  for (double t = dice(0.5, 2); t < seconds; t += dice(0.3, 4)) {
+    const double kind = dice(0, 1);
+    if (kind < 0.4) {
+      heading += dice.single(-1, 1) * (dice(0, 1) < 0.3 ? 3.1F : 1.0F);
+      changes.push_back({t, std::remainder(heading, 6.2831853F)});
+      continue;
+    }
+    const float slower = std::max(dice.single(0.3, 1) * speed_m_s, std::min(speed_m_s, 0.5F));
+    changes.push_back({t, {}, kind < 0.5 ? 0 : kind < 0.8 ? slower : speed_m_s});
+    if (styles && kind > 0.9) changes.back().style = any_style(dice, static_cast<unsigned>(dice.engine() % 6));
+  }
+  return changes;
+}
+
+Result<void> make(Simulation& simulation, Entity person, const Change& change) {
+  if (change.heading_rad) return simulation.turn_to(person, *change.heading_rad);
+  return simulation.change_gait(person, {.speed_m_s = change.speed_m_s, .style = change.style});
+}
+
+bool is_all_but_at_a_limit(const Walked& walked) {
+  return walked.worst[under_mm] > most[under_mm] - 0.01 || walked.worst[shaken_m_s2] > most[shaken_m_s2] - 0.02 ||
+         walked.worst[joint_deg] > 0;
+}
+
+void walk(const std::vector<Asked>& asked, const std::vector<Changes>& changes, double seconds, Found& found) {
+  Simulation simulation({.tick_s = tick});
+  const std::vector<Entity> people = spawn(simulation, asked);
+  std::vector<Watch> watches;
+  for (const Entity person : people) watches.emplace_back(simulation, person);
+  std::vector<std::size_t> next(people.size()), beyond(people.size());
+  for (double t = 0; t < seconds; t += tick) {
+    std::uint64_t seen = 0, told_now = 0;
+    Walked of_tick;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      Walked now;
+      watches[i].look(now);
+      const auto broken = limit_violations(simulation.world(), people[i]);
+      EXPECT_TRUE(now.keeps_limits() || !broken.empty()) << told(asked[i], now);
+      EXPECT_TRUE(broken.empty() || is_all_but_at_a_limit(now)) << told(asked[i], now);
+      for (const LimitViolation& limit : broken)
+        EXPECT_NE(described(limit).find("; the limit is "), std::string::npos) << described(limit);
+      seen += now.keeps_limits() ? 0 : 1;
+      told_now += broken.empty() ? 0 : 1;
+      for (std::size_t m = 0; m < measures; ++m) of_tick.note(static_cast<Measure>(m), now.worst[m]);
+      beyond[i] |= now.keeps_limits() ? 0 : 1;
+      for (; next[i] < changes[i].size() && changes[i][next[i]].time_s <= t + 1e-9; ++next[i]) {
+        const Change& change = changes[i][next[i]];
+        const auto done = make(simulation, people[i], change);
+        ASSERT_TRUE(done) << done.error().message;
+      }
+    }
+    const std::uint64_t counted = simulation.report().limit_violations;
+    if (seen > counted) {
+      found.missed += seen - counted;
+      for (std::size_t m = 0; m < measures; ++m) found.worst.note(static_cast<Measure>(m), of_tick.worst[m]);
+    }
+    found.surplus += counted > told_now ? counted - told_now : 0;
+    found.seen += seen;
+    simulation.tick();
+  }
+  found.people += people.size();
+  found.beyond += static_cast<std::size_t>(std::ranges::count(beyond, std::size_t{1}));
+}
+
+/// The count leaves out only who is little beyond a limit, and has nobody who is not.
+void expect_little_missed(const Found& found) {
+  std::printf("%llu of %llu ticks beyond a limit missed: by %.2f deg, %.2f m/s2 at most\n",
+              static_cast<unsigned long long>(found.missed), static_cast<unsigned long long>(found.seen),
+              found.worst.worst[joint_deg], found.worst.worst[shaken_m_s2]);
+  EXPECT_EQ(found.surplus, 0U);
+  constexpr std::array<double, measures> a_little = {0, 0, 1.5, 1.5};
+  for (std::size_t m = 0; m < measures; ++m) EXPECT_LE(found.worst.worst[m], most[m] + a_little[m]) << measure_name[m];
+}
+
+/// Two who are known to go beyond a limit, by 7° of a hip and 11° of an ankle, and others of any style. 240 random
+/// people; 4800 with MOBIL_LONG in the environment.
+TEST(LimitMonitor, TellsOfAllWhoGoBeyondALimit) {
+  Found found;
+  std::vector<Asked> asked(2);
+  asked[0] = {{.height_m = 1.278257F, .mass_kg = 35.655258F}, {.speed_m_s = 1.223403F}};
+  asked[0].gait.style.step_asymmetry = -0.4F;
+  asked[1] = {{.height_m = 1.627254F, .mass_kg = 63.42218F}, {.speed_m_s = 2.06351F}};
+  asked[1].gait.style.double_support_scale = 0.6F;
+  walk(asked,
+       {{{0.7166, 2.27692F}, {3.3333, 1.99182F}, {4.1833, -1.26278F}},
+        {{0.6333, {}, 0.0F}, {1.0166, {}, 1.630582F}, {2.2666, {}, 2.06351F}}},
+       6, found);
+  EXPECT_EQ(found.beyond, 2U);
+  Dice dice{std::mt19937(11)};
+  const std::size_t count = std::getenv("MOBIL_LONG") != nullptr ? 4800 : 240;
+  for (std::size_t first = 0; first < count; first += 240) {
+    std::vector<Asked> some;
+    std::vector<Changes> changes;
+    for (unsigned i = 0; i < 240; ++i) {
+      some.push_back(anyone(dice, i % 6, i % 5 == 0));
+      changes.push_back(random_changes(dice, *some.back().gait.speed_m_s, 10, i % 3 == 0));
+    }
+    walk(some, changes, 10, found);
+  }
+  std::printf("%zu of %zu people, %llu ticks beyond a limit\n", found.beyond, found.people,
+              static_cast<unsigned long long>(found.seen));
+  EXPECT_LE(found.missed, found.seen / 50);
+  expect_little_missed(found);
+  EXPECT_LE(found.beyond, 2 + count / 100);
+}
+
+/// Who walks in a style near the usual one is looked at only where they turn one way and at once the other, for they
+/// keep all limits else, or all but do: of 240 people; 24 000 with MOBIL_LONG in the environment.
+TEST(LimitMonitor, NearStylesAllButKeepThem) {
+  Dice dice{std::mt19937(12)};
+  const std::size_t count = std::getenv("MOBIL_LONG") != nullptr ? 24000 : 240;
+  Found found;
+  for (std::size_t first = 0; first < count; first += 240) {
+    std::vector<Asked> some;
+    std::vector<Changes> changes;
+    while (some.size() < 240) {
+      Asked one = anyone(dice, 0, false);
+      one.gait.style = {};
+      const bool usual = some.size() % 3 == 0;
+      for (const GaitParameter& p : gait_parameters) {
+        float& number = one.gait.style.*p.value;
+        if (!usual) number = std::clamp(number + dice.single(-0.1, 0.1) * std::fabs(number), p.low, p.high);
+      }
+      if (!is_near_usual(one.gait.style)) continue;
+      some.push_back(one);
+      changes.push_back(random_changes(dice, *one.gait.speed_m_s, 10, false));
+    }
+    walk(some, changes, 10, found);
+  }
+  expect_little_missed(found);
+}
+
+/// Far styles too, in a steady walk; people who sleep, who are posed or who are gone have no limits to be beyond.
+TEST(LimitMonitor, NobodyElseIsBeyondOne) {
+  Simulation simulation;
+  GaitRequest far{.speed_m_s = 2.06351F};
+  far.style.double_support_scale = 0.6F;
+  const Entity person = *simulation.spawn(BodyRequest{.height_m = 1.627254F, .mass_kg = 63.42218F}, far);
+  for (int ticks = 0; ticks < 240; ++ticks) {
+    EXPECT_TRUE(limit_violations(simulation.world(), person).empty()) << ticks;
+    simulation.tick();
+  }
+  EXPECT_EQ(simulation.report().total_limit_violations, 0U);
+  ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 0}));
+  simulation.tick(23);
+  ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 1.630582F}));
+  simulation.tick(240);
+  ASSERT_EQ(*simulation.set_state({&person, 1}, PersonState::asleep), 1U);
+  EXPECT_TRUE(limit_violations(simulation.world(), person).empty());
+  simulation.despawn(person);
+  EXPECT_TRUE(limit_violations(simulation.world(), person).empty());
+  EXPECT_TRUE(limit_violations(simulation.world(), Entity{}).empty());
+}
+
+TEST(LimitMonitor, SaysWhatIsBeyond) {
+  EXPECT_EQ(described({WalkBound::under_ground, 0.0062F}), "a foot is 6.2 mm under the ground; the limit is 5");
+  EXPECT_EQ(described({WalkBound::toes_up, 1.4F}), "toes are bent up by 80.21 deg; the limit is 70");
+}
+
+}  // namespace mobil::limit_monitor_test

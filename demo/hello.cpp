@@ -1,4 +1,4 @@
-// The forty-line game loop: one man walks, his leg muscles deform, and every frame reads where he is.
+// A game loop of forty lines: one man walks, his leg muscles deform, and the loop reads his pose.
 
 #include <cstdio>
 
@@ -19,7 +19,7 @@ int main() {
     std::fprintf(stderr, "%s\n", person.error().message.c_str());
     return 2;
   }
-  // An effect is a component: without this line nobody pays for muscles.
+  // An effect is a component: without this line muscles cost nothing.
   if (const auto added = simulation.set_muscles(*person); !added) {
     std::fprintf(stderr, "%s\n", added.error().message.c_str());
     return 2;

@@ -1,5 +1,5 @@
-# Sourced by demo/run and tests/run: the Debian packages each needs, and how they are installed when missing.
-# Sets nothing but functions; the caller has set -euo pipefail.
+# Sourced by demo/run and tests/run: lists of the Debian packages that each needs, and functions that install missing
+# ones. Expects set -euo pipefail in the caller.
 
 walk_packages="g++ cmake ninja-build libeigen3-dev libhwy-dev libtbb-dev libexpected-dev libfmt-dev
   libmeshoptimizer-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1
@@ -10,17 +10,17 @@ build_packages="$walk_packages $crowd_packages $rivals_packages"
 test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
   python3-numpy python3-cffi python3-setuptools python3-wheel xvfb xauth"
 cluster_packages="libopenmpi-dev openmpi-bin"
-# Documents as pages and the reference (demo/site/run); spelling, which its test looks at where it is there.
+# Documents as pages and the reference (demo/site/run); the spelling checker, which its test uses if installed.
 site_packages="python3 doxygen cmark-gfm"
 spelling_packages="codespell"
 
-# For browsers (demo/web/run), and to show that other machines compute the same (tests/portable/run).
+# For browsers (demo/web/run), and to check that other machines compute the same results (tests/portable/run).
 web_packages="cmake ninja-build clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32
   wasi-libc libeigen3-dev libhwy-dev libexpected-dev libfmt-dev"
 arm_packages="g++-aarch64-linux-gnu qemu-user"
 windows_packages="g++-mingw-w64-x86-64-posix wine64"
 
-# need PACKAGE…: installs what is missing through apt; a user who is not root gets the line to run instead.
+# need PACKAGE…: installs missing packages through apt; for a user other than root, prints the command to run and fails.
 need() {
   local missing=() p
   for p in "$@"; do
@@ -32,7 +32,7 @@ need() {
     return 1
   fi
   if ! quietly "install ${#missing[@]} packages" apt_install "${missing[@]}"; then
-    echo "apt-get install failed; mend: check the network and apt sources, then run this again" >&2
+    echo "apt-get install failed; check the network and apt sources, then run this again" >&2
     return 1
   fi
 }
@@ -41,7 +41,7 @@ apt_install() {
   apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
 }
 
-# step_of LOG: how far the command that writes it is, by what ninja, ctest and apt say: "37 of 112"; nothing of others.
+# step_of LOG: prints the progress of ninja, ctest or apt from its log, such as "37 of 112"; empty for other commands.
 step_of() {
   awk '/^\[[0-9]+\/[0-9]+\]/ { split($1, n, /[][\/]/); step = n[2] " of " n[3] }
     /^ *[0-9]+\/[0-9]+ Test / { split($1, n, "/"); step = n[1] " of " n[2] }
@@ -53,8 +53,8 @@ step_of() {
     END { print step }' "$1" 2>/dev/null
 }
 
-# progress NAME LOG: "build: 37 of 112, 41 s", on a terminal a line that is replaced each second, elsewhere a line each
-# ten seconds; until it is killed, or whoever began it is gone.
+# progress NAME LOG prints lines such as "build: 37 of 112, 41 s" until it is killed or its parent has ended. On a
+# terminal it replaces the line each second; elsewhere it prints one each ten seconds.
 progress() {
   local started=$SECONDS step next=1 for_s
   while kill -0 $$ 2>/dev/null; do
@@ -69,7 +69,7 @@ progress() {
   done
 }
 
-# quietly NAME COMMAND…: runs a long step and shows how far it is; where it fails the end of its log, and where the rest is.
+# quietly NAME COMMAND…: runs a long step and shows its progress; on failure, the end of its log and the log's path.
 quietly() {
   local name=$1 log started=$SECONDS status=0 watcher
   shift

@@ -1,7 +1,6 @@
 #pragma once
-// Eigen as all our sources have it: under a name of ours to the linker, for a host may use Eigen too, with flags that
-// change how its functions work; and without its packets, whose order of adding differs between instruction sets.
-// Include this and nothing of Eigen's before it.
+// Eigen under a linker name of ours, because a host can use Eigen with flags that change its functions. Packets are
+// off, because their order of addition differs between instruction sets. Include this before any header of Eigen.
 
 #if defined(EIGEN_CORE_H)
 #error "include engine/eigen.h before anything of Eigen"

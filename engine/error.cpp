@@ -16,7 +16,7 @@ bool is_control(char c) {
   return u < 0x20 || u == 0x7F;
 }
 
-/// The first `count` bytes, or up to three fewer, so that no character of UTF-8 is cut.
+/// Returns the first `count` bytes, or up to three fewer, so that no UTF-8 character is cut.
 std::string_view start_of(std::string_view text, std::size_t count) {
   while (count > 0 && count < text.size() && (static_cast<unsigned char>(text[count]) & 0xC0U) == 0x80U) --count;
   return text.substr(0, count);

@@ -14,7 +14,7 @@ Pair sum_of(double a, double b) {
   const double s = a + b, t = s - a;
   return {s, (a - (s - t)) + (b - t)};
 }
-/// Halves of 26 bits, whose products are exact (Dekker 1971). Not by fma, which not every library rounds right.
+/// Splits a number into halves of 26 bits with exact products (Dekker 1971). Some libraries round fma incorrectly.
 Pair halves_of(double a) {
   const double large = 0x8000001p0 * a, high = large - (large - a);
   return {high, a - high};
@@ -57,7 +57,7 @@ constexpr double half_pi_end = -0x1.f1976b7ed8fbcp-110;
 constexpr Pair log_2 = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
 constexpr double log_2_end = 0x1.7b57a079a1934p-111;
 
-/// 1 / n!
+/// Values of 1 / n!.
 constexpr Pair one_over_factorial[] = {{0x1.0000000000000p+0, 0x0.0p+0},
                                        {0x1.0000000000000p+0, 0x0.0p+0},
                                        {0x1.0000000000000p-1, 0x0.0p+0},
@@ -88,12 +88,12 @@ constexpr Pair one_over_factorial[] = {{0x1.0000000000000p+0, 0x0.0p+0},
                                        {0x1.d1ab1c2dccea3p-94, 0x1.054d0c78aea14p-149},
                                        {0x1.0a18a2635085dp-98, 0x1.b9e2e28e1aa54p-153}};
 
-/// x less `times` of a constant of three doubles.
-Pair modal(Pair x, double times, Pair constant, double end) {
+/// Returns x minus `times` times a constant of three doubles.
+Pair reduced(Pair x, double times, Pair constant, double end) {
   return ((x + -product_of(times, constant.high)) + -product_of(times, constant.low)) + Pair{-times * end, 0};
 }
 
-/// e^x − 1 for |x| up to 0.35: the series of x / 512, then (1 + e)² − 1 = e·(2 + e) nine times.
+/// Returns e^x − 1 for |x| up to 0.35: the series of x / 512, then (1 + e)² − 1 = e·(2 + e) nine times.
 Pair small_expm1(Pair x) {
   constexpr int doublings = 9, terms = 9;
   const Pair part = scaled(x, 1.0 / (1 << doublings));
@@ -104,14 +104,14 @@ Pair small_expm1(Pair x) {
   return e;
 }
 
-/// How often log 2 is in x, and e^(what is left) − 1.
+/// Multiple of log 2 in x, and e^(remainder) − 1.
 struct Power {
   int of_two;
   Pair rest;
 };
 Power power_of(Pair x) {
   const double times = std::nearbyint(x.high / log_2.high);
-  return {static_cast<int>(times), small_expm1(modal(x, times, log_2, log_2_end))};
+  return {static_cast<int>(times), small_expm1(reduced(x, times, log_2, log_2_end))};
 }
 
 double exp_of(Pair x) {
@@ -122,7 +122,7 @@ double exp_of(Pair x) {
   return std::ldexp(whole.high + whole.low, power.of_two);
 }
 
-/// One step of Newton's from the library's answer, whose last bits no longer matter then: log x = y + log(x·e^−y).
+/// Returns log x by one Newton step, log x = y + log(x·e^−y), from the library's y. Errors in y's last bits vanish.
 Pair log_of(double x) {
   int power = 0;
   const double part = std::frexp(x, &power);  // ½ to 1
@@ -134,7 +134,7 @@ Pair log_of(double x) {
   return ((product_of(times, log_2.high) + product_of(times, log_2.low)) + Pair{times * log_2_end, 0}) + here;
 }
 
-/// Sine and cosine of |x| up to π/4, by their series.
+/// Sine and cosine of |x| up to π/4, from their series.
 struct Turn {
   Pair sine, cosine;
 };
@@ -152,7 +152,7 @@ Turn small_turn(Pair x) {
 }
 Turn turn_of(double x) {
   const double quarters = std::nearbyint(x / half_pi.high);
-  const Turn small = small_turn(modal({x, 0}, quarters, half_pi, half_pi_end));
+  const Turn small = small_turn(reduced({x, 0}, quarters, half_pi, half_pi_end));
   switch (static_cast<long long>(quarters) & 3) {
     case 0:
       return small;
@@ -165,13 +165,13 @@ Turn turn_of(double x) {
   }
 }
 
-/// The angle of (x, y), not both 0: what is left of it when the library's answer is turned back is small.
+/// Returns the angle of (x, y), not both 0. It rotates by the library's angle and adds the small remainder.
 double angle_of(Pair y, Pair x) {
   const double about = std::atan2(y.high, x.high);
   const Turn turn = turn_of(about);
   const Pair across = y * turn.cosine + -(x * turn.sine), along = x * turn.cosine + y * turn.sine;
   const Pair off = across / along;
-  const Pair angle = Pair{about, 0} + off;  // its arc tangent: off³ is below all digits
+  const Pair angle = Pair{about, 0} + off;  // off³ is below the last digit, so off is its own arc tangent
   return angle.high + angle.low;
 }
 
@@ -225,7 +225,7 @@ double cos(double x) {
 
 double atan2(double y, double x) {
   const bool plain = std::isfinite(x) && std::isfinite(y) && x != 0 && y != 0;
-  return plain ? angle_of({y, 0}, {x, 0}) : std::atan2(y, x);  // multiples of an eighth of a turn, or NaN
+  return plain ? angle_of({y, 0}, {x, 0}) : std::atan2(y, x);  // multiples of 1/8 turn, or NaN
 }
 
 double asin(double x) {

@@ -1,11 +1,11 @@
 #pragma once
-// Elementary functions for set-up, whose bits are the same on every machine: those of a machine's own library differ in
-// the last one. Each is computed with twice a double's digits and then rounded, so it is the nearest double to the true
-// value in all but one case of some 10¹⁴. One takes about a microsecond: not for ticks.
+// Elementary functions for set-up with the same bits on every machine; system libraries differ in the last bit. Each is
+// computed with twice a double's digits and rounded. The result is the double nearest to the true value, except in
+// about one of 10¹⁴ cases. A call costs about 1 µs, too slow for ticks.
 
 namespace mobil::inline v0_3::exact {
 
-/// NaN and infinity give what the standard library's give.
+/// NaN and infinity are treated as in the standard library.
 double exp(double x);
 double expm1(double x);
 double log(double x);            // x below 0: NaN; 0: −infinity

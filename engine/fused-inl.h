@@ -1,7 +1,6 @@
-// Fused multiply-add of a register of floats, where the target can. Highway 1.0 does not use WebAssembly's relaxed one,
-// which is fused wherever the processor can fuse, nor that of 128-bit registers on x86; the library then has the bits
-// that it has elsewhere. For inclusion
-// inside Highway's targets only.
+// Fused multiply-add of a register of floats. Highway 1.0 uses neither WebAssembly's relaxed one, which is fused if the
+// processor can, nor that of 128-bit registers on x86. With these the library's bits are the same on all such targets.
+// Include this only inside Highway's targets.
 
 #if defined(MOBIL_ENGINE_FUSED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ENGINE_FUSED_INL_H_
@@ -18,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// a·b + c.
+/// Returns a·b + c.
 template <class V>
 HWY_INLINE V mul_add(V a, V b, V c) {
 #if HWY_TARGET == HWY_WASM && defined(__wasm_relaxed_simd__)
@@ -29,7 +28,7 @@ HWY_INLINE V mul_add(V a, V b, V c) {
   return hwy::HWY_NAMESPACE::MulAdd(a, b, c);
 #endif
 }
-/// c − a·b.
+/// Returns c − a·b.
 template <class V>
 HWY_INLINE V neg_mul_add(V a, V b, V c) {
 #if HWY_TARGET == HWY_WASM && defined(__wasm_relaxed_simd__)
@@ -40,7 +39,7 @@ HWY_INLINE V neg_mul_add(V a, V b, V c) {
   return hwy::HWY_NAMESPACE::NegMulAdd(a, b, c);
 #endif
 }
-/// a·b − c.
+/// Returns a·b − c.
 template <class V>
 HWY_INLINE V mul_sub(V a, V b, V c) {
 #if HWY_TARGET == HWY_WASM && defined(__wasm_relaxed_simd__)

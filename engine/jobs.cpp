@@ -73,7 +73,7 @@ FlushDenormals::FlushDenormals() : before_(control()) {
   set_control(before_ | flush_bits);
 }
 
-// Only the two bits go back: exception flags that were raised meanwhile stay raised.
+// Only the two bits are restored; exception flags raised meanwhile stay raised.
 FlushDenormals::~FlushDenormals() {
   set_control((control() & ~flush_bits) | (before_ & flush_bits));
 }

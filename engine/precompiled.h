@@ -1,5 +1,5 @@
 #pragma once
-// Headers of others that most of our sources include, which the compiler reads once for all of them.
+// Third-party headers that most of our sources include, precompiled.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-# Folders that are one piece: the compiler reads headers and makes Eigen's templates once for all of it.
+# Folders that are joined into one unity source, so that headers and Eigen's templates are compiled once.
 set(joined_kernels "systems/activation systems/lines systems/avoidance systems/forces"
   "systems/surfaces systems/deformation")
 set(joined_sources "systems/lod systems/accuracy systems/states systems/terrain systems/avoidance"
@@ -6,7 +6,7 @@ set(joined_sources "systems/lod systems/accuracy systems/states systems/terrain 
   "systems systems/snapshot systems/saving systems/gait systems/lines systems/deformation"
   "assets/body assets/gait assets/muscles assets/files" "assets/finite assets/fem assets/reduction" "program walk")
 
-# mobil_pieces(target speed): its sources are one piece a folder for the compiler.
+# mobil_pieces(target speed) makes one unity source per folder from the target's sources.
 function(mobil_pieces target speed)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP POSITION_INDEPENDENT_CODE ON)
   get_target_property(sources ${target} SOURCES)
@@ -31,7 +31,7 @@ function(mobil_pieces target speed)
   endif()
 endfunction()
 
-# mobil_public(name folder): the library mobil_NAME as hosts have it: how it is called, and where its headers are.
+# mobil_public(name folder) sets the name and the header folders under which hosts see the library mobil_NAME.
 function(mobil_public name folder)
   add_library(mobil::${name} ALIAS mobil_${name})
   set_target_properties(mobil_${name} PROPERTIES EXPORT_NAME ${name})
@@ -45,9 +45,8 @@ function(mobil_public name folder)
   endif()
 endfunction()
 
-# mobil_room(name folder SOURCES globs… KERNELS files… SELDOM files… LINK public libraries… PRIVATE_LINK libraries…):
-# one library of the house. KERNELS compile themselves again for each instruction set; SELDOM are those of them that few
-# scenes call for.
+# mobil_room(name folder SOURCES globs… KERNELS files… SELDOM files… LINK public libraries… PRIVATE_LINK libraries…)
+# adds one library. KERNELS are compiled again for each instruction set. SELDOM are kernels that only few scenes use.
 function(mobil_room name folder)
   cmake_parse_arguments(ROOM "" "" "SOURCES;KERNELS;SELDOM;LINK;PRIVATE_LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${ROOM_SOURCES})
@@ -82,7 +81,7 @@ function(mobil_room name folder)
     add_library(mobil_${name} STATIC ${objects})
     set_target_properties(mobil_${name} PROPERTIES LINKER_LANGUAGE CXX)
     target_link_libraries(mobil_${name} PUBLIC ${ROOM_LINK} PRIVATE ${ROOM_PRIVATE_LINK})
-    # A host's own shared library exports nothing of ours.
+    # A host's own shared library must not export our symbols.
     target_link_options(mobil_${name} INTERFACE
       $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,SHARED_LIBRARY>:LINKER:--exclude-libs,libmobil_${name}.a>
       $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,MODULE_LIBRARY>:LINKER:--exclude-libs,libmobil_${name}.a>)

@@ -1,5 +1,5 @@
-// Sixteen lanes are hashed side by side, each in two words of 32 bits that go different ways. Every step is a bijection
-// of the lane's words as well as of the word that comes in.
+// Sixteen lanes are hashed in parallel, each in two 32-bit words with different mixing. Each step is a bijection in the
+// lane's words and in the incoming word.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Takes `count` lines of sixteen words into both halves of sixteen hashes.
+/// Mixes `count` lines of sixteen words into both halves of sixteen hashes.
 void hash_lines(const std::uint8_t* line, std::size_t count, std::uint32_t* low, std::uint32_t* high) {
   const hn::CappedTag<std::uint32_t, 16> d;
   const hn::Repartition<std::uint8_t, decltype(d)> bytes;
@@ -73,7 +73,7 @@ void hash_rows(const Table& table, std::size_t first, std::size_t end, std::uint
     LaneHashes hashes(seed);
     const float* block = table.block(b);
     std::uint32_t from = 0;
-    // Columns lie in the order of their ids; so may those ignored, in any order.
+    // Columns are in the order of their ids; ignored words can be in any order.
     for (std::uint32_t at = 0; at < table.words();) {
       std::uint32_t skip_from = table.words(), skip_to = table.words();
       for (const IgnoredWords& words : ignored) {

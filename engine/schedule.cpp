@@ -11,7 +11,7 @@ namespace mobil::inline v0_3 {
 
 namespace {
 
-/// What a core's own cache holds besides what the systems themselves read.
+/// Share of a core's own cache for blocks; the rest is for other data of the systems.
 constexpr std::size_t tile_bytes = 128 * 1024;
 
 double steady_now() {
@@ -20,9 +20,9 @@ double steady_now() {
 
 }  // namespace
 
-/// One pass over all its blocks, shared by the threads that do it.
+/// One pass over all its blocks, shared by its threads.
 struct Schedule::Pass {
-  std::span<const System> systems;  // all of the schedule's
+  std::span<const System> systems;  // all systems of the schedule
   std::span<const Match> matches;
   std::span<const Tile> tiles;
   const World& world;
@@ -32,8 +32,8 @@ struct Schedule::Pass {
   std::atomic<std::uint64_t>* tally;
   std::span<const ChosenRow> chosen;
   std::uint16_t* chosen_lanes;
-  std::size_t packed;    // the system that chooses and is chosen for
-  ScratchPool* scratch;  // null where no system needs any
+  std::size_t packed;    // the packed system, if the pass is one
+  ScratchPool* scratch;  // null if no system needs any
 
   void spend(std::size_t system, double seconds) const {
     spent_ns[system].fetch_add(static_cast<std::int64_t>(seconds * 1e9), std::memory_order_relaxed);
@@ -88,7 +88,7 @@ void Schedule::match(World& world) {
   }
 }
 
-/// No two alternatives write one component of a table, but in an order that one of them names.
+/// Throws if two alternatives write one component of a table without an order between them.
 void Schedule::check_alternatives(const Table& table) const {
   std::vector<const System*> there;
   for (const auto& matches : matches_) {
@@ -111,13 +111,13 @@ void Schedule::check_alternatives(const Table& table) const {
   }
 }
 
-/// Tables side by side, some tiles of each in turn, as far into the one as into the other: rows of several tables that
-/// look up the same people find these in a cache.
+/// Interleaves the tables' tiles in proportion to their number, so that rows of several tables that look up the same
+/// people find them in a cache.
 void Schedule::order_tiles(std::size_t pass, std::size_t threads) {
-  constexpr std::size_t side_by_side = 2;  // of the longest table
+  constexpr std::size_t side_by_side = 2;  // tiles of the longest table in a round
   std::size_t all = 0, most = 0;
   for (Match& m : matches_[pass]) {
-    // Of large tables several blocks: to read the clock after each costs a fortieth of a walker's tick.
+    // Large tables have several blocks a tile: reading the clock after each block costs 1/40 of a walker's tick.
     const std::size_t several =
         std::min<std::size_t>(4, m.table->block_count() / (8 * std::max<std::size_t>(threads, 1)));
     m.tile_blocks = std::max({std::size_t{1}, several, tile_bytes / std::max<std::size_t>(1, m.table->block_bytes())});
@@ -141,7 +141,7 @@ void Schedule::order_tiles(std::size_t pass, std::size_t threads) {
   });
 }
 
-/// f(match, first block, block after the last) for each of those tiles.
+/// Calls f(match, first block, block after the last) for each of those tiles.
 template <class F>
 void Schedule::for_tiles(const Pass& pass, std::size_t begin, std::size_t end, const F& f) {
   for (const Tile& tile : pass.tiles.subspan(begin, end - begin)) {
@@ -226,7 +226,7 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
     spent_ns_[s].store(0, std::memory_order_relaxed);
     tally_[s].store(0, std::memory_order_relaxed);
   }
-  // All memory is there before anything runs.
+  // Allocates all memory before any system runs.
   for (std::size_t p = 0; p < passes_.size(); ++p) {
     order_tiles(p, jobs.threads);
     if (!systems_[passes_[p].first].choose) continue;

@@ -8,7 +8,7 @@ namespace mobil::inline v0_3 {
 namespace {
 using Mode = Access::Mode;
 
-/// A relation between systems: (a, b) says that a runs before b.
+/// A relation between systems: (a, b) means that a runs before b.
 class Relation {
  public:
   explicit Relation(std::size_t count) : count_(count), before_(count * count, false) {}
@@ -25,7 +25,7 @@ std::string quoted(const System& system) {
   return "'" + system.name + "'";
 }
 
-/// The relation that the systems' `after` spell out.
+/// Returns the relation given by the systems' `after`.
 Result<Relation> explicit_order(std::span<const System> systems) {
   Relation before(systems.size());
   for (std::size_t b = 0; b < systems.size(); ++b) {
@@ -68,7 +68,7 @@ std::optional<Error> own_contradiction(const System& system) {
   return std::nullopt;
 }
 
-/// How the systems that are not done wait for each other; each of them waits for another, so one circle is there.
+/// Returns a cycle among the systems that are not done, as text. Each of them waits for another, so one exists.
 std::string circle(std::span<const System> systems, const Relation& before, const std::vector<bool>& done) {
   std::vector<std::size_t> path;  // each waits for the next
   std::size_t at = static_cast<std::size_t>(std::find(done.begin(), done.end(), false) - done.begin());

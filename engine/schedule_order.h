@@ -1,5 +1,5 @@
 #pragma once
-// The order in which systems run, from what they read and write; the rules stand in mobil/schedule.h.
+// Order of systems, computed from their accesses; mobil/schedule.h has the rules.
 
 #include <cstddef>
 #include <span>
@@ -10,11 +10,10 @@
 
 namespace mobil::inline v0_3 {
 
-/// Indices of the systems in the order of running, or what is wrong with them.
+/// Returns the systems' indices in running order, or an error.
 Result<std::vector<std::size_t>> schedule_order(std::span<const System> systems);
 
-/// What of that order runs as one pass, block by block. A system looks at other entities' rows only where those are
-/// done, and nobody changes what another system of the pass looks up.
+/// Divides that order into passes, which run tile by tile. In a pass, no system looks up a part that another writes.
 std::vector<SystemRange> schedule_passes(std::span<const System> ordered);
 
 }  // namespace mobil::inline v0_3

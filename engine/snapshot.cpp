@@ -24,11 +24,11 @@ constexpr std::size_t blocks_of(std::uint32_t rows) {
   return (std::size_t{rows} + lane_count - 1) / lane_count;
 }
 
-/// Calls `piece(table, block, first byte in it, bytes)` for what lies from `begin` up to `end` in all blocks.
+/// Calls `piece(table, block, first byte in it, bytes)` for each piece of bytes [begin, end) of all blocks.
 template <class F>
 void for_pieces(const Records<SavedTable>& tables, std::size_t begin, std::size_t end, const F& piece) {
   std::size_t low = 0, high = tables.size();
-  while (high - low > 1) {  // the last table that begins at or before `begin`
+  while (high - low > 1) {  // finds the last table that begins at or before `begin`
     const std::size_t middle = (low + high) / 2;
     (tables[middle].first_block_byte <= begin ? low : high) = middle;
   }
@@ -54,7 +54,7 @@ std::uint32_t words_saved(const Table& table, const LeftOut& left_out) {
   return table.words() - gap_of(table, left_out(table.key())).words;
 }
 
-/// `copy(bytes of the table's block, bytes from `from` on)` for both sides of a gap, of bytes that a snapshot has from
+/// Calls `copy(byte in the table's block, bytes since `from`, count)` on both sides of a gap, for saved bytes from
 /// `from` on.
 template <class Copy>
 void across_gap(const WordGap& gap, std::size_t from, std::size_t bytes, const Copy& copy) {
@@ -96,7 +96,7 @@ Result<void> check_tables(const SavedWorld& saved, std::size_t blocks_bytes) {
   return {};
 }
 
-/// Rows and alive slots name each other, one to one; the free ones form one list.
+/// Checks that rows and alive slots name each other one to one, and that free slots form one list.
 Result<void> check_register(const SavedWorld& saved) {
   for (std::size_t t = 0; t < saved.tables.size(); ++t) {
     const SavedTable table = saved.tables[t];
@@ -203,7 +203,7 @@ void WorldSnapshot::save(const World& world, const SnapshotLayout& layout, std::
     for (const ComponentId& part : table.key())
       writer.put(SavedPart{part.id, part.value, static_cast<std::uint32_t>(part.kind), part.id == without ? 1U : 0U});
   }
-  // Slots name tables by their number among those with rows, which rows tell.
+  // Slots store their table's number among those with rows.
   std::byte* const slots_at = writer.at();
   for (const EntityRegister::Slot& slot : slots)
     writer.put(SavedSlot{slot.generation, slot.location.table, slot.location.row});
@@ -380,7 +380,7 @@ void WorldSnapshot::commit(World& world, const SavedWorld& saved, const Jobs& jo
   const std::size_t pieces = (saved.blocks.size() + piece_bytes - 1) / piece_bytes;
   try {
     run_in_parallel(jobs, pieces, copy, &blocks);
-  } catch (...) {  // a host's jobs that throw, though they must not
+  } catch (...) {  // jobs must not throw, but a host's can
     copy(&blocks, 0, pieces);
   }
   relate_all(world);
@@ -390,7 +390,7 @@ void WorldSnapshot::relate_all(World& world) noexcept {
   if (world.owner_part_ == 0) return;
   world.members_.clear();
   world.members_.grow(world.entities_.size());
-  for (auto index = static_cast<std::uint32_t>(world.entities_.size()); index-- > 0;) {  // each goes to the front
+  for (auto index = static_cast<std::uint32_t>(world.entities_.size()); index-- > 0;) {  // inserts at the front
     const Entity entity = world.entities_.at(index);
     if (world.alive(entity)) world.relate(entity);
   }

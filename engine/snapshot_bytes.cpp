@@ -63,7 +63,7 @@ struct Checking {
   }
 };
 
-/// The layout that a header of that many bytes tells of, if it is one.
+/// Reads the layout from a header of that many bytes; returns false if it is invalid.
 bool read_layout(const Header& header, std::size_t bytes, SnapshotLayout& layout) {
   layout = {header.front, header.world, header.blocks};
   for (const std::uint64_t part : {header.front, header.world, header.blocks}) {

@@ -1,10 +1,10 @@
 #pragma once
-// Plain data in and out of bytes of any alignment; and how a snapshot is laid out and sealed:
+// Plain data in and out of bytes of any alignment; layout and seals of a snapshot:
 //
 //   header | front: the caller's own | world: keys, register, rows' entities | blocks | seals, one a chunk
 //
-// Each chunk has a seal (a hash), the header one of itself and all seals: every altered bit and every missing byte is
-// noticed.
+// Each chunk has a seal (a hash). The header has a seal of itself and of all seals, so that every altered bit and every
+// missing byte is detected.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Values of a plain type, one after the other.
+/// Plain values in sequence.
 template <class T>
 class Records {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -37,7 +37,7 @@ class Records {
   std::size_t count_ = 0;
 };
 
-/// Puts values into memory that is known to be large enough.
+/// Writes values into memory that is large enough.
 class ByteWriter {
  public:
   explicit ByteWriter(std::byte* out) : at_(out) {}
@@ -57,7 +57,7 @@ class ByteWriter {
   std::byte* at_;
 };
 
-/// Takes values from bytes; once there are too few, everything is refused.
+/// Reads values from bytes; if there are too few, that read and `whole` fail.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> in) : left_(in) {}
@@ -67,7 +67,7 @@ class ByteReader {
     if (one.size() == 1) value = one[0];
     return one.size() == 1;
   }
-  /// Empty where there are not so many.
+  /// Returns an empty list if there are fewer than `count`.
   template <class T>
   Records<T> take_many(std::uint64_t count) {
     if (count > left_.size() / sizeof(T)) {
@@ -82,7 +82,7 @@ class ByteReader {
     const Records<std::byte> bytes = take_many<std::byte>(count);
     return bytes.size() == 0 ? std::span<const std::byte>{} : std::span(left_.data() - bytes.size(), bytes.size());
   }
-  /// All was there and nothing is left.
+  /// Returns true if all reads succeeded and no bytes are left.
   bool whole() const { return !short_ && left_.empty(); }
 
  private:
@@ -90,7 +90,7 @@ class ByteReader {
   bool short_ = false;
 };
 
-/// Bytes of each part, and where they lie.
+/// Sizes of a snapshot's parts, and their offsets.
 struct SnapshotLayout {
   std::uint64_t front = 0, world = 0, blocks = 0;
 
@@ -110,12 +110,12 @@ struct OpenSnapshot {
   std::span<const std::byte> front, world, blocks;
 };
 
-/// Fills in chunks of `out` (of layout.bytes()) by `fill(context, begin, end)`, ranges of its bytes within the blocks,
-/// and seals the whole; front and world must be there already. `fill` may be null: blocks are there too.
+/// Writes chunks of `out` (of layout.bytes()) by `fill(context, begin, end)`, ranges of bytes within the blocks, and
+/// seals the snapshot. Front and world must be written before. A null `fill` means that blocks are written as well.
 void seal_snapshot(const SnapshotLayout& layout, std::span<std::byte> out, const Jobs& jobs,
                    void (*fill)(void* context, std::size_t begin, std::size_t end), void* context);
 
-/// Errors, one line each: no snapshot, another version or byte order, too short or too long, altered.
+/// Checks a snapshot. Errors, one line each: other bytes, another version or byte order, too short or long, altered.
 Result<OpenSnapshot> open_snapshot(std::span<const std::byte> in, const Jobs& jobs);
 
 }  // namespace mobil::inline v0_3

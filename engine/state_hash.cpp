@@ -13,10 +13,10 @@ namespace {
 struct Hashing {
   const World& world;
   IgnoredWords owner;                    // handles
-  std::vector<std::size_t> first_block;  // by table, and one more: how many there are
+  std::vector<std::size_t> first_block;  // by table; the last entry is the total
   std::vector<std::uint64_t> seed;       // by table
   std::vector<std::uint64_t> row;        // sixteen a block
-  std::atomic<std::uint64_t> sum = 0;    // of entities that belong to nobody
+  std::atomic<std::uint64_t> sum = 0;    // of entities without an owner
 
   explicit Hashing(const World& of) : world(of), owner{of.owner_part(), 0, 2} {
     std::size_t blocks = 0;
@@ -29,7 +29,7 @@ struct Hashing {
     row.resize(blocks * lane_count);
   }
 
-  /// The table that a block of all is in.
+  /// Returns the table of a block, counted over all tables.
   std::size_t table_of(std::size_t block) const {
     const auto after = std::upper_bound(first_block.begin(), first_block.end(), block);
     return static_cast<std::size_t>(after - first_block.begin()) - 1;

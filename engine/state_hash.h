@@ -1,5 +1,5 @@
 #pragma once
-// The state of a world in one number.
+// Hash of a world's state.
 
 #include <cstdint>
 
@@ -8,15 +8,15 @@
 
 namespace mobil::inline v0_3 {
 
-/// Of all rows with the parts that they have, each row with its members' (mobil/engine/members.h), and of shared
-/// resources that were given a content. The same whatever order entities came in, whatever rows they lie in and
-/// whatever handles they have; other components that hold handles make it depend on those.
+/// Returns a hash of all rows with their parts, each with its members' rows (mobil/engine/members.h), and of shared
+/// resources with a content hash. It is independent of creation order, row positions and handles. Only components that
+/// contain other handles depend on those.
 std::uint64_t state_hash(const World& world, const Jobs& jobs);
 
-/// Of what a table's rows have in common and do not hold themselves; of a shared resource its content.
+/// Returns a hash of the data common to a table's rows; for a shared resource its content hash.
 std::uint64_t key_hash(const World& world, const Archetype& key);
 
-/// The same with the tick. `sum`: of the world, or of all worlds that a crowd is divided into, modulo 2⁶⁴.
+/// Combines the tick with `sum`, the hash of the world, or the sum over a crowd's worlds, modulo 2⁶⁴.
 std::uint64_t state_hash_of(std::uint64_t sum, std::uint32_t tick);
 
 }  // namespace mobil::inline v0_3

@@ -13,7 +13,7 @@ constexpr std::size_t word_bytes = sizeof(float);
 constexpr std::size_t block_alignment = alignof(Lanes<float>);
 constexpr std::size_t large_page = std::size_t{2} << 20;
 
-// Words may be floats or whole numbers: they are only ever moved as bytes.
+// Words can be floats or integers, so they are moved only as bytes.
 void copy_lane(float* to, const float* from, std::uint32_t words) {
   for (std::size_t w = 0; w < words; ++w) std::memcpy(to + w * lane_count, from + w * lane_count, word_bytes);
 }
@@ -46,8 +46,8 @@ std::size_t Table::alignment_of(std::size_t bytes) {
   return bytes >= large_page ? large_page : block_alignment;
 }
 
-/// Pieces of a quarter of what there is, so that little is held in vain; of a crowd's tables, in the end, of a large
-/// page each, which one entry maps.
+/// Adds a chunk of a quarter of the present blocks, which limits unused memory. In large tables a chunk grows to a
+/// large page, which needs one TLB entry.
 void Table::add_chunk(std::size_t least) {
   const std::size_t full = (large_page + chunk_bytes(1) - 1) / chunk_bytes(1);
   const std::size_t more = blocks_.size() < 2 * full ? blocks_.size() / 4 : full;
@@ -58,7 +58,7 @@ void Table::add_chunk(std::size_t least) {
   const std::size_t bytes = chunk_bytes(count);
   auto* const memory = static_cast<float*>(memory_->allocate(bytes, alignment_of(bytes)));
 #if defined(__linux__)
-  if (bytes >= large_page) madvise(memory, large_page, MADV_HUGEPAGE);  // a wish: whether it is granted changes nothing
+  if (bytes >= large_page) madvise(memory, large_page, MADV_HUGEPAGE);  // only a hint
 #endif
   chunks_.push_back({memory, count});
   for (std::size_t b = 0; b < count; ++b) blocks_.push_back(memory + b * block_bytes() / word_bytes);
@@ -85,14 +85,14 @@ void Table::reserve(std::uint32_t rows) {
   if (blocks * lane_count <= entities_.size()) return;
   try {
     while (blocks_.size() < blocks) add_chunk(blocks - blocks_.size());
-    entities_.resize(blocks_.size() * lane_count);  // where this fails, the next time makes up for it
+    entities_.resize(blocks_.size() * lane_count);  // if this fails, the next call repeats it
   } catch (...) {
     trim();
     throw;
   }
 }
 
-/// Room for an eighth more rows stays, so that rows that go and come again take no memory; of an empty table none.
+/// Keeps room for an eighth more rows, so that rows that come and go do not allocate. An empty table keeps none.
 void Table::trim() {
   while (!chunks_.empty() && (blocks_.size() - chunks_.back().blocks) * 8 >= block_count() * 9) drop_chunk();
   if (entities_.size() > blocks_.size() * lane_count) entities_.resize(blocks_.size() * lane_count);
@@ -101,7 +101,7 @@ void Table::trim() {
 void Table::write_new(std::size_t first_block, std::size_t end_block, std::uint32_t count,
                       std::span<const PartValue> parts) {
   for (std::size_t b = first_block; b < end_block; ++b) {
-    // Lanes of this block, and which of the new rows they are: of two of the blocks that values come in, mostly.
+    // Lanes of this block, and the new rows in them; these usually span two of the source blocks.
     const std::size_t lane = b * lane_count < rows_ ? rows_ - b * lane_count : 0;
     const std::size_t lanes = std::min(lane_count, rows_ + count - b * lane_count) - lane;
     const std::size_t from = b * lane_count + lane - rows_, source = from / lane_count, offset = from % lane_count;
@@ -131,7 +131,7 @@ void Table::append(std::span<const Entity> entities) {
 
 void Table::copy_rows(std::span<const RowMove> moves) {
   for (std::size_t i = 0; i < moves.size();) {
-    // Those between the same two blocks together: their words are in the same lines of memory.
+    // Rows between the same two blocks are copied together, because their words share cache lines.
     const std::size_t to_block = moves[i].to / lane_count, from_block = moves[i].from / lane_count;
     std::size_t end = i + 1;
     while (end < moves.size() && moves[end].to / lane_count == to_block && moves[end].from / lane_count == from_block) {
@@ -180,7 +180,7 @@ Entity Table::remove_row(std::uint32_t row) {
   trim();
   if (row % lane_count == 0 && row / lane_count == last / lane_count) {
     park(0, words_);
-  } else if (last % lane_count != 0) {  // the other lanes without a row are copies already
+  } else if (last % lane_count != 0) {  // the other lanes without a row are already copies
     float* const block = blocks_[last / lane_count];
     copy_lane(block + last % lane_count, block, words_);
     entities_[last] = entities_[last / lane_count * lane_count];
@@ -217,7 +217,7 @@ void Table::copy_new_from(std::uint32_t row, const Table& other, std::uint32_t o
   }
 }
 
-/// Fills the lanes without a row of the last block with copies of its lane 0.
+/// Fills the last block's lanes without a row with copies of its lane 0.
 void Table::park(std::uint32_t first_word, std::uint32_t words) {
   const std::size_t used = rows_ % lane_count;
   if (used == 0) return;

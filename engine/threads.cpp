@@ -1,5 +1,4 @@
-// The pool of mobil/engine/jobs.h: oneTBB's, or, where the library is built without it (MOBIL_PORTABLE), the calling
-// thread alone.
+// Pool of mobil/engine/jobs.h. It is oneTBB's, or only the calling thread if built without oneTBB (MOBIL_PORTABLE).
 #include <mobil/engine/jobs.h>
 
 #if defined(MOBIL_PORTABLE)
@@ -44,8 +43,8 @@ struct Threads::Arena {
 };
 
 namespace {
-/// ThreadSanitizer cannot see how oneTBB synchronises, because oneTBB is not built with it. These two calls declare it:
-/// all bodies of a loop run after what the caller did before, and before what it does next.
+/// ThreadSanitizer cannot see oneTBB's synchronisation, because oneTBB is built without it. These two calls declare it:
+/// all bodies of a loop run after the caller's earlier work and before its later work.
 #if defined(__SANITIZE_THREAD__)
 void before(char* point) {
   __tsan_release(point);

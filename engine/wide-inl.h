@@ -1,7 +1,7 @@
 // Sixteen-lane arithmetic for kernels, compiled once per instruction set (Highway). Include it after
 // <hwy/foreach_target.h>, and write kernels inside mobil::HWY_NAMESPACE between HWY_BEFORE_NAMESPACE() and
-// HWY_AFTER_NAMESPACE(). Same bits on every target with fused multiply-add: additions and multiplications are never
-// contracted, fma() is always fused, division and square root are exact, the transcendental functions are ours.
+// HWY_AFTER_NAMESPACE(). The bits are the same on every target with fused multiply-add: no contraction, fma() always
+// fused, exact division and square root, our own transcendental functions.
 
 #if defined(MOBIL_ENGINE_WIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ENGINE_WIDE_INL_H_
@@ -18,8 +18,8 @@
 #include <mobil/components/lanes.h>
 #include "engine/fused-inl.h"
 
-/// For functions of some ten operations and more. Where sixteen lanes are four registers they are called: their code is
-/// long there, and compiling it everywhere anew would take longer than all other targets together.
+/// For functions of ten or more operations. If sixteen lanes are four registers, these are calls: inlining such long
+/// code would take longer to compile than all other targets together.
 #undef MOBIL_WIDE_INLINE
 #if HWY_MAX_BYTES <= 16
 #define MOBIL_WIDE_INLINE HWY_NOINLINE inline
@@ -87,7 +87,7 @@ MOBIL_WIDE_BINARY(min, Min)
 MOBIL_WIDE_BINARY(max, Max)
 #undef MOBIL_WIDE_BINARY
 
-/// A number stands for sixteen of it.
+/// Operators that broadcast a number to sixteen lanes.
 #define MOBIL_WIDE_WITH_NUMBER(op)                      \
   HWY_INLINE Wide operator op(const Wide& a, float b) { \
     return a op wide(b);                                \
@@ -148,13 +148,13 @@ HWY_INLINE Wide operator-(const Wide& a) {
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::Neg(a.part[i]);
   return r;
 }
-/// a·b + c, fused where the target can.
+/// Returns a·b + c, fused if the target supports it.
 HWY_INLINE Wide fma(const Wide& a, const Wide& b, const Wide& c) {
   Wide r;
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = mul_add(a.part[i], b.part[i], c.part[i]);
   return r;
 }
-/// c − a·b, fused where the target can.
+/// Returns c − a·b, fused if the target supports it.
 HWY_INLINE Wide fnma(const Wide& a, const Wide& b, const Wide& c) {
   Wide r;
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = neg_mul_add(a.part[i], b.part[i], c.part[i]);
@@ -178,7 +178,7 @@ HWY_INLINE Wide floor(const Wide& a) {
 HWY_INLINE Wide clamp(const Wide& a, float low, float high) {
   return min(max(a, wide(low)), wide(high));
 }
-/// yes where the mask holds, no elsewhere.
+/// Returns `yes` in lanes where the mask holds, `no` in others.
 HWY_INLINE Wide select(const WideMask& m, const Wide& yes, const Wide& no) {
   Wide r;
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::IfThenElse(m.part[i], yes.part[i], no.part[i]);
@@ -194,7 +194,7 @@ HWY_INLINE WideMask operator|(const WideMask& a, const WideMask& b) {
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::Or(a.part[i], b.part[i]);
   return r;
 }
-/// Where sixteen words equal a value.
+/// Returns true in lanes whose word equals `value`.
 HWY_INLINE WideMask equal(const Lanes<std::uint32_t>& words, std::uint32_t value) {
   WideMask r;
   for (std::size_t i = 0; i < vector_count; ++i) {
@@ -203,7 +203,7 @@ HWY_INLINE WideMask equal(const Lanes<std::uint32_t>& words, std::uint32_t value
   }
   return r;
 }
-/// Word `word[lane]` of each lane of a column of sixteen-lane words: base[word · 16 + lane].
+/// Returns word `word[lane]` of each lane, from a column of sixteen-lane words: base[word · 16 + lane].
 HWY_INLINE Wide gather(const float* base, const Wide& word) {
   using IntTag = hn::RebindToSigned<FloatTag>;
   Wide r;
@@ -221,8 +221,8 @@ HWY_INLINE Wide copy_sign(const Wide& magnitude, const Wide& sign) {
   return r;
 }
 
-/// Sine and cosine of |x| < 1000 rad, error below 2e-7 (without fused multiply-add 3e-5): reduction to ±π/4 in two
-/// parts, then least-squares polynomials (Taylor's, with the last coefficient trimmed).
+/// Computes sine and cosine of |x| < 1000 rad, error below 2e-7 (3e-5 without fused multiply-add). Reduces x to ±π/4 in
+/// two parts, then evaluates least-squares polynomials (Taylor's, with an adjusted last coefficient).
 MOBIL_WIDE_INLINE void sin_cos(const Wide& x, Wide& s, Wide& c) {
   const Wide quadrant = floor(fma(x, wide(0.636619772F), wide(0.5F)));
   Wide r = fnma(quadrant, wide(1.5707963705F), x);
@@ -236,7 +236,7 @@ MOBIL_WIDE_INLINE void sin_cos(const Wide& x, Wide& s, Wide& c) {
   pc = fma(pc, r2, wide(4.166664568298827e-2F));
   pc = fma(pc, r2, wide(-0.5F));
   const Wide cosine = fma(r2, pc, wide(1.0F));
-  // quadrant mod 4, in floats: exact for the stated range
+  // quadrant mod 4, in floats, which are exact in this range
   const Wide q = quadrant - wide(4.0F) * floor(quadrant * wide(0.25F));
   const WideMask odd = ((q > wide(0.5F)) & (q < wide(1.5F))) | (q > wide(2.5F));
   const Wide s0 = select(odd, cosine, sine);
@@ -245,13 +245,13 @@ MOBIL_WIDE_INLINE void sin_cos(const Wide& x, Wide& s, Wide& c) {
   c = select((q > wide(0.5F)) & (q < wide(2.5F)), -c0, c0);
 }
 
-/// Arc tangent of y/x in (−π, π], error below 4e-7 rad; 0 where both are 0.
+/// Returns the arc tangent of y/x in (−π, π], error below 4e-7 rad; 0 if both are 0.
 MOBIL_WIDE_INLINE Wide atan2(const Wide& y, const Wide& x) {
   const Wide ax = abs(x);
   const Wide ay = abs(y);
   const Wide big = max(ax, ay);
   const Wide t = min(ax, ay) / max(big, wide(1e-30F));
-  // two reductions: t > tan(π/8) turns by π/4
+  // two reductions: t > tan(π/8) is rotated by π/4
   const WideMask upper = t > wide(0.414213562F);
   const Wide u = select(upper, (t - wide(1.0F)) / (t + wide(1.0F)), t);
   const Wide u2 = u * u;
@@ -265,7 +265,7 @@ MOBIL_WIDE_INLINE Wide atan2(const Wide& y, const Wide& x) {
   return copy_sign(a, y);
 }
 
-/// Arc cosine of x clamped to [−1, 1].
+/// Returns the arc cosine of x clamped to [−1, 1].
 MOBIL_WIDE_INLINE Wide acos(const Wide& x) {
   const Wide c = clamp(x, -1.0F, 1.0F);
   return atan2(sqrt(max((wide(1.0F) - c) * (wide(1.0F) + c), wide(0.0F))), c);

@@ -1,4 +1,4 @@
-// From one value to another, in sixteen lanes. Include it as engine/wide-inl.h says.
+// Interpolation in sixteen lanes. Include it as described in engine/wide-inl.h.
 
 #if defined(MOBIL_ENGINE_WIDE_CURVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ENGINE_WIDE_CURVE_INL_H_
@@ -16,7 +16,7 @@ HWY_INLINE Wide mix(const Wide& from, const Wide& to, const Wide& part) {
   return fma(part, to - from, from);
 }
 
-/// From 0 at 0 to 1 at 1, twice continuously differentiable: 10 u³ − 15 u⁴ + 6 u⁵; beyond, its ends.
+/// Returns 10 u³ − 15 u⁴ + 6 u⁵ for u clamped to [0, 1]. It rises from 0 to 1, twice continuously differentiable.
 MOBIL_WIDE_INLINE Wide smooth(const Wide& u) {
   const Wide v = clamp(u, 0.0F, 1.0F);
   return v * v * v * fma(v, fma(v, wide(6.0F), wide(-15.0F)), wide(10.0F));

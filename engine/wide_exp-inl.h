@@ -1,4 +1,4 @@
-// Exponential and logarithm in sixteen lanes. Include it as engine/wide-inl.h says.
+// Exponential and logarithm in sixteen lanes. Include it as described in engine/wide-inl.h.
 
 #if defined(MOBIL_ENGINE_WIDE_EXP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ENGINE_WIDE_EXP_INL_H_
@@ -12,8 +12,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// eˣ, relative error below 2e-7 (without fused multiply-add 3e-5); x beyond ±87 as at ±87. Reduction to ±ln 2 / 2 in
-/// two parts, then Taylor's polynomial of degree 7.
+/// Returns eˣ, relative error below 2e-7 (3e-5 without fused multiply-add), x clamped to ±87. Reduces x to ±ln 2 / 2 in
+/// two parts, then evaluates Taylor's polynomial of degree 7.
 MOBIL_WIDE_INLINE Wide exp(const Wide& x) {
   using IntTag = hn::RebindToSigned<FloatTag>;
   const Wide within = clamp(x, -87.0F, 87.0F);
@@ -33,8 +33,8 @@ MOBIL_WIDE_INLINE Wide exp(const Wide& x) {
   });
 }
 
-/// Natural logarithm of a positive normal number, absolute error below 2e-7 + 1e-7·|ln x|: the power of two apart, then
-/// 2 artanh((m − 1)/(m + 1)) of what is left, √½ ≤ m < √2, to the ninth power.
+/// Returns the natural logarithm of a positive normal number, absolute error below 2e-7 + 1e-7·|ln x|. Splits off the
+/// power of two, and expands 2 artanh((m − 1)/(m + 1)) of the rest, √½ ≤ m < √2, up to the ninth power.
 MOBIL_WIDE_INLINE Wide log(const Wide& x) {
   using IntTag = hn::RebindToSigned<FloatTag>;
   Wide power, mantissa;

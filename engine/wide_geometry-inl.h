@@ -1,4 +1,4 @@
-// Points, directions and rotations of sixteen lanes. Include it as engine/wide-inl.h says.
+// Points, directions and rotations of sixteen lanes. Include it as described in engine/wide-inl.h.
 
 #if defined(MOBIL_ENGINE_WIDE_GEOMETRY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ENGINE_WIDE_GEOMETRY_INL_H_
@@ -58,7 +58,7 @@ HWY_INLINE WideVec cross(const WideVec& a, const WideVec& b) {
 HWY_INLINE Wide length(const WideVec& a) {
   return sqrt(dot(a, a));
 }
-/// s·a + b
+/// Returns s·a + b.
 HWY_INLINE WideVec fma(const Wide& s, const WideVec& a, const WideVec& b) {
   return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
 }
@@ -67,14 +67,14 @@ HWY_INLINE WideVec select(const WideMask& m, const WideVec& yes, const WideVec& 
   return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// First b, then a.
+/// Returns the rotation b followed by a.
 MOBIL_WIDE_INLINE WideQuat operator*(const WideQuat& a, const WideQuat& b) {
   return {fma(a.w, b.x, fma(a.x, b.w, fnma(a.z, b.y, a.y * b.z))),
           fma(a.w, b.y, fma(a.y, b.w, fnma(a.x, b.z, a.z * b.x))),
           fma(a.w, b.z, fma(a.z, b.w, fnma(a.y, b.x, a.x * b.y))),
           fnma(a.z, b.z, fnma(a.y, b.y, fnma(a.x, b.x, a.w * b.w)))};
 }
-/// v turned by q: v + w t + q × t with t = 2 q × v.
+/// Returns v rotated by q: v + w t + q × t with t = 2 q × v.
 MOBIL_WIDE_INLINE WideVec rotate(const WideQuat& q, const WideVec& v) {
   const WideVec axis = {q.x, q.y, q.z}, once = cross(axis, v), t = once + once;
   return v + fma(q.w, t, cross(axis, t));

@@ -130,7 +130,7 @@ void World::undo_create(std::span<const Entity> entities) {
   }
 }
 
-/// Writes rows behind those of a table, which are rows once they are appended; returns the first one's number.
+/// Writes rows after a table's last one; they exist after `append`. Returns the first one's number.
 std::uint32_t World::add_rows(std::uint32_t table, std::span<const PartValue> parts, std::uint32_t count,
                               const Jobs& jobs) {
   struct Work {
@@ -180,7 +180,7 @@ void World::change_archetype(std::span<const Entity> entities, std::span<const P
   left.clear();
   left.reserve(entities.size());
   for (const Entity entity : entities) left.push_back({from, entities_.find(entity)->row});
-  // What is needed once rows have moved.
+  // Reserves everything that is needed after rows have moved.
   const std::size_t leaving = journal_.left.size() + entities.size();
   moves_.table.reserve(leaving);
   moves_.move.reserve(leaving);
@@ -193,7 +193,7 @@ void World::change_archetype(std::span<const Entity> entities, std::span<const P
     return has_column(part.kind) && find_component(tables_[from].key(), part.id) != nullptr;
   };
   if (std::ranges::any_of(tables_[to].key(), is_kept)) {
-    // Lines of memory are those of a block: no two threads write one.
+    // Cache lines belong to one block, so no two threads write the same line.
     const std::size_t before = first % lane_count, blocks = (before + entities.size() + lane_count - 1) / lane_count;
     in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
       const std::size_t last = std::min(end * lane_count - before, entities.size());
@@ -251,7 +251,7 @@ void World::Transaction::commit() {
 }
 
 bool World::alive_once(std::span<const Entity> entities) {
-  constexpr std::uint32_t named = 0x80000000;  // in a row's number, until the end of this function
+  constexpr std::uint32_t named = 0x80000000;  // flag in a row's number, cleared at the end of this function
   std::size_t count = 0;
   for (; count < entities.size(); ++count) {
     auto* const location = entities_.find(entities[count]);
@@ -266,7 +266,7 @@ Status World::destroy_many(std::span<const Entity> entities, const Jobs& jobs) {
   if (!alive_once(entities)) return Status::stale_entity;
   try {
     destroy_together(entities, jobs);
-  } catch (...) {  // only rows that go have been written to
+  } catch (...) {  // only removed rows were overwritten
     for (const Entity entity : entities) destroy(entity);
   }
   return Status::ok;
@@ -288,8 +288,8 @@ void World::destroy_together(std::span<const Entity> entities, const Jobs& jobs)
   }
 }
 
-/// Rows go, which are sorted; where their entities are is left alone. The last rows that stay, in their order, take the
-/// places of those that go.
+/// Removes sorted rows; their entities' locations are unchanged. The last remaining rows, in their order, replace
+/// removed ones.
 void World::remove_rows(std::pmr::vector<RowAt>& gone, const Jobs& jobs) {
   const auto end_of_table = [&](auto first) {
     return std::find_if(first, gone.end(), [table = first->table](const RowAt& g) { return g.table != table; });
@@ -440,7 +440,7 @@ std::uint64_t World::own(std::shared_ptr<const void> resource, std::uint64_t con
   return resources_.size() - 1;
 }
 
-/// Puts an entity among the members of the owner that its row names. Room was made when it was created.
+/// Links an entity to the owner that its row names. The links were reserved when it was created.
 void World::relate(Entity entity) {
   if (owner_part_ == 0) return;
   members_.grow(entities_.size());

@@ -41,7 +41,7 @@
 #include "systems/terrain/terrain_module.h"
 
 namespace mobil::inline v0_3 {
-/// The error of a call that names somebody who is not there.
+/// Returns the error of a call that names a stale handle, or a person twice.
 static tl::unexpected<Error> not_there(const char* call) {
   return fail(
       fmt::format("{}: a person is not there (a stale handle), or is named twice; spawn one first, and name each "
@@ -183,7 +183,7 @@ Result<void> Simulation::despawn(Entity person) {
   return despawn(std::span(&person, 1));
 }
 
-/// A walker, awake or asleep, is asked for what could be made of a request.
+/// Sets a resolved gait, or returns its error. A sleeper wakes for a change of style and during an earlier request.
 Result<void> Simulation::ask(Entity person, const Result<Gait<float>>& gait) {
   if (!gait) return tl::unexpected(gait.error());
   const SleepTime now = time_of(core_->frame);
@@ -274,7 +274,7 @@ Result<void> Simulation::place(std::span<const PlaceRequest> places) {
     if (const auto good = check_place(core_->world, places[i]); !good)
       return fail(fmt::format("person {}: {}", i, good.error().message), good.error().status);
   }
-  // Level of detail remembers the places of people whom it put to sleep: they wake and are looked at again.
+  // Level of detail stores the places of sleepers that it manages; waking makes it check them again.
   std::erase_if(people, [&](Entity person) { return !core_->world.has<SleepsManaged>(person); });
   if (!people.empty()) {
     if (auto done = wake(core_->frame, std::vector(people)); !done) return done;

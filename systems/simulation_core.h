@@ -1,5 +1,5 @@
 #pragma once
-// What a simulation consists of. It stays where it is when its Simulation is moved.
+// State of a Simulation. Its address does not change when the Simulation is moved.
 
 #include <memory>
 #include <optional>
@@ -18,8 +18,8 @@ struct Simulation::Core {
   Clock clock;
   std::optional<Threads> threads;
   Jobs jobs;
-  std::vector<Module> modules;           // the library's, then the host's
-  std::vector<std::uint64_t> our_parts;  // of the library's modules, ascending
+  std::vector<Module> modules;           // the library's, then the host's, then step_memory_module()
+  std::vector<std::uint64_t> our_parts;  // component ids of the library's modules, ascending
   Schedule schedule;
   std::shared_ptr<BellyLibrary> library;
   Workspace workspace;

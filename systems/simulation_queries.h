@@ -1,5 +1,5 @@
 #pragma once
-// What the facade reports of a simulation as a whole, put together when it is asked for.
+// Queries of the facade about a whole simulation, computed on each call.
 
 #include <optional>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// As Simulation::person, people and report.
+/// Implement Simulation::person, people and report.
 std::optional<Person> read_person(const Simulation& simulation, Entity entity);
 std::vector<Entity> read_people(const World& world);
 StepReport read_report(const Schedule& schedule, std::uint32_t ticks);

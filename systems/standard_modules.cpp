@@ -16,8 +16,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Phases of a tick run in the order of modules: before the systems level of detail, which wakes people, then who
-/// avoids others, then the ground under the steps that are chosen, then who is watched.
+/// Phases of a tick run in the order of modules. Before the systems: level of detail, which wakes people, then
+/// avoidance, then the ground under the chosen steps, then memory for step events (step_memory_module()).
 std::vector<Module> standard_modules() {
   std::vector<Module> all = {walking_module(), forces_module(),      skeleton_module(),  leg_moments_module(),
                              sleep_module(),   lod_module(),         avoidance_module(), terrain_module(),

@@ -1,5 +1,5 @@
 #pragma once
-// The library's own modules, in the order of their data: all that a simulation does unless a host adds to it.
+// The library's own modules, in data-flow order. A simulation runs only these unless the host adds modules.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The C interface as C programs have it: the header is C89 and C++, a C89 program runs with libmobil.so, which exports
-# what the header declares and nothing else.
+# The C interface in C programs: the header is C89 and C++, and a C89 program runs with libmobil.so, which exports
+# exactly the functions that the header declares.
 # Usage: c_interface_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 scratch=$(mktemp -d)
@@ -14,7 +14,7 @@ nm -D --defined-only "$1/libmobil.so" | awk '$2 ~ /[TDBRVW]/ {print $3}' | sed '
 cat "$2"/systems/c/include/mobil/mobil.h "$2"/systems/c/include/mobil/c/*.h | tr '\n' ' ' | grep -oE 'MOBIL_API [^;(]*\(' | grep -oE 'mobil_[a-z_]+\($' | tr -d '(' | sort >"$scratch/declared"
 [ "$(wc -l <"$scratch/declared")" -gt 40 ]
 diff "$scratch/declared" "$scratch/exported"
-# A host that closes the library while the pool's threads are still about goes on.
+# A host that closes the library while the pool's threads are still running continues.
 cat >"$scratch/closes.c" <<'C'
 #include <dlfcn.h>
 #include <stdio.h>

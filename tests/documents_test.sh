@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Documents keep their word: every ```cpp block with a main compiles against the installed package and ends with 0, every
-# `mobil …` line of an ```sh block ends with 0, and every link and #anchor leads somewhere.
-# A comment <!-- not run: why --> just before a block leaves it out.
+# Checks documents: every ```cpp block with a main compiles against the installed package and exits with 0, every
+# `mobil …` line of an ```sh block exits with 0, and every link and #anchor has a target.
+# A comment <!-- not run: why --> directly before a block excludes it.
 # Usage: documents_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 build=$(realpath "$1") source=$(realpath "$2")
@@ -9,7 +9,7 @@ command -v python3 >/dev/null || { echo "python3 is not here; skipped"; exit 77;
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# Links are checked; blocks go into $scratch/cpp/NAME.cpp and $scratch/sh/NAME.
+# Checks links, and writes blocks to $scratch/cpp/NAME.cpp and $scratch/sh/NAME.
 python3 - "$source" "$scratch" <<'PYTHON'
 import os, pathlib, re, sys
 
@@ -91,7 +91,7 @@ print(f"{len(files)} documents, {links} links")
 sys.exit(1 if faults else 0)
 PYTHON
 
-# Programs: one project of a host's, as an installed package is used.
+# Programs: one host project that uses the installed package.
 cmake --install "$build" --prefix "$scratch/prefix" >/dev/null
 cat >"$scratch/cpp/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
@@ -123,14 +123,14 @@ for program in "$scratch"/cpp/*.cpp; do
   timeout 60 "$scratch/cpp/build/$program" || { echo "$program: exit status $?" >&2; exit 1; }
 done
 
-# Commands: those of a document one after the other, in a folder of their own; two documents at a time.
+# Commands: those of a document in order, in a folder of their own; two documents in parallel.
 if [ ! -x "$build/mobil" ]; then
   echo "this build has no program; its commands are left out"
   exit 0
 fi
 mkdir "$scratch/bin"
 ln -s "$build/mobil" "$scratch/bin/mobil"
-export PATH="$scratch/bin:$PATH" XDG_CACHE_HOME="$scratch/cache"  # nothing is left in the user's
+export PATH="$scratch/bin:$PATH" XDG_CACHE_HOME="$scratch/cache"  # keeps the user's cache unchanged
 commands_of() {  # commands_of DOCUMENT FOLDER
   mkdir "$2"
   cd "$2"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tables of speed in documents are those that demo/lab/bench/make_tables.py writes from committed files; a figure changed by
-# hand, or a file without its table made anew, is found.
+# Speed tables in documents are those that demo/lab/bench/make_tables.py writes from committed files. A figure changed
+# by hand, or a file whose table was not updated, is detected.
 # Usage: figures_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 make_tables=$2/demo/lab/bench/make_tables.py
@@ -20,15 +20,15 @@ sed -i '/^<!-- figures: people/,/^<!-- end/ s/\([0-9]\) µs/\17 µs/' "$document
 if check; then echo "a changed figure is not found" >&2; exit 1; fi
 grep -q '^-| .* µs' "$scratch/said"
 
-# made anew, it is as before
+# after an update, it is as before
 python3 "$make_tables" --root "$scratch" >/dev/null
 cmp "$document" "$2/demo/lab/bench/README.md"
 
-# a file changes, and no document follows
+# a file changes without its document
 sed -i 's/"value": \([0-9]\)/"value": 9\1/' "$scratch"/demo/lab/bench/figures/*.json
 if check; then echo "a changed file is not found" >&2; exit 1; fi
 
-# a table that is none
+# an unknown table
 cp "$2"/demo/lab/bench/figures/*.json "$scratch/demo/lab/bench/figures/"
 printf '<!-- figures: nothing -->\n<!-- end -->\n' >"$scratch/other.md"
 if check; then echo "an unknown table is not refused" >&2; exit 1; fi

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the build tree to a fresh prefix; builds and runs hosts against it with find_package(mobil): hello, one that
-# adds a system of its own, a game with an Eigen and an engine/world.h of its own, and one that writes pictures alone.
-# Internal headers are not installed; completions and pages of the manual are.
+# adds its own system, a game with its own Eigen and engine/world.h, and one that only writes pictures. Internal headers
+# are not installed; completions and manual pages are.
 # Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 scratch=$(mktemp -d)
@@ -21,12 +21,12 @@ if grep -q '^flags.* avx2' /proc/cpuinfo; then
 else
   echo "game_host not run: this processor has no AVX2"
 fi
-# The version is in few places, and the same in all.
+# The version is stored in few places, which agree.
 version=$(sed -n 's/^#define MOBIL_VERSION "\(.*\)"/\1/p' "$scratch/prefix/include/mobil/version.h")
 grep -q "\"version\": \"$version\"" "$2/systems/javascript/package.json"
 grep -q "mobil_library_version(void); /\* \"$version\" \*/" "$2/systems/c/include/mobil/mobil.h"
 grep -q "^## \[$version\]" "$2/CHANGELOG.md"
-# Where the program was built, shells and man find what it can do.
+# If the program was built, its completions and manual pages are installed.
 if [ -x "$scratch/prefix/bin/mobil" ]; then
   share="$scratch/prefix/share"
   for file in bash-completion/completions/mobil zsh/site-functions/_mobil fish/vendor_completions.d/mobil.fish \
@@ -36,7 +36,7 @@ if [ -x "$scratch/prefix/bin/mobil" ]; then
   diff <("$scratch/prefix/bin/mobil" completion bash) "$share/bash-completion/completions/mobil"
   diff <("$scratch/prefix/bin/mobil" man walk) "$share/man/man1/mobil-walk.1"
 fi
-# Every header is for hosts of any flags.
+# Every header compiles with any flags of a host.
 for header in "$scratch"/prefix/include/mobil/*.h; do echo "#include <mobil/${header##*/}>"; done >"$scratch/all.cpp"
 "${CXX:-c++}" -std=c++20 -fno-exceptions -fno-rtti -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror \
   -fsyntax-only -I"$scratch/prefix/include" "$scratch/all.cpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The small interfaces of a simulation with options of a test's own.
+// Interfaces of a simulation (avoidance, terrain, …) with options that a test chooses.
 
 #include <gtest/gtest.h>
 

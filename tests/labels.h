@@ -1,20 +1,20 @@
 #pragma once
-// What a file of tests says of itself, once, outside all namespaces: MOBIL_TEST_LABELS("threads;slow");
-//   threads  also under ThreadSanitizer
-//   long     takes more than five seconds: CTest begins with these. Under ThreadSanitizer only its TESTs with Thread or
+// Labels of a test file, set once outside all namespaces: MOBIL_TEST_LABELS("threads;slow");
+//   threads  also run under ThreadSanitizer
+//   long     takes more than five seconds; CTest starts these first. Under ThreadSanitizer only TESTs with Thread or
 //            AtOnce in their names run.
-//   slow     long, and left out under AddressSanitizer
+//   slow     long, and skipped under AddressSanitizer
 //
 // Labels of a whole folder (its name; programs, lab) are given in tests/CMakeLists.txt.
 //
-// A TEST that begins with MOBIL_SLOW() is left out under sanitizers and valgrind, which take ten times as long
+// A TEST that begins with MOBIL_SLOW() is skipped under sanitizers and valgrind, which are ten times slower
 // (MOBIL_QUICK=1).
 
 #include <cstdlib>
 
 namespace mobil::tests {
 
-/// Tells tests/main.cpp of them; returns a number that nobody needs.
+/// Registers a file's labels with tests/main.cpp. The return value is unused.
 int label(const char* file, const char* labels);
 
 }  // namespace mobil::tests

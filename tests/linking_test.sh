@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the linker sees of us. libmobil_core.so exports our namespace and nothing else, and a host runs with it; a host's own
-# shared library that takes our archives in exports nothing of them; two versions live in one program.
+# The project's symbols. libmobil_core.so exports only its namespace, and a host runs with it. A host's own shared
+# library that links the archives exports none of their symbols. Two versions can be used in one program.
 # Usage: linking_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 scratch=$(mktemp -d)
@@ -35,7 +35,7 @@ CPP
 cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DHOSTS= \
   -DPLUGIN="$scratch/plugin.cpp" >/dev/null
 cmake --build "$scratch/build" >/dev/null
-# (What its own source makes of our templates is weak, and its own.)
+# (Template instances made by its own source are weak, and its own.)
 nm -D --defined-only -C "$scratch/build/libplugin.so" >"$scratch/of_plugin"
 grep -q ' T hash_of_a_step' "$scratch/of_plugin"
 if grep ' [A-U] .*mobil::' "$scratch/of_plugin"; then

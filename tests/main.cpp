@@ -1,6 +1,6 @@
 // A test program: all tests of a folder. CTest runs it once for each file of tests.
 //   FOLDER_test                     all tests, or those of --gtest_filter
-//   FOLDER_test --file=NAME_test    those of that file; --gtest_filter (or GTEST_FILTER) leaves some of them out
+//   FOLDER_test --file=NAME_test    tests of that file; --gtest_filter (or GTEST_FILTER) can exclude some of them
 //   FOLDER_test --ctest OUT FOLDER    writes the list of files for CTest: a test FOLDER/NAME each
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 namespace mobil::tests {
 namespace {
 
-/// "kinematics_test" of "…/tests/gait/kinematics_test.cpp".
+/// Returns "kinematics_test" for "…/tests/gait/kinematics_test.cpp".
 std::string stem(const char* file) {
   return std::filesystem::path(file).stem().string();
 }
@@ -29,7 +29,7 @@ std::map<std::string, std::string>& labels_by_file() {
   return labels;
 }
 
-/// Names of all tests, by file, as --gtest_filter takes them.
+/// Returns the names of all tests by file, in the form of --gtest_filter.
 std::map<std::string, std::string> filter_by_file() {
   std::map<std::string, std::string> filters;
   const auto& all = *testing::UnitTest::GetInstance();
@@ -47,7 +47,7 @@ bool is_long(const std::string& labels) {
   return labels.find("long") != labels.npos || labels.find("slow") != labels.npos;
 }
 
-/// Under ThreadSanitizer (MOBIL_QUICK=threads) a long file's tests that speak of threads, else all.
+/// Returns the tests to run. Under ThreadSanitizer (MOBIL_QUICK=threads) a long file runs only its thread tests.
 std::string chosen(const std::string& file, const std::string& filter) {
   const char* quick = std::getenv("MOBIL_QUICK");
   if (quick == nullptr || std::string_view(quick) != "threads" ||

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What hosts write wrongly at first is refused by the compiler in few lines, one of which says how to mend it.
+# Common mistakes of hosts are refused by the compiler in few lines, one of which names the remedy.
 # Usage: mistakes_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 log=$(mktemp)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The Python package with Debian's Python: its tests; the lines of its README, which say what comes out; and a wheel of it, which works elsewhere.
+# The Python package with Debian's Python: its tests, the lines of its README with their documented output, and a wheel
+# of it, which works in another place.
 # Usage: python_test.sh BUILD_FOLDER SOURCE_FOLDER PROGRAM. Exit status 77: skipped.
 set -euo pipefail
 scratch=$(mktemp -d)

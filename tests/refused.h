@@ -1,5 +1,5 @@
 #pragma once
-// What cannot be done is refused in one line that says why.
+// Matcher for refusals: an error of one line that names the reason.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 namespace mobil {
 
-/// Whether a result is an error whose message is one line and holds all `pieces`.
+/// Succeeds if a result is an error whose message is one line and contains all `pieces`.
 template <class Result, class... Pieces>
 testing::AssertionResult is_refused(const Result& result, const Pieces&... pieces) {
   if (result) return testing::AssertionFailure() << "not refused";

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# This machine has the hashes of tests/portable/hashes.txt, which ARM and browsers have too (tests/portable/run).
+# Compares this machine with the hashes of tests/portable/hashes.txt, which ARM and browsers share (tests/portable/run).
 # Usage: same_bits_test.sh BUILD_FOLDER SOURCE_FOLDER. Exit status 77: skipped.
 set -euo pipefail
 if [ -r /proc/cpuinfo ] && [ "$(uname -m)" = x86_64 ] && ! grep -qw fma /proc/cpuinfo; then

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The site: Doxygen takes every public comment without a warning, nothing public is without one, every link leads
-# somewhere. Also the spelling of all that is committed, where codespell is there.
+# The site: Doxygen processes every public comment without a warning, every public declaration has one, and every link
+# has a target. Also checks the spelling of all committed files if codespell is installed.
 # Usage: site_test.sh BUILD_DIR SOURCE_DIR. Exit status 77: skipped.
 set -euo pipefail
 missing=()
@@ -12,7 +12,7 @@ if [ ${#missing[@]} -gt 0 ]; then
 fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-# The packages are there, under whatever name: nothing is installed by a test.
+# The packages are installed under some name, because a test installs nothing.
 if ! "$2/demo/site/run" --out "$scratch/site" --no-install >"$scratch/said" 2>&1; then
   tail -n 40 "$scratch/said"
   exit 1
@@ -21,14 +21,14 @@ cat "$scratch/said"
 for page in index.html ARCHITECTURE.html reference/cpp/classmobil_1_1Simulation.html reference/c/mobil_8h.html; do
   [ -s "$scratch/site/$page" ] || { echo "$page was not made"; exit 1; }
 done
-# A link that leads nowhere is found.
+# A dead link is detected.
 sed -i 's|</main>|<a href="nowhere.html#at-all">x</a></main>|' "$scratch/site/index.html"
 if "${PYTHON:-/usr/bin/python3}" "$2/demo/site/links.py" "$scratch/site" >"$scratch/said"; then
   echo "a broken link was not found"
   exit 1
 fi
 grep -q '^index.html: nowhere.html#at-all leads nowhere$' "$scratch/said" || { cat "$scratch/said"; exit 1; }
-# So is a public function without a comment.
+# A public function without a comment is detected.
 mkdir -p "$scratch/bare/mobil"
 printf '#pragma once\n// A header.\n\nnamespace mobil {\n\nint bare(int x);\n\n}  // namespace mobil\n' >"$scratch/bare/mobil/bare.h"
 cp -r "$2"/systems/c/include/mobil/. "$scratch/bare/mobil/"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Takes the project in with add_subdirectory, from a host that has a target `hello` and an engine/world.h of its own.
-# Nothing but the libraries of mobil::systems appears in the host's build, nothing of ours is installed with it, and its
-# sources compile. Usage: subproject_test.sh BUILD_FOLDER SOURCE_FOLDER
+# Includes the project with add_subdirectory, from a host that has its own target `hello` and its own engine/world.h.
+# Only the libraries of mobil::systems appear in the host's build, none of the project's files is installed with it, and
+# its sources compile. Usage: subproject_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -10,7 +10,7 @@ echo 'namespace game { struct World { int cells = 7; }; }' >"$scratch/own/engine
 cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/build" -DMOBIL_SUBPROJECT="$2" \
   -DHOSTS="$2/demo/hello.cpp;$2/tests/consumer/game_host.cpp" -DOWN_HEADERS="$scratch/own"
 ninja -C "$scratch/build" -t targets all >"$scratch/targets"
-# Programs and libraries: what is linked, and what has no rule but a name.
+# Programs and libraries: linked targets, and targets that have only a name.
 sed -n 's/: \(CXX_.*_LINKER__.*\)$//p' "$scratch/targets" | sort >"$scratch/linked"
 printf '%s\n' game_host hello mobil/libmobil_assets.a mobil/libmobil_engine.a mobil/libmobil_systems.a >"$scratch/expected"
 diff "$scratch/expected" "$scratch/linked"
@@ -24,5 +24,5 @@ cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/shared" -DMOBIL_SUBPROJECT="$
   -DHOSTS="$2/demo/hello.cpp" -DOWN_HEADERS="$scratch/own"
 ninja -C "$scratch/shared" -t query hello >"$scratch/query"
 grep -q 'mobil/libmobil_core\.so' "$scratch/query"
-# Without a build type ours are optimised.
+# Without a build type the project's libraries are optimised.
 grep -q 'FLAGS = .*-O3' "$scratch/build/build.ninja"

@@ -1,7 +1,7 @@
 // Runs Khronos' glTF validator on one file. Usage: node validate_glb.mjs FILE.glb
 // Prints every message (error, warning, information, hint) and the counts. Exit status 0: no errors and no warnings;
 // 1: some; 2: bad usage or no such file; 77: the npm package gltf-validator was not found.
-// It is looked for in MOBIL_NODE_MODULES, NODE_PATH, beside this script and above the working folder.
+// It searches for the package in MOBIL_NODE_MODULES, NODE_PATH, next to this script and above the working folder.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# `mobil view` on a display that nobody sees: it opens, walks, and shows its panel on a picture. Without one it says so.
+# `mobil view` on a virtual display: it opens, walks, and shows its panel in a picture. Without a display it reports
+# that.
 # Usage: view_test.sh BUILD_FOLDER SOURCE_FOLDER PROGRAM. Exit status 77: skipped.
 set -euo pipefail
 command -v Xvfb >/dev/null || { echo "Xvfb is not there (apt-get install xvfb xauth)"; exit 77; }
@@ -12,12 +13,12 @@ elif [ $? -ne 2 ] || [ "$(wc -l <"$scratch/said")" -ne 1 ] || ! grep -q '^mobil 
   cat "$scratch/said"
   exit 1
 fi
-# LeakSanitizer now and then falls over Mesa's threads, which end with the window.
+# LeakSanitizer sometimes crashes in Mesa's threads, which end with the window.
 export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0
 xvfb-run -a -s "-screen 0 800x600x24" "$3" view --seconds 1 --people 20 --width 760 --height-px 500 \
   --capture "$scratch/view.png"
 ffmpeg -v error -i "$scratch/view.png" -f rawvideo -pix_fmt gray "$scratch/grey"
-# The panel is dark, the sky above the ground is light, and in the middle somebody stands out from it.
+# The panel is dark, the sky above the ground is light, and in the middle a person contrasts with it.
 /usr/bin/python3 - "$scratch/grey" <<'P'
 import sys
 grey = open(sys.argv[1], 'rb').read()

@@ -1,5 +1,5 @@
 #pragma once
-// The rows of a simulation, to be written in tests alone: what only a broken host or a fault of the library could do.
+// Write access to a simulation's rows, for tests only: reproduces a broken host or a fault of the library.
 
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>

@@ -13,18 +13,18 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Empty if value lies in [low, high]; NaN does not.
+/// Returns an empty string if value is in [low, high]; NaN is not.
 std::string out_of_range(const char* name, float value, const char* unit, float low, float high) {
   if (value >= low && value <= high) return {};
   return fmt::format("body: {} = {}{} is outside {}–{}{}; choose a value within that range", name, value, unit, low,
                      high, unit);
 }
 
-/// Empty if a real body can have that height and mass.
+/// Returns an empty string if a real body can have that height and mass.
 std::string not_active(const BodyRequest& request) {
   const auto [low, high] = living_mass_kg(static_cast<double>(request.height_m));
   const auto mass = static_cast<double>(request.mass_kg);
-  // Limits are written rounded inwards: what a message names is taken.
+  // Limits are printed rounded inwards, so every value that a message names is accepted.
   if (mass >= low * (1 - 1e-6) && mass <= high * (1 + 1e-6)) return {};
   return fmt::format(
       "body: nobody of {} m weighs {} kg and lives; choose a mass of {:.1f}–{:.1f} kg, or another height",
@@ -35,7 +35,7 @@ Vec3<float> scaled(const Vec3<double>& v, double by) {
   return {static_cast<float>(v.x * by), static_cast<float>(v.y * by), static_cast<float>(v.z * by)};
 }
 
-/// A long bone that may have a length of its own: what is fixed at its far end, the kneecap too, goes with it.
+/// A long bone whose length can be set. Everything fixed at its far end moves with it, including the kneecap.
 struct LongBone {
   const char* name;
   Segment segment;

@@ -19,15 +19,15 @@ constexpr double max_mass_index = 92;
 static_assert(max_mass_index < max_lean_index / (1 - max_fat));
 
 constexpr double muscle_in_lean = 0.5, max_muscle_in_lean = 0.65, legs_in_muscle = 0.52, muscle_kg_per_cm3 = 1.06e-3;
-/// Heath and Carter's ratings go by halves; two who rate the same body seldom differ by more than this.
+/// Heath and Carter's ratings have steps of a half; two raters of the same body seldom differ by more than this.
 constexpr double rating_tolerance = 1.5;
 
 double endomorphy_of_folds(double mm) {
   return -0.7182 + mm * (0.1451 + mm * (-0.00068 + mm * 0.0000014));
 }
 
-/// The folds (triceps, subscapular, supraspinale; mm, at a stature of 170.18 cm) of an endomorphy: the polynomial rises
-/// throughout.
+/// Returns the folds (triceps, subscapular, supraspinale; mm, at a stature of 170.18 cm) of an endomorphy. The
+/// polynomial rises throughout.
 double folds_of_endomorphy(double endomorphy) {
   double low = 1, high = 400;
   for (int i = 0; i < 60; ++i) {
@@ -39,12 +39,12 @@ double folds_of_endomorphy(double endomorphy) {
 
 constexpr double density_at_1_mm = 1.1631, density_per_decade = 0.0632, fold_sum_per_three = 4.0 / 3;
 
-/// Handsfield's 35 muscles of one leg.
+/// Returns the volume of Handsfield's 35 muscles of one leg.
 double limb_volume_cm3(double height_m, double mass_kg) {
   return 47 * mass_kg * height_m + 1285;
 }
 
-/// x, bent smoothly from nine tenths of `most` on so that it never reaches it: what asks for more still gets more.
+/// Returns x, bent smoothly from nine tenths of `most` so that it rises throughout but never reaches `most`.
 double saturated(double x, double most) {
   const double knee = 0.9 * most, room = most - knee;
   return x <= knee ? x : most - room * room / (x - knee + room);

@@ -6,7 +6,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Of 1.75 m and 75 kg, in mm, and the powers of height and mass.
+/// A measure at 1.75 m and 75 kg, mm, and its exponents of height and mass.
 struct Power {
   double BodyMeasures::*measure;
   double mm, height, mass;
@@ -29,8 +29,8 @@ constexpr std::array<Power, 23> men = {{
     {&M::foot_breadth, 100.1, 0.30, 0.14},
 }};
 
-/// 270 women of any age, from twenty places spread over the survey's list; the formulas give the published means of all
-/// 1986 to 0.4 % in the eight measures that were compared.
+/// 270 women of any age, from twenty places spread over the survey's list. The formulas reproduce the published means
+/// of all 1986 to 0.4 % in the eight measures compared.
 constexpr std::array<Power, 23> women = {{
     {&M::thigh_girth, 630.6, -0.46, 0.57},         {&M::lower_thigh_girth, 412.1, -0.27, 0.50},
     {&M::calf_girth, 381.4, -0.25, 0.43},          {&M::ankle_girth, 222.5, 0.09, 0.27},

@@ -1,5 +1,5 @@
 #pragma once
-// How the column bends between pelvis and chest.
+// Distribution of the column's bending between pelvis and chest.
 
 #include <array>
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace mobil::inline v0_3 {
 
-/// The pelvis' anterior tilt of somebody who stands upright, as gait laboratories measure it (front and back of the
-/// iliac crest), rad: that of the anatomical position, from which the column is turned.
+/// Anterior tilt of the pelvis of an upright person, as gait laboratories measure it (front and back of the iliac
+/// crest), rad. It is the tilt of the anatomical position, from which the column is turned.
 inline constexpr double neutral_tilt = 11.5 * 3.14159265358979324 / 180;
 
-/// How much of the way from the pelvis' attitude to the chest's a vertebra has turned, from the fifth lumbar to the
-/// first thoracic: two thirds in the five lumbar ones, the rest evenly.
+/// Share of the rotation from the pelvis' attitude to the chest's that each vertebra has completed, from the fifth
+/// lumbar to the first thoracic. The five lumbar ones complete two thirds, the rest is spread evenly.
 using ColumnParts = std::array<double, index(Segment::T1) - index(Segment::L5) + 1>;
 constexpr ColumnParts column_parts() {
   constexpr double lumbar = 5, all = 17, lumbar_part = 2.0 / 3;

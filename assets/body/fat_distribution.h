@@ -1,6 +1,5 @@
 #pragma once
-// Which segments are heavier in people who are fatter than the men whose segments were weighed, and lighter in leaner
-// ones.
+// Mass of segments in people with more or less fat than the men whose segments were weighed.
 
 #include <array>
 
@@ -8,13 +7,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// Share of fat in the mass at which the published masses of segments are taken to hold: a man of 24.5 kg/m²
+/// Share of fat in the mass at which the published segment masses are taken to hold: a man of 24.5 kg/m²
 /// (`fat_share_of_mass_index`).
 inline constexpr double usual_fat_share = 0.183;
 
-/// Where fat beyond that lies: mainly in the trunk, whose part of the body's volume grows as arms' and legs' shrink
-/// (Wang, Gallagher, Thornton, Yu, Weil, Kovac & Pi-Sunyer, Obesity 15, 2007; of old people's masses Chambers, Sukits,
-/// McCrory & Cham, Clinical Biomechanics 25, 2010). The numbers are our choice; they add up to 1.
+/// Distribution of fat beyond the usual share. Most is in the trunk, whose part of the body's volume grows while that
+/// of arms and legs shrinks (Wang, Gallagher, Thornton, Yu, Weil, Kovac & Pi-Sunyer, Obesity 15, 2007; masses of old
+/// people: Chambers, Sukits, McCrory & Cham, Clinical Biomechanics 25, 2010). The numbers are our choice; they add up
+/// to 1.
 constexpr std::array<double, segment_count> make_fat_parts() {
   using enum Segment;
   std::array<double, segment_count> part{};
@@ -37,12 +37,12 @@ constexpr std::array<double, segment_count> make_fat_parts() {
 }
 inline constexpr std::array<double, segment_count> fat_part = make_fat_parts();
 
-/// Part of the mass that is fat beyond the usual share; negative in the lean.
+/// Returns the part of the mass that is fat beyond the usual share; negative in the lean.
 constexpr double extra_fat(double fat_share) {
   return (fat_share - usual_fat_share) / (1 - usual_fat_share);
 }
 
-/// How much a segment's part of the mass grows per part of extra fat.
+/// Returns the growth of a segment's part of the mass per part of extra fat.
 constexpr double mass_per_extra_fat(std::size_t segment) {
   return fat_part[segment] - unit_body.mass_fraction[segment];
 }

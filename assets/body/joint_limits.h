@@ -1,17 +1,16 @@
 #pragma once
-// How far joints go. Angles in degrees from the anatomical position, in which palms face forward.
+// Joint limits. Angles in degrees from the anatomical position, in which palms face forward.
 //
 // Sources.
 //   [A] American Academy of Orthopaedic Surgeons: Joint Motion, Method of Measuring and Recording, 1965.
 //   [R] Roaas & Andersson: Normal range of motion of the hip, knee and ankle joints in male subjects, 30–40 years of
 //       age, Acta Orthop. Scand. 53, 1982 (means).
 //   [B] Baumbach et al.: The influence of knee position on ankle dorsiflexion, BMC Musculoskelet. Disord. 15, 2014:
-//   under
-//       the body's weight with the knee bent (25° with the knee straight, [A] has 20° without the weight, of which
-//       walkers want more). Plantarflexion: [A].
+//       under the body's weight with the knee bent (25° with the knee straight). [A] has 20° without the weight, less
+//       than walkers need. Plantarflexion: [A].
 //   [W] White & Panjabi: Clinical Biomechanics of the Spine, 2nd ed., 1990, representative values. The book gives the
 //       whole range from extension to flexion; its even division over both is ours.
-//   [O] ours, where nobody tabulates the joint as it is here.
+//   [O] our choice, for joints that no source tabulates as defined here.
 
 #include <array>
 #include <cstddef>
@@ -22,8 +21,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// One motion of the joint at a segment's origin (right side; the left mirrors it). `low` to `high`: the first word of
-/// `motion` is positive, what it is called the other way follows the dash.
+/// One motion of the joint at a segment's origin (right side; the left mirrors it), from `low` to `high`. The first
+/// word of `motion` names the positive direction, the word after the dash the negative one.
 struct JointLimit {
   Segment segment;
   std::string_view joint, motion;
@@ -45,7 +44,7 @@ inline constexpr std::array<JointLimit, 22> limb_limits = {{
     {Segment::upper_arm_right, "shoulder", "abduction-adduction", -75, 180, "A"},
     {Segment::upper_arm_right, "shoulder", "internal-external rotation", -90, 70, "A"},
     {Segment::forearm_right, "elbow", "flexion-extension", 0, 150, "A"},
-    // Measured from thumbs up: 80° to either side. The anatomical position is supinated to the end.
+    // Measured from thumbs up: 80° to either side. The anatomical position is fully supinated.
     {Segment::forearm_right, "forearm", "pronation", 0, 160, "A"},
     {Segment::hand_right, "wrist", "flexion-extension", -70, 80, "A"},
     {Segment::hand_right, "wrist", "ulnar-radial deviation", -20, 30, "A"},
@@ -57,8 +56,8 @@ inline constexpr std::array<JointLimit, 22> limb_limits = {{
     {Segment::head, "atlanto-occipital", "rotation", -5, 5, "W"},
 }};
 
-/// One joint of the column, between a vertebra and what it stands on (L5: on the sacrum): whole range of flexion and
-/// extension, and what it bends and turns to one side, degrees [W].
+/// Limits of one joint of the column, between a vertebra and the one below (the sacrum for L5), degrees [W]. Flexion
+/// and extension are the whole range, bending and rotation that to one side.
 struct VertebraLimit {
   double flexion_extension, lateral_bending, rotation;
 };

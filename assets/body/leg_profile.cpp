@@ -19,7 +19,7 @@ struct Station {
 };
 
 /// Measured on the skin of BodyParts3D 3.0, © The Database Center for Life Science, licensed under CC Attribution-Share
-/// Alike 2.1 Japan: seventeen stations with four harmonics each, which describe one man's leg to 1.1 mm rms.
+/// Alike 2.1 Japan. Seventeen stations with four harmonics each reproduce one man's leg to 1.1 mm rms.
 constexpr std::array<Station, 17> measured = {{
     {0.20, {93.0, -15.9, -4.4, 2.5, -11.1, -4.2, 0.3, 0.2, -3.6}},
     {0.30, {87.3, -5.9, -9.0, 0.3, -9.0, -3.9, -0.2, -1.1, -0.0}},

@@ -1,12 +1,11 @@
 #pragma once
-// How hard a segment is to turn: inertias of the 48 segments, and of any of them together.
+// Moments of inertia of the 48 segments.
 //
-// Sources. Limbs about the axes across them: radii of gyration of Dempster, tabulated by Winter (Biomechanics and Motor
-// Control of Person Movement, table 4.1). Limbs about their own length, the trunk, the head and the hand: de Leva,
-// Adjustments to Zatsiorsky-Seluyanov's segment inertia parameters, J. Biomech. 29, 1996, men of 1.741 m. Of the trunk
-// de Leva gives three parts; every vertebra is a slice as thick as it is high whose second moments across are its
-// part's. Kneecap, collar bone, neck, toes, fingers and thumb, which nobody tabulates, are rods and cylinders of their
-// size.
+// Sources. Limbs about transverse axes: radii of gyration of Dempster, tabulated by Winter (Biomechanics and Motor
+// Control of Human Movement, table 4.1). Limbs about their own length, trunk, head and hand: de Leva, Adjustments to
+// Zatsiorsky-Seluyanov's segment inertia parameters, J. Biomech. 29, 1996, men of 1.741 m. De Leva divides the trunk
+// into three parts; each vertebra is a slice of its own height with the transverse second moments of its part. Kneecap,
+// collar bone, neck, toes, fingers and thumb have no tabulated values and are rods and cylinders of their size.
 
 #include <array>
 #include <cstddef>
@@ -16,16 +15,16 @@
 
 namespace mobil::inline v0_3 {
 
-/// About each segment's centre of mass, its frame's axes (x to the left, y along or up, z forward), which are its
-/// principal axes; of a body of height 1 m and mass 1 kg: times mass · height².
+/// Moments about each segment's centre of mass and its frame's axes (x to the left, y along or up, z forward), which
+/// are its principal axes. They are of a body of height 1 m and mass 1 kg; multiply by mass · height².
 using UnitInertia = std::array<Vec3<double>, segment_count>;
 constexpr UnitInertia make_unit_inertia();
 
-/// kg m², about the segment's centre of mass, in its own axes. Fat and muscle thicken no segment here: it grows with
-/// mass and with the square of height, as the sources' regressions have it.
+/// Returns the inertia about the segment's centre of mass in its own axes, kg m². Fat and muscle do not thicken a
+/// segment: inertia grows with mass and with the square of height, as in the sources' regressions.
 Vec3<double> segment_inertia_kg_m2(const Body& body, Segment segment);
 
-/// Where a segment's joint lies in the anatomical position, the body standing at x = z = 0, m.
+/// Returns the position of a segment's joint in the anatomical position, the body standing at x = z = 0, m.
 Vec3<double> joint_centre_m(const Body& body, Segment segment);
 
 namespace de_leva {
@@ -62,7 +61,7 @@ constexpr UnitInertia make_unit_inertia() {
     inertia[index(s)] = {m * x * x, m * y * y, m * z * z};
   };
 
-  // Second moments of mass across a part of the trunk; y is what the slice's own height adds.
+  // Second moments of mass across a part of the trunk; y is the contribution of the slice's own height.
   const auto slice = [&](Segment s, const de_leva::Part& part, double high) {
     const double unit = square(part.length_m / de_leva::stature_m), m = u.mass_fraction[index(s)];
     const double x = 0.5 * unit * (square(part.y) + square(part.z) - square(part.x));
@@ -85,7 +84,7 @@ constexpr UnitInertia make_unit_inertia() {
 
   for (std::size_t side = 0; side < 2; ++side) {
     const auto of = [&](Segment s) { return on_side(s, side); };
-    /// What is left for `s` when another, of known inertia, is taken out of both.
+    /// Sets the inertia of `s` to that of both less that of another segment of known inertia.
     const auto rest = [&](Segment s, Segment other, const Vec3<double>& other_from_s, const Vec3<double>& both) {
       const double m = u.mass_fraction[index(s)], n = u.mass_fraction[index(other)], reduced = m * n / (m + n);
       const Vec3<double> a = u.centre_of_mass[index(s)], b = u.centre_of_mass[index(other)], o = other_from_s;
@@ -99,12 +98,12 @@ constexpr UnitInertia make_unit_inertia() {
       return Vec3<double>{mass * x * x, mass * y * y, mass * z * z};
     };
 
-    // The kneecap, a disc 24 mm across and 20 mm thick at 1.80 m, weighs with the thigh in the tables.
+    // The kneecap, a disc 24 mm across and 20 mm thick at 1.80 m, is included in the tables' thigh.
     radii(of(patella_right), 0.0068, 0.0068, 0.0094);
     rest(of(thigh_right), of(patella_right), u.joint_offset[index(of(patella_right))],
          both(0.100, winter::thigh * f::thigh, de_leva::thigh_y * f::thigh, winter::thigh * f::thigh));
     radii(of(shank_right), winter::shank * f::shank, de_leva::shank_y * f::shank, winter::shank * f::shank);
-    // The toes, a slab, weigh with the foot. Winter's foot ends at the head of the second metatarsal.
+    // The toes, a slab, are included in the tables' foot. Winter's foot ends at the head of the second metatarsal.
     radii(of(toes_right), 0.29 * f::toes_length, 0.36 * f::toes_length, 0.25 * f::toes_length);
     constexpr double foot_squared = f::ball_forward * f::ball_forward +
                                     (f::ankle_height - f::toe_joint_height) * (f::ankle_height - f::toe_joint_height);

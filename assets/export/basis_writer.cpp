@@ -37,7 +37,7 @@ Result<void> check(const BasisRecording& recording) {
   return {};
 }
 
-/// The boundary's nodes, each once, and its triangles by place in that list.
+/// The boundary's nodes, each once, and its triangles as places in that list.
 struct Skin {
   std::vector<std::uint32_t> node, triangle;
 };
@@ -59,7 +59,7 @@ Skin skin_of(const HexahedralMesh& mesh) {
   return skin;
 }
 
-/// What each target is multiplied by, and its weights divided.
+/// Returns the factor of each target, by which its weights are divided.
 std::vector<float> largest_weights(const BasisRecording& recording) {
   std::vector<float> largest(recording.target.size(), 0.0F);
   for (const auto& frame : recording.weight) {

@@ -21,7 +21,7 @@ struct BvhSkeleton {
   std::array<Eigen::Vector3d, segment_count> offset_m;
   std::array<bool, segment_count> slides;
   std::array<std::vector<std::size_t>, segment_count> children;
-  std::vector<std::size_t> order;  // as the hierarchy names them
+  std::vector<std::size_t> order;  // in the hierarchy's order
 };
 
 BvhSkeleton bvh_skeleton(const WalkRecording& recording, const SkeletonKeys& keys) {

@@ -81,7 +81,7 @@ Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const S
       append_skin(surface, piece);
     }
     if (piece.triangle.empty()) continue;
-    if (piece.tangent.size() != piece.position.size()) {  // not all of it has an atlas
+    if (piece.tangent.size() != piece.position.size()) {  // a part of it has no atlas
       piece.tangent.clear();
       piece.atlas = false;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// A figure as the meshes that formats with skins take: one a cloth, where the figure stands.
+// A figure as meshes for formats with skins: one a cloth, in its standing place.
 
 #include <array>
 #include <cstdint>
@@ -18,21 +18,21 @@ using StandingPlaces = std::array<Eigen::Vector3d, segment_count>;
 
 struct FigurePiece {
   std::size_t cloth = 0;
-  std::string name;  // bones, or what a skin's part is
+  std::string name;  // bones, or the name of a skin's part
   std::vector<Vec3<float>> position, normal;
   std::vector<TexturePlace> texture;               // folded; or of an atlas, to the right and down
-  std::vector<std::array<float, 4>> tangent;       // or none
+  std::vector<std::array<float, 4>> tangent;       // or empty
   std::vector<std::array<std::uint8_t, 4>> joint;  // segments that each vertex follows
   std::vector<std::array<float, 4>> weight;        // add up to 1
   std::vector<std::uint32_t> triangle;
-  bool rigid = true;   // each vertex follows its first joint alone
+  bool rigid = true;   // each vertex follows only its first joint
   bool atlas = false;  // texture is of one
 };
 
-/// Where a figure stands: as its skin was made, without one as this person's skeleton does.
+/// Returns a figure's standing place: its skin's, or without one that of this person's skeleton.
 StandingPlaces figure_standing(const SeenFigure& figure, const SkeletonKeys& skeleton);
 
-/// Errors: a surface whose triangles have no area.
+/// Fails on a surface whose triangles have no area.
 Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const StandingPlaces& standing);
 
 }  // namespace mobil::inline v0_3

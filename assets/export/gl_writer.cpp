@@ -79,7 +79,7 @@ void put_frame(std::string& bytes, const WalkRecording& recording, std::size_t f
   }
 }
 
-/// The bytes of the file.
+/// Returns the bytes of the file.
 Result<std::string> gl_bytes(const WalkRecording& recording) {
   constexpr std::size_t name_room = 64;
   const std::vector<GlPart> parts = gl_parts(recording);
@@ -99,7 +99,7 @@ Result<std::string> gl_bytes(const WalkRecording& recording) {
   for (const GlPart& part : parts) {
     std::string name = *part.name;
     if (std::size_t cut = name_room - 1; name.size() > cut) {
-      while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xC0U) == 0x80U) --cut;  // a character's beginning
+      while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xC0U) == 0x80U) --cut;  // to a character's beginning
       name.resize(cut);
     }
     name.resize(name_room, '\0');

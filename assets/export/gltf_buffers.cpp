@@ -131,7 +131,7 @@ SkinAccessors add_joints(GltfDraft& draft, const std::vector<std::array<std::uin
     };
     for (std::size_t k = 4; k-- > 0;)
       if (k != heaviest) set(k, std::min(left, static_cast<int>(std::lround(255 * weight[v][k]))));
-    set(heaviest, left);  // it takes what rounding leaves
+    set(heaviest, left);  // takes the rounding error
   }
   const auto add = [&](const std::vector<std::uint8_t>& value) {
     const std::size_t offset = append(draft.skin, value.data(), value.size());
@@ -203,7 +203,7 @@ Result<std::string> glb_bytes(GltfDraft& draft) {
     return fail(fmt::format("a name cannot be written, it must be UTF-8 text ({})", e.what()));
   }
   std::string text = std::move(bytes).str();
-  if (auto ok = check_size(text.size()); !ok) return tl::unexpected(ok.error());  // names and numbers count, too
+  if (auto ok = check_size(text.size()); !ok) return tl::unexpected(ok.error());  // includes names and numbers
   return text;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers on their way into a GLB: growing byte arrays and the accessors that point into them.
+// Numbers of a GLB: growing byte arrays and the accessors into them.
 
 #include <tiny_gltf.h>
 
@@ -16,21 +16,21 @@
 namespace mobil::inline v0_3 {
 
 /// A model whose accessors' `bufferView` is one of the arrays until glb_bytes has run. A view of vertices has one
-/// stride, so that texture places (8 bytes) and joints (4) have arrays of their own.
+/// stride, so texture places (8 bytes) and joints (4) have separate arrays.
 struct GltfDraft {
   tinygltf::Model model;
   std::vector<unsigned char> vertices, texture, tangents, skin, indices, keys, binds;
 };
 
-/// Each adds one accessor and returns its number. Vertices: VEC3 floats; `with_bounds` writes min and max, which
-/// positions (morphed ones too) and key times must have. Indices: 16 bits wide where `vertex_count` allows it.
+/// Each adds one accessor and returns its number. Vertices are VEC3 floats; `with_bounds` writes min and max, which
+/// positions (including morphed ones) and key times must have. Indices are 16 bits wide if `vertex_count` permits.
 int add_vertices(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bounds);
 int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, std::size_t vertex_count);
-/// VEC2 floats: along, around; or of an atlas to the right, down.
+/// Adds VEC2 floats: along and around, or in an atlas right and down.
 int add_texture_places(GltfDraft& draft, const std::vector<TexturePlace>& place);
-/// VEC4 floats.
+/// Adds VEC4 floats.
 int add_tangents(GltfDraft& draft, const std::vector<std::array<float, 4>>& tangent);
-/// Each vertex follows up to four joints of its skin; weights as bytes, which add up to 255.
+/// Accessors for vertices that follow up to four joints of their skin; weights are bytes, which add up to 255.
 struct SkinAccessors {
   int joints, weights;
 };
@@ -39,10 +39,10 @@ SkinAccessors add_joints(GltfDraft& draft, const std::vector<std::array<std::uin
 /// `type` is TINYGLTF_TYPE_SCALAR, _VEC3 or _VEC4.
 int add_keys(GltfDraft& draft, const std::vector<float>& value, int type, bool with_bounds);
 
-/// Inverse bind matrices of a skin, sixteen numbers each, column by column.
+/// Adds the inverse bind matrices of a skin, sixteen numbers each, column by column.
 int add_bind_matrices(GltfDraft& draft, const std::vector<float>& matrix);
 
-/// An animation of so many frames, evenly in time; all its channels share one list of key times, made with the first.
+/// An animation of frames evenly spaced in time. All its channels share one list of key times, made with the first.
 struct GltfAnimation {
   tinygltf::Animation animation;
   std::size_t frames = 0;
@@ -50,12 +50,12 @@ struct GltfAnimation {
   int time_accessor = -1;
 };
 
-/// A channel of a node's `path` ("translation", "rotation", "weights"), linear between frames. `type` as add_keys.
+/// Adds a channel of a node's `path` ("translation", "rotation", "weights"), linear between frames. `type` as add_keys.
 void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std::string& path,
                  const std::vector<float>& value, int type);
 
-/// Joins the arrays into the one buffer of a GLB, a view for each that is not empty, and encodes it. Errors: more
-/// than 2 GiB, names that are not UTF-8.
+/// Joins the arrays into the one buffer of a GLB, a view for each that is not empty, and encodes it. Fails beyond 2
+/// GiB, or on names that are not UTF-8.
 Result<std::string> glb_bytes(GltfDraft& draft);
 
 }  // namespace mobil::inline v0_3

@@ -15,7 +15,7 @@ int number_of(std::size_t i) {
   return static_cast<int>(i);
 }
 
-/// A material per thing and colour, made when first asked for.
+/// Returns a material per use and colour, made at first use.
 int material(GltfScene& scene, const std::string& of, const Vec3<float>& colour, double roughness) {
   tinygltf::Model& model = scene.draft.model;
   const auto [known, is_new] =
@@ -36,8 +36,8 @@ int add_node(tinygltf::Model& model, const std::string& name) {
   return number_of(model.nodes.size()) - 1;
 }
 
-/// The root and under it the segments, nested, as they are in the first frame. Returns the pelvis' node; the others
-/// follow it in their order.
+/// Adds the root and under it the segments, nested, as they are in the first frame. Returns the pelvis' node; the
+/// others follow it in their order.
 int add_segments(GltfScene& scene, const SkeletonKeys& skeleton, const std::string& name, const std::string& prefix) {
   tinygltf::Model& model = scene.draft.model;
   const int root = add_node(model, scene.names.take(name)), first = root + 1;
@@ -74,7 +74,7 @@ void animate_joints(GltfScene& scene, const SkeletonKeys& skeleton, int first) {
   }
 }
 
-/// From where the figure stands into each segment's frame, and there as large as the person is.
+/// Adds a skin from the figure's standing place to each segment's frame, scaled there to the person's size.
 int add_skin(GltfScene& scene, const GltfFigure& figure, const Vec3<float>& scale, int first, const std::string& name) {
   const Eigen::Vector3d size(static_cast<double>(scale.x), static_cast<double>(scale.y), static_cast<double>(scale.z));
   std::vector<float> matrices;
@@ -93,7 +93,7 @@ int add_skin(GltfScene& scene, const GltfFigure& figure, const Vec3<float>& scal
   return number_of(scene.draft.model.skins.size()) - 1;
 }
 
-/// A node at the root of the scene: what is above the node of a skinned mesh does not move it.
+/// Adds a node at the root of the scene, because nodes above a skinned mesh's node do not move it.
 int add_skinned_node(GltfScene& scene, const std::string& name, tinygltf::Mesh mesh, int skin) {
   tinygltf::Model& model = scene.draft.model;
   const int number = add_node(model, scene.names.take(name));
@@ -106,7 +106,7 @@ int add_skinned_node(GltfScene& scene, const std::string& name, tinygltf::Mesh m
   return number;
 }
 
-/// `texture`, `joint`, `weight`: of each vertex.
+/// `texture`, `joint` and `weight` are per vertex.
 tinygltf::Primitive primitive(GltfDraft& draft, const Eigen::Matrix3Xf& position, const Eigen::Matrix3Xf& normal,
                               const std::vector<TexturePlace>& texture,
                               const std::vector<std::array<std::uint8_t, 4>>& joint,
@@ -160,7 +160,7 @@ void add_figure(GltfScene& scene, const GltfFigure& figure, const SeenPerson& pe
   add(person.colours.empty() ? "bones" : "figure", [&](std::size_t i) { return !dressed_bones || !figure.rigid[i]; });
 }
 
-/// A column per frame: the vertices in the frame of the segment's node, x y z below one another.
+/// Returns a column per frame: the vertices in the frame of the segment's node, x y z below one another.
 Eigen::MatrixXd in_segment(const RecordedMuscle& muscle, const SkeletonKeys& skeleton) {
   const std::size_t vertex_count = muscle.position_m.front().size();
   Eigen::MatrixXd frames(static_cast<Eigen::Index>(3 * vertex_count),
@@ -178,7 +178,7 @@ Eigen::MatrixXd in_segment(const RecordedMuscle& muscle, const SkeletonKeys& ske
   return frames;
 }
 
-/// Where the segment stands, the mean shape round it, with the texture's places.
+/// Adds the mean shape round the segment's standing place, with texture places.
 tinygltf::Primitive standing_muscle(GltfDraft& draft, const MorphedSurface& surface, Segment segment,
                                     const Eigen::Vector3d& standing_m, const std::vector<std::uint32_t>& triangle) {
   const auto vertices = static_cast<std::size_t>(surface.position.cols());
@@ -246,7 +246,7 @@ Result<void> add_person(GltfScene& scene, const SeenPerson& person, const SeenFi
   const int skin = add_skin(scene, made->second, person.scale, first, person.name);
   add_figure(scene, made->second, person, skin, prefix);
   if (person.muscles.empty()) return {};
-  // Muscles are recorded as large as they are.
+  // Muscles are recorded at their full size.
   const bool scaled = person.scale.x != 1 || person.scale.y != 1 || person.scale.z != 1;
   const int own = scaled ? add_skin(scene, made->second, {1, 1, 1}, first, person.name + "_muscles") : skin;
   for (const auto& muscle : person.muscles) {

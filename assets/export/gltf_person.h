@@ -16,28 +16,28 @@
 
 namespace mobil::inline v0_3 {
 
-/// A figure's surfaces, written once for all who look like that: a primitive for each cloth (without its material), in
-/// the places where the first of them stands.
+/// A figure's surfaces, written once for all people who share it: a primitive for each cloth (without its material), in
+/// the standing place of the first person.
 struct GltfFigure {
   std::array<Eigen::Vector3d, segment_count> standing_m;
   std::vector<std::size_t> cloth;  // of each primitive
-  std::vector<std::string> name;   // and what it is
-  std::vector<bool> rigid;         // and whether it is of bones
+  std::vector<std::string> name;   // its name
+  std::vector<bool> rigid;         // true for bones
   std::vector<tinygltf::Primitive> primitive;
 };
 
-/// A scene under way.
+/// A scene being written.
 struct GltfScene {
   GltfDraft draft;
   GltfAnimation animation;
   tinygltf::Scene scene;
   UniqueNames names, material_names;
-  std::map<std::pair<std::string, std::array<float, 3>>, int> materials;  // by what is made of it, and colour
+  std::map<std::pair<std::string, std::array<float, 3>>, int> materials;  // by use and colour
   std::map<std::size_t, GltfFigure> figures;                              // by their number
 };
 
-/// Adds a person: nodes, skin, meshes and channels of the animation. Names of all begin with `prefix`. Errors: a
-/// surface whose triangles have no area.
+/// Adds a person: nodes, skin, meshes and channels of the animation. All names begin with `prefix`. Fails on a surface
+/// whose triangles have no area.
 Result<void> add_person(GltfScene& scene, const SeenPerson& person, const SeenFigure& figure, const std::string& prefix,
                         const ExportOptions& options, std::vector<MuscleFidelity>& fidelity);
 

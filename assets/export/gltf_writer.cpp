@@ -19,7 +19,7 @@ Result<void> check_options(const ExportOptions& options) {
   return {};
 }
 
-/// The bytes of the file.
+/// Returns the bytes of the file.
 Result<std::string> encode_people(const RecordedPeople& recorded, const ExportOptions& options, ExportReport& report) {
   if (auto ok = check_options(options); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_recording(recorded); !ok) return tl::unexpected(ok.error());

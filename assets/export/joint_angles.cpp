@@ -8,7 +8,7 @@ namespace {
 
 constexpr double half_turn = std::numbers::pi, whole_turn = 2 * std::numbers::pi;
 
-/// The same direction, as near to `before` as whole turns bring it.
+/// Returns the same direction, as near to `before` as whole turns bring it.
 double unwound(double angle, double before) {
   return angle - whole_turn * std::round((angle - before) / whole_turn);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a triangle list needs before a viewer can shade it.
+// Preparation of a triangle list for a viewer's shading.
 
 #include <cstdint>
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace mobil::inline v0_3 {
 
-/// A column for each place.
+/// Returns a column for each place.
 Eigen::Matrix3Xd columns_of(std::span<const Vec3<float>> position);
 
-/// Area-weighted vertex normals of unit length, a column per vertex; +Y where no triangle with area touches a vertex.
+/// Returns area-weighted unit normals of vertices, a column each; +Y if no triangle with area has the vertex.
 Eigen::Matrix3Xd vertex_normals(const Eigen::Matrix3Xd& position, const std::vector<std::uint32_t>& triangle);
 
-/// The triangles whose area exceeds a square micrometre, in their order. Position in m, three indices a triangle.
+/// Returns the triangles with an area above a square micrometre, in their order. Position in m, three indices each.
 std::vector<std::uint32_t> triangles_with_area(const Eigen::Matrix3Xd& position,
                                                const std::vector<std::uint32_t>& triangle);
 

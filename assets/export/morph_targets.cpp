@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 
 constexpr Index max_samples = 256;
 
-/// Orthonormal columns that span the largest displacements, most important first (method of snapshots: the eigenvectors
-/// of the small frames × frames matrix).
+/// Returns orthonormal columns that span the largest displacements, most important first (method of snapshots: the
+/// eigenvectors of the small frames × frames matrix).
 MatrixXd principal_shapes(const MatrixXd& displacement, Index count) {
   const Index samples = std::min(displacement.cols(), max_samples);
   MatrixXd sampled(displacement.rows(), samples);
@@ -44,8 +44,8 @@ Matrix3Xd as_vertices(const VectorXd& stacked) {
   return Eigen::Map<const Matrix3Xd>(stacked.data(), 3, stacked.size() / 3);
 }
 
-/// Mean normal and its change with each weight, scaled so that the mean has unit length: only the direction of their
-/// sum counts.
+/// Fits the mean normal and its change with each weight, scaled so that the mean has unit length. Only the direction of
+/// their sum matters.
 void fit_normals(const MatrixXd& frames, const std::vector<std::uint32_t>& triangle, const MatrixXd& weight,
                  MorphedSurface& surface) {
   const Index vertices = frames.rows() / 3, targets = weight.cols();
@@ -61,7 +61,7 @@ void fit_normals(const MatrixXd& frames, const std::vector<std::uint32_t>& trian
   surface.normal.resize(3, vertices);
   for (Index v = 0; v < vertices; ++v) {
     const double length = fitted[0].col(v).norm();
-    const bool opposed = length < 0.05;  // the vertex turned right round: its mean says nothing
+    const bool opposed = length < 0.05;  // the vertex turned right round, so its mean is arbitrary
     surface.normal.col(v) =
         opposed ? Eigen::Vector3f::UnitY() : Eigen::Vector3f((fitted[0].col(v) / length).cast<float>());
     for (Index k = 0; k < targets; ++k) {
@@ -97,7 +97,7 @@ MorphedSurface morph_targets(const MatrixXd& frames, const std::vector<std::uint
   MorphedSurface surface;
   const VectorXd mean = frames.rowwise().mean();
   surface.position = as_vertices(mean).cast<float>();
-  MatrixXd rest = frames.colwise() - mean;  // what the shapes so far leave unexplained
+  MatrixXd rest = frames.colwise() - mean;  // the rest that the shapes so far do not explain
   MatrixXd weight(frames.cols(), 0);
   if (max_targets > 0 && largest_vertex(rest) >= tolerance_m) {
     const MatrixXd shapes = principal_shapes(rest, max_targets);

@@ -16,10 +16,10 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double opensim_degrees = 180 / std::numbers::pi;
-/// In gait2392 the hips are so far apart, and the pelvis' origin lies so far above and ahead of their middle, m.
+/// Distance of the hips in gait2392, and offset of the pelvis' origin above and ahead of their middle, m.
 constexpr double model_hips_m = 2 * 0.0835, model_above_m = 0.0661, model_ahead_m = 0.0707;
 
-/// Ours in OpenSim's axes.
+/// A vector in OpenSim's axes.
 struct OpensimVector {
   double x, y, z;
 };
@@ -30,7 +30,7 @@ OpensimVector in_opensim(const Vec3<float>& v) {
   return {static_cast<double>(v.z), static_cast<double>(v.y), -static_cast<double>(v.x)};
 }
 
-/// A table under way, column by column.
+/// A table being written, column by column.
 struct OpensimTable {
   std::vector<std::string> name;
   std::vector<std::vector<double>> column;
@@ -56,7 +56,7 @@ std::string table_text(const OpensimTable& table, const WalkRecording& recording
   return text;
 }
 
-/// Columns of the three angles of a joint; `about_x` and the others: the sign of each, 0 for none of that name.
+/// Columns of the three angles of a joint, with the sign of each.
 struct JointColumns {
   std::string about_x, about_z, about_y;  // empty: no column
   double x_sign = -1, z_sign = 1, y_sign = 1;

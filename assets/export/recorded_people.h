@@ -1,5 +1,5 @@
 #pragma once
-// One walk or a crowd's, seen alike by writers: nothing is copied, so that the recording must outlive this.
+// One view of a walk or a crowd for writers. Nothing is copied, so the recording must outlive this.
 
 #include <cstddef>
 #include <span>
@@ -15,11 +15,11 @@ inline constexpr Vec3<float> ivory_colour{0.80F, 0.74F, 0.60F};
 
 struct SeenFigure {
   std::span<const BoneSurface> surfaces;
-  std::span<const std::size_t> cloth;  // as RecordedFigure has it
+  std::span<const std::size_t> cloth;  // as in RecordedFigure
   std::span<const SkinnedSurface> skin;
   const std::array<Vec3<float>, segment_count>* standing_m = nullptr;  // of a skin
   std::size_t cloth_of(std::size_t surface) const { return cloth.empty() ? 0 : cloth[surface]; }
-  /// One more than the largest cloth; 0 without surfaces.
+  /// Returns one more than the largest cloth; 0 without surfaces.
   std::size_t cloths() const;
 };
 
@@ -37,7 +37,7 @@ struct RecordedPeople {
   double frame_s = 0;
   std::vector<SeenFigure> figures;
   std::vector<SeenPerson> people;
-  /// What the names of a person's parts begin with: the person's own where there are several.
+  /// Returns the beginning of a person's part names: the person's own name if there are several people.
   std::string prefix(const SeenPerson& person) const { return people.size() > 1 ? person.name + "_" : ""; }
 };
 

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, skin_parts> part_name = {"skin",  "legs",
 
 using SegmentShares = std::array<float, segment_count>;
 
-/// How much a vertex follows each segment, times `part`.
+/// Adds the shares of a vertex' segments, times `part`.
 void add_shares(const SkinMesh& mesh, std::uint32_t vertex, float part, SegmentShares& share) {
   const SkinVertex& hangs = mesh.vertex[vertex];
   for (std::size_t k = 0; k < SkinVertex::max_frames; ++k) {
@@ -26,7 +26,7 @@ void add_shares(const SkinMesh& mesh, std::uint32_t vertex, float part, SegmentS
   }
 }
 
-/// The next vertex follows the heaviest of them, heaviest first.
+/// Makes the next vertex follow the heaviest of them, heaviest first.
 void set_joints(SegmentShares share, SkinnedSurface& surface) {
   auto& joint = surface.joint.emplace_back();
   auto& weight = surface.weight.emplace_back();

@@ -24,7 +24,7 @@ Quat<float> rounded(const Eigen::Quaterniond& q) {
   return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())};
 }
 
-/// Turns each quaternion to the side of the one before it, then keeps one of them if they all are the same rotation.
+/// Turns each quaternion to the side of the one before it, then keeps one if all are the same rotation.
 std::vector<Quat<float>> rotation_keys(std::vector<Eigen::Quaterniond> local) {
   if (local.front().w() < 0) local.front().coeffs() *= -1;
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();

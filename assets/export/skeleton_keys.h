@@ -1,5 +1,5 @@
 #pragma once
-// World poses turned into what a nested node hierarchy wants: each segment's offset and rotation from its parent.
+// Converts world poses to a nested node hierarchy: each segment's offset and rotation from its parent.
 
 #include <array>
 #include <span>
@@ -13,8 +13,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// One segment's transform from its parent (the pelvis's from the world): one entry where it never changes, else one
-/// per frame. Rotations have unit length and consistent signs from key to key.
+/// One segment's transform from its parent (the pelvis's from the world): one entry if it never changes, else one per
+/// frame. Rotations have unit length and consistent signs from key to key.
 struct SegmentKeys {
   std::vector<Vec3<float>> translation_m;
   std::vector<Quat<float>> rotation;
@@ -30,14 +30,14 @@ struct SkeletonKeys {
   std::vector<std::vector<RigidTransform>> world;  // [frame][segment], recomposed from the rounded keys
 };
 
-/// Each segment is measured from its parent as recomposed from the keys, so that rounding does not add up along the
-/// chain: every recomposed position is within about 5 µm + four roundings of its world position.
-/// LodRequest at least one frame, finite numbers and rotations of non-zero length.
+/// Measures each segment from its parent as recomposed from the keys, so that rounding does not add up along the chain.
+/// Every recomposed position is within about 5 µm + four roundings of its world position. Requires at least one frame,
+/// finite numbers and rotations of non-zero length.
 SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames);
 
-/// Where each segment's origin is while the body stands as anatomists have it, m: no segment is turned, each lies from
-/// its parent as on the mean over the recording, the pelvis at x = z = 0 and so high that the lowest vertex of the
-/// surfaces (the lowest joint, without any) is at y = 0.
+/// Returns each segment's origin in the anatomical position, m. No segment is turned, and each has its mean offset from
+/// its parent over the recording. The pelvis is at x = z = 0, so high that the lowest vertex of the surfaces (the
+/// lowest joint, without any) is at y = 0.
 std::array<Eigen::Vector3d, segment_count> standing_places(const SkeletonKeys& skeleton,
                                                            std::span<const BoneSurface> surfaces);
 

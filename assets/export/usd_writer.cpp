@@ -20,7 +20,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// A file under way: lines that are indented as prims nest.
+/// A file being written: lines are indented as prims nest.
 struct UsdText {
   std::string text;
   std::size_t depth = 0;
@@ -30,7 +30,7 @@ struct UsdText {
     text += content;
     text += '\n';
   }
-  /// `schemas`: what stands in the parentheses behind the name; nothing where it is empty.
+  /// Opens a prim. `metadata` is written in parentheses after the name, if any.
   void open(std::string_view type, std::string_view name, std::string_view metadata = {}) {
     line(fmt::format("{} \"{}\"{}", type, name, metadata.empty() ? std::string() : fmt::format(" ({})", metadata)));
     line("{");
@@ -42,7 +42,7 @@ struct UsdText {
   }
 };
 
-/// "[a, b, …]" of what `write` puts for each.
+/// Returns "[a, b, …]" with the output of `write` for each.
 template <class Range, class Write>
 std::string usd_array(const Range& values, const Write& write) {
   std::string text = "[";
@@ -75,7 +75,7 @@ std::string usd_extent(std::span<const Vec3<float>> points) {
   }
   return usd_points(box);
 }
-/// `atlas`: of places to the right and down from the upper left corner, where USD counts up from the lower left one.
+/// `atlas` marks places to the right and down from the upper left corner; USD counts up from the lower left one.
 std::string usd_texture(std::span<const TexturePlace> places, bool atlas = false) {
   return usd_array(places, [&](std::string& out, const TexturePlace& place) {
     out += fmt::format("({:.4f}, {:.4f})", place.along, atlas ? 1 - place.around : place.around);
@@ -85,7 +85,7 @@ std::string usd_colour(const Vec3<float>& c) {
   return fmt::format("[({:.4f}, {:.4f}, {:.4f})]", c.x, c.y, c.z);
 }
 
-/// "pelvis/L5/L4": the joints' names are paths.
+/// Returns "pelvis/L5/L4": joint names are paths.
 std::string joint_tokens() {
   std::vector<std::string> path(segment_count);
   for (std::size_t s = 0; s < segment_count; ++s) {
@@ -100,7 +100,7 @@ std::string usd_matrix(const Eigen::Vector3d& scale, const Eigen::Vector3d& plac
                      scale.x(), scale.y(), scale.z(), place.x(), place.y(), place.z());
 }
 
-/// `value` of each frame, at its time code.
+/// Adds `value` of each frame, at its time code.
 template <class Value>
 void add_samples(UsdText& usd, std::string_view attribute, std::size_t frames, const Value& value) {
   usd.line(fmt::format("{}.timeSamples = {{", attribute));
@@ -150,7 +150,7 @@ void add_animation(UsdText& usd, const SkeletonKeys& keys) {
   usd.close();
 }
 
-/// What does not change of a mesh.
+/// Adds the constant part of a mesh.
 void add_topology(UsdText& usd, std::span<const std::uint32_t> triangle) {
   const std::vector<std::uint32_t> threes(triangle.size() / 3, 3);
   usd.line("uniform token subdivisionScheme = \"none\"");
@@ -158,7 +158,7 @@ void add_topology(UsdText& usd, std::span<const std::uint32_t> triangle) {
   usd.line("int[] faceVertexIndices = " + usd_numbers(triangle));
 }
 
-/// One cloth as a mesh, where the figure stands.
+/// Adds one cloth as a mesh, in the figure's standing place.
 void add_cloth(UsdText& usd, const FigurePiece& piece) {
   add_topology(usd, piece.triangle);
   usd.line("point3f[] points = " + usd_points(piece.position));
@@ -198,7 +198,7 @@ void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::str
   usd.close();
 }
 
-/// A file's people, and where their figures stand.
+/// A file's people, and the standing places of their figures.
 struct UsdScene {
   const RecordedPeople& recorded;
   UsdText usd{};
@@ -219,7 +219,7 @@ void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path
   const SkeletonKeys keys = skeleton_keys(*person.frames);
   const std::string body = path + "/Body";
   usd.open("def SkelRoot", "Body");
-  // At rest each person's joints are where their own skeleton has them, as high as the figure stands.
+  // At rest each person's joints are in their own skeleton's places, as high as the figure.
   StandingPlaces rest = standing_places(keys, figure.surfaces);
   const double up_m = person.scale.y * scene.standing[person.figure][index(Segment::pelvis)].y() - rest[0].y();
   for (auto& place : rest) place.y() += figure.skin.empty() ? 0 : up_m;
@@ -252,7 +252,7 @@ void add_usd_person(UsdScene& scene, const SeenPerson& person, const std::string
   usd.close();
 }
 
-/// Surfaces that several people share, as a class, which is not drawn itself.
+/// Adds surfaces that several people share, as a class, which is not drawn itself.
 void add_shared_figures(UsdScene& scene) {
   UsdText& usd = scene.usd;
   usd.open("class Scope", "figures");

@@ -15,7 +15,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Joints' places have a digit more, for they add up along the chain.
+/// Joints' places have one digit more, because they add up along the chain.
 void append_point(std::string& text, const Vec3<float>& p) {
   text += fmt::format("{:.5f} {:.5f} {:.5f} ", p.x, p.y, p.z);
 }
@@ -23,7 +23,7 @@ void append_place(std::string& text, const Vec3<float>& p) {
   text += fmt::format("{:.6f} {:.6f} {:.6f} ", p.x, p.y, p.z);
 }
 
-/// Axis and angle.
+/// Appends axis and angle.
 void append_turn(std::string& text, const Quat<float>& q) {
   const Eigen::AngleAxisd turn(Eigen::Quaterniond(static_cast<double>(q.w), static_cast<double>(q.x),
                                                   static_cast<double>(q.y), static_cast<double>(q.z)));
@@ -37,7 +37,7 @@ std::string points_text(const std::vector<Vec3<float>>& position) {
   return text;
 }
 
-/// A scene with what moves in it.
+/// A scene with its moving fields.
 struct MovingScene {
   SceneText text;
   UniqueNames names{};
@@ -48,7 +48,7 @@ struct MovingScene {
   };
   std::vector<Interpolator> interpolators{};
 
-  /// `node` and `field` go as `values` (one a frame) tell.
+  /// Moves `field` of `node` through `values` (one a frame).
   void move(const std::string& node, const std::string& field, const char* type, std::string values) {
     const std::string name = names.take(node + "_" + field);
     interpolators.push_back({type, name, std::move(values)});
@@ -56,7 +56,7 @@ struct MovingScene {
   }
 };
 
-/// `name`: of the coordinates, where they move.
+/// `name` is that of the coordinates, if they move.
 void add_shape(MovingScene& scene, const Vec3<float>& colour, const std::vector<Vec3<float>>& position,
                const std::vector<std::uint32_t>& triangle, const std::string& name) {
   SceneText& text = scene.text;

@@ -14,7 +14,7 @@ namespace {
 
 using Displacements = std::vector<double>;
 
-/// A belly of one body, and ω² of what holds it sideways.
+/// A belly of one body, and ω² of its sideways foundation.
 class Sized {
  public:
   Sized(const StiffnessTerms& terms, double across, double along, double sideways_1_s2 = 0)
@@ -26,7 +26,7 @@ class Sized {
         sideways_(sideways_1_s2 * across * across * along) {}
 
   const Cells& cells() const { return terms_.cells; }
-  /// y = K·x over all displacements, constrained ones too.
+  /// y = K·x over all displacements, including constrained ones.
   void multiply(const Displacements& x, Displacements& y) const {
     stiffness_.multiply(x, y);
     for (std::size_t n = 0; sideways_ > 0 && n < terms_.lumped_mass_kg.size(); ++n)
@@ -45,7 +45,7 @@ double scalar_product(const Displacements& a, const Displacements& b) {
   return sum;
 }
 
-/// u such that K·u = `load` where it is free to move, from a u that has the prescribed ends.
+/// Solves K·u = `load` where u is free to move, from a u that has the prescribed ends.
 void solve(const Sized& belly, FarEnd end, const Displacements& load, Displacements& u) {
   const Cells& cells = belly.cells();
   const auto hold = [&](Displacements& v) {  // zero where the displacement is prescribed

@@ -21,7 +21,7 @@ struct Band {
   double* column(std::size_t c) { return entry.data() + c * (reach + 1); }
   double at(std::size_t row, std::size_t c) const { return row - c > reach ? 0 : entry[c * (reach + 1) + row - c]; }
 
-  /// In place; false where the matrix is not positive definite.
+  /// Factorises in place; returns false if the matrix is not positive definite.
   bool factorise() {
     for (std::size_t c = 0; c < size; ++c) {
       double* const own = column(c);
@@ -40,13 +40,13 @@ struct Band {
   }
 };
 
-/// Beyond so many critical steps the slowest vibrations turn half a turn a step, and what three sweeps leave of them
-/// feeds itself: at 250 it adds half within a thousand undamped steps, at 2500 and more two- to twentyfold. A step with
-/// δ = B·residual keeps its measure of energy for any symmetric B ≤ (1 + 4/(ωΔt)²)·operator⁻¹ and grows beyond: hence
-/// eight sweeps, and a correction that stays below 1 by more than single precision rounds.
+/// Critical steps per step beyond which the slowest vibrations turn half a turn a step and the error of three sweeps
+/// feeds itself. At 250 it adds half within a thousand undamped steps, at 2500 and more two- to twentyfold. A step with
+/// δ = B·residual keeps its measure of energy for any symmetric B ≤ (1 + 4/(ωΔt)²)·operator⁻¹ and grows beyond. Such
+/// steps take eight sweeps, and a correction below 1 by more than single-precision rounding.
 constexpr double many_critical_steps = 25;
 
-/// What is solved: mass_factor·M per component + stiffness_factor·K.
+/// Operator of the solver: mass_factor·M per component + stiffness_factor·K.
 struct Operator {
   std::array<double, 3> mass_factor{};
   double stiffness_factor = 0;
@@ -62,12 +62,12 @@ double foundation(const MuscleOptions& options) {
   return circular * circular;
 }
 
-/// How many numbers apart two neighbours are at most.
+/// Returns the maximum difference of two neighbours' numbers.
 std::size_t node_reach(const Cells& cells) {
   return std::size_t{plane_nodes(cells)} + (cells[0] + 1) + 1;
 }
 
-/// Rows of the moving planes with `components` to a node. Components that do not move get a row of their own alone.
+/// Fills rows of the moving planes with `components` a node. Components that do not move get an uncoupled row.
 Band make_band(const MuscleTemplate& muscle, Mass mass, const Operator& what, double across, double along,
                BandFactor& factor) {
   const StiffnessTerms& terms = muscle.terms;
@@ -97,7 +97,7 @@ Band make_band(const MuscleTemplate& muscle, Mass mass, const Operator& what, do
   return band;
 }
 
-/// Puts the factor into the order in which the kernels read it.
+/// Writes the factor in the order in which the kernels read it.
 void write_factor(const Band& band, const Cells& cells, FarEnd end, BandFactor& factor) {
   const std::size_t width = factor.components, reach = node_reach(cells);
   const auto coupled = [&](std::size_t n, std::size_t m) {  // m below n
@@ -146,7 +146,7 @@ void write_factor(const Band& band, const Cells& cells, FarEnd end, BandFactor& 
   }
 }
 
-/// Sums over the rows of the mass matrix that the loads of the frame and of a held far face need.
+/// Sums rows of the mass matrix for the loads of the frame and of a held far face.
 void write_mass_sums(const MuscleTemplate& muscle, BellySolver& solver) {
   const Cells& cells = muscle.terms.cells;
   solver.moment_kg_m.assign(nodal_width(cells), 0);

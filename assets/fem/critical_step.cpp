@@ -31,7 +31,7 @@ StencilPencil empty_pencil(const StiffnessTerms& terms, const StepCase& step_cas
           moving_components(terms.cells, step_case.end)};
 }
 
-/// Fills what `empty_pencil` made, for a belly scaled so.
+/// Fills the result of `empty_pencil` for a belly of that scale.
 void fill_pencil(const StiffnessTerms& terms, double across, double along, const StepCase& step_case,
                  StencilPencil& pencil) {
   const Cells& cells = terms.cells;
@@ -56,13 +56,13 @@ void fill_pencil(const StiffnessTerms& terms, double across, double along, const
   });
 }
 
-/// How far below its chord from x[i] to x[i + 1] a convex h(x) may lie: it is above the chords on either side,
-/// prolonged, whose slopes are `before` and `after`.
+/// Returns the maximum distance of a convex h(x) below its chord from x[i] to x[i + 1]. It is above the chords on
+/// either side, prolonged, whose slopes are `before` and `after`.
 double sag(double before, double slope, double after, double width) {
   return after <= before ? 0 : (slope - before) * (after - slope) / (after - before) * width;
 }
 
-/// Fills a CriticalSteps' tables: h(r, q) wherever one is needed, and further arguments where h may sag too much.
+/// Fills the tables of CriticalSteps: h(r, q) wherever one is needed, and more arguments where h can sag too much.
 class Tabulation {
  public:
   Tabulation(CriticalSteps& table, const StiffnessTerms& terms, const StepCase& step_case)
@@ -86,8 +86,8 @@ class Tabulation {
     table_.foundation.insert(table_.foundation.begin() + static_cast<std::ptrdiff_t>(level), q);
   }
 
-  /// Beyond the table's ends h grows no slower than a constant and no faster than r² (as an even convex function of
-  /// r, and over r² one of 1/r).
+  /// Beyond the table's ends h grows at least like a constant and at most like r² (as an even convex function of r, and
+  /// over r² one of 1/r).
   bool sags_between_ratios(std::size_t i) const {
     const auto& r = table_.ratio;
     for (std::size_t level = 0; level < table_.foundation.size(); ++level) {
@@ -99,7 +99,7 @@ class Tabulation {
     }
     return false;
   }
-  /// By a foundation's stiffness h grows no slower than not at all and no faster than that itself.
+  /// With a foundation's stiffness h grows at a rate between 0 and 1.
   bool sags_between_foundations(std::size_t level) const {
     const auto& q = table_.foundation;
     for (std::size_t i = 0; i < table_.ratio.size(); ++i) {
@@ -110,7 +110,7 @@ class Tabulation {
     }
     return false;
   }
-  /// Past the last foundation the lookup lets h grow as fast as it can: whether that is too much by `q`.
+  /// True if h, growing as fast as it can past the last foundation, is too much at `q`.
   bool sags_beyond(double q) const {
     const std::size_t last = table_.foundation.size() - 1, n = table_.ratio.size();
     const double past = q - table_.foundation[last];

@@ -40,8 +40,8 @@ LocalPoint local_point(std::size_t point) {
   return p;
 }
 
-/// The volume is Σ over a < b < c of T_abc·det(x_a, x_b, x_c), T antisymmetric: for each pair a > b the corners c with
-/// a T that is not 0.
+/// The volume is Σ over a < b < c of T_abc·det(x_a, x_b, x_c), T antisymmetric. Stored for each pair a > b are the
+/// corners c with a T that is not 0.
 struct VolumeTerms {
   struct Term {
     std::size_t corner;
@@ -74,7 +74,7 @@ const VolumeTerms& volume_terms() {
   return terms;
 }
 
-/// Derivative of the volume's gradient at corner a over corner b is w ↦ −w×, w = Σ_c T_abc·x_c.
+/// The derivative of the volume's gradient at corner a over corner b is w ↦ −w×, w = Σ_c T_abc·x_c.
 using PairVectors = std::array<Place, 36>;
 
 double volume_gradient(const Corners& at, PairVectors& w, Corners& gradient) {
@@ -139,7 +139,7 @@ Result<std::vector<FiniteElement>> finite_elements(const HexahedralMesh& mesh, c
     const std::size_t layer = e / (mesh.cells[0] * mesh.cells[1]);
     for (std::size_t q = 0; q < 8; ++q) {
       const LocalPoint p = local_point(q);
-      Corners jacobian{};  // first three rows: direction in the element, column: space
+      Corners jacobian{};  // first three rows are directions in the element, columns are space
       for (std::size_t a = 0; a < 8; ++a) {
         const auto& x = mesh.node[element.node[a]];
         for (std::size_t d = 0; d < 3; ++d) {

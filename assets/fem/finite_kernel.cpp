@@ -13,7 +13,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Of the element's middle line from its lower face to its upper.
+/// Returns the direction of the element's middle line from its lower face to its upper.
 Gradient direction_along(const HexahedralMesh& mesh, const Hexahedron& h) {
   Gradient along{};
   for (std::size_t a = 0; a < 8; ++a) {
@@ -47,8 +47,7 @@ MeanGradient mean_of(const HexahedralMesh& mesh, const Hexahedron& h) {
   return mean_gradient(points);
 }
 
-/// Sections across the muscle are flat, as all meshes here have them: the kernel leaves out what slanted ones would
-/// add.
+/// Checks that sections across the muscle are flat, as in all meshes here. The kernel omits the terms of slanted ones.
 Result<void> check_sections(const HexahedralMesh& mesh) {
   const std::uint32_t nodes = plane_nodes(mesh.cells);
   const double flat_m = 1e-9 * (mesh.node.back().z - mesh.node.front().z);
@@ -61,7 +60,7 @@ Result<void> check_sections(const HexahedralMesh& mesh) {
   return {};
 }
 
-/// Factors of the sums over the corners, times ±1, that gradients and hourglass patterns consist of.
+/// Sets the factors of the sums over the corners, times ±1, that make up gradients and hourglass patterns.
 void set_sums(const HexahedralMesh& mesh, const Hexahedron& h, const MeanGradient& mean, FiniteKernelElement& to) {
   const auto factor = [&](std::size_t c, auto sign) {
     double sum = 0;
@@ -91,7 +90,7 @@ void set_sums(const HexahedralMesh& mesh, const Hexahedron& h, const MeanGradien
   to.straight = {part(eta_zeta), part(xi_zeta), part(xi_eta), part(all)};
 }
 
-/// What neither slope nor tension over stretch of fibres that are not crowded exceeds.
+/// Returns a bound on slope and on tension over stretch of fibres that are not crowded.
 double stiffest_fibre_pa(const FiniteTissue& tissue) {
   const double passive =
       tissue.passive_pa * exact::exp(max_passive_exponent) * 4 / 0.6 * tissue.rest_over_optimal / (exact::exp(4) - 1);

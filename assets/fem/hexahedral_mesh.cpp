@@ -53,8 +53,8 @@ Result<void> check_grading(const Grading& grading) {
   return {};
 }
 
-/// Where the planes between `count` elements lie, in mean element lengths from the first: a function of i / count
-/// alone, so that meshes nest, and rounded, so that machines whose logarithms differ make the same mesh.
+/// Returns the planes between `count` elements, in mean element lengths from the first. They are a function of only i /
+/// count, so meshes nest, and are rounded, so machines whose logarithms differ make the same mesh.
 std::vector<double> graded_planes(std::uint32_t count, double ratio) {
   std::vector<double> planes(count + 1);
   const double steepness = exact::log(ratio);
@@ -80,7 +80,7 @@ LatticeStation station_at(std::span<const LatticeStation> stations, double t) {
           mix(a.shear_y_m, b.shear_y_m)};
 }
 
-/// A corner's three edges, right-handed: this corner, and its neighbours along x, y and z.
+/// A corner's three edges, right-handed: the corner, and its neighbours along x, y and z.
 constexpr std::array<std::array<std::uint8_t, 4>, 8> corner_edges = {
     {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
 

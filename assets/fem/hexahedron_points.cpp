@@ -17,7 +17,7 @@ GaussPoint gauss_point(const HexahedralMesh& mesh, const Hexahedron& h, std::siz
   const double xi[3] = {corner[point][0] * g, corner[point][1] * g, corner[point][2] * g};
   GaussPoint q{};
   double local[8][3];
-  Matrix3 jacobian{};  // row: reference direction, column: space
+  Matrix3 jacobian{};  // rows are reference directions, columns are space
   for (std::size_t a = 0; a < 8; ++a) {
     double factor[3];
     for (std::size_t d = 0; d < 3; ++d) factor[d] = 0.5 * (1 + corner[a][d] * xi[d]);

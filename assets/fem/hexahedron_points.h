@@ -1,5 +1,5 @@
 #pragma once
-// An eight-node hexahedron at its 2×2×2 Gauss points, and as a whole: mean gradients and hourglass patterns.
+// An eight-node hexahedron at its 2×2×2 Gauss points, and in total: mean gradients and hourglass patterns.
 
 #include <array>
 #include <cstddef>
@@ -14,8 +14,8 @@ inline constexpr std::array<std::array<int, 3>, 8> hexahedron_corner = {
 
 using Gradient = std::array<double, 3>;
 
-/// Shape functions at one Gauss point: values, gradients in space (1/m), and the volume the point stands for, which is
-/// not positive where the element is inverted there.
+/// Shape functions at one Gauss point: values, gradients in space (1/m), and the point's volume, which is not positive
+/// if the element is inverted there.
 struct GaussPoint {
   std::array<double, 8> value;
   std::array<Gradient, 8> gradient;
@@ -23,20 +23,19 @@ struct GaussPoint {
 };
 GaussPoint gauss_point(const HexahedralMesh& mesh, const Hexahedron& h, std::size_t point);
 
-/// The shape functions' mean gradients over an element and its volume (exact: their integrands are within the reach of
-/// 2×2×2 points).
+/// Mean gradients of the shape functions over an element, and its volume (exact: 2×2×2 points integrate them exactly).
 struct MeanGradient {
   std::array<Gradient, 8> gradient{};
   double volume_m3 = 0;
 };
 MeanGradient mean_gradient(const std::array<GaussPoint, 8>& points);
 
-/// Flanagan and Belytschko's γ = h − Σ(h·xᵢ)·∂N/∂xᵢ of the four hourglass patterns: orthogonal to every linear
-/// displacement, and the same however the element is stretched along the axes.
+/// Flanagan and Belytschko's γ = h − Σ(h·xᵢ)·∂N/∂xᵢ of the four hourglass patterns. They are orthogonal to every linear
+/// displacement, and independent of the element's stretch along the axes.
 using HourglassPatterns = std::array<std::array<double, 8>, 4>;
 HourglassPatterns hourglass_patterns(const HexahedralMesh& mesh, const Hexahedron& h, const MeanGradient& mean);
 
-/// What one-point elements resist these patterns with, N/m: `across`·l + `along`·S²/l in a body of that size.
+/// Resistance of one-point elements to these patterns, N/m: `across`·l + `along`·S²/l in a body of that size.
 struct HourglassStiffness {
   double across, along;
 };

@@ -38,7 +38,7 @@ namespace {
 
 constexpr std::size_t own_slot = stencil_slot(0, 0, 0);
 
-/// The node at that slot of node n's stencil, which must exist.
+/// Returns the node at that slot of node n's stencil, which must exist.
 std::uint32_t neighbour(const Cells& cells, std::uint32_t n, std::size_t slot) {
   const auto offset = [slot](std::size_t unit) { return static_cast<std::int64_t>(slot / unit % 3) - 1; };
   return static_cast<std::uint32_t>(n + offset(1) + offset(3) * (cells[0] + 1) + offset(9) * plane_nodes(cells));
@@ -48,7 +48,7 @@ std::uint32_t neighbour(const Cells& cells, std::uint32_t n, std::size_t slot) {
 template <std::size_t count>
 using Words = std::array<double, count>;
 
-/// What a kernel reads of a pair, and which word is which other's in the pair's transposed.
+/// Words of a pair that a kernel reads, and the index of each in the transposed pair.
 struct IndividualWords {
   static constexpr std::size_t count = KernelArrays::individual_words;
   static constexpr std::array<std::size_t, count> transposed = {0, 2, 1, 3, 4, 7, 8, 5, 6, 9, 10, 11};
@@ -62,7 +62,7 @@ struct SharedWords {
   static Words<count> of(const StencilPair& p) { return stiffness_block(p, 1, 1); }
 };
 
-/// The rows of the moving nodes as the kernels read them.
+/// Returns the rows of the moving nodes as the kernels read them.
 template <class Kind>
 std::vector<float> rows(const StiffnessTerms& terms) {
   const Cells& cells = terms.cells;
@@ -77,7 +77,7 @@ std::vector<float> rows(const StiffnessTerms& terms) {
     const std::uint32_t n = node_index(cells, i, j, k);
     if (n < fixed) return;
     Words<Kind::count> own{};
-    std::array<std::size_t, Kind::count> weakest{};  // slot of a neighbour whose own row is yet to come
+    std::array<std::size_t, Kind::count> weakest{};  // slot of a neighbour whose own row follows later
     for_each_neighbour(cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
       if (m == n) return;
       const std::size_t at = n * stencil_size + slot;

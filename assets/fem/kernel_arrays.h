@@ -1,5 +1,5 @@
 #pragma once
-// A template's operators in single precision, in the order in which the kernels walk.
+// A template's operators in single precision, in the kernels' order.
 
 #include <cstddef>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace mobil::inline v0_3 {
 
-/// Rows are the nodes from the second plane to the last, x fastest; a row's neighbours are those that exist, except in
+/// Rows are the nodes from the second plane to the last, x fastest. A row's neighbours are the existing ones outside of
 /// the (fixed) first plane, x fastest.
 ///
-/// The rounded operator is symmetric, or bellies would gain energy as they circle. What rounding a node's coupling to
-/// itself takes along x, y or z its weakest coupling makes up for, so that a translation costs no force: else slender
-/// bellies would bend to a wrong beat.
+/// The rounded operator is symmetric, because asymmetric ones let circling bellies gain energy. A node's weakest
+/// coupling makes up for the rounding of its coupling to itself along x, y or z, so a translation costs no force.
+/// Without that, slender bellies would bend at a wrong frequency.
 struct KernelArrays {
   static constexpr std::size_t individual_words = 12;  // a pair's A, B, C, as in StencilPair
   static constexpr std::size_t shared_words = 9;       // a pair's 3×3 block at S = l = 1, row-major
@@ -28,8 +28,8 @@ struct KernelArrays {
   float volume_m3 = 0;
 };
 
-/// ∫N dA of each node of the far face, as parts of their sum (2×2 Gauss points on each quadrilateral): what a uniform
-/// traction puts on each.
+/// Returns ∫N dA of each node of the far face, as parts of their sum (2×2 Gauss points on each quadrilateral). They are
+/// the nodes' shares of a uniform traction.
 std::vector<double> far_shares(const HexahedralMesh& mesh);
 
 KernelArrays make_kernel_arrays(const HexahedralMesh& mesh, const StiffnessTerms& terms);

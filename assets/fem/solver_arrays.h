@@ -1,5 +1,5 @@
 #pragma once
-// The arrays of a belly's solver, one after the other: what its fingerprint is of, and what a file keeps of it.
+// The arrays of a belly's solver in order, for fingerprints and files.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Calls f(array, length) with each array of a solver (const or not) for bellies of those cells and the length that
-/// follows from them and from the couplings, which come first.
+/// Calls f(array, length) with each array of a solver (const or not) for bellies of those cells. The length follows
+/// from the cells and from the couplings, which are first.
 template <class Solver, class F>
 void each_array(Solver& solver, const Cells& cells, F&& f) {
   auto& factor = solver.factor;

@@ -13,13 +13,13 @@ namespace mobil::inline v0_3 {
 class StencilMatrix {
  public:
   StencilMatrix() = default;
-  /// `block(n, m, slot)`: the 3×3 coupling, row-major, of node n's forces to the displacements of its neighbour m.
+  /// `block(n, m, slot)` returns the 3×3 coupling, row-major, of node n's forces to its neighbour m's displacements.
   template <class Block>
   StencilMatrix(const Cells& cells, const Block& block) {
     fill(cells, block);
   }
 
-  /// Another matrix in the same memory.
+  /// Replaces the matrix in the same memory.
   template <class Block>
   void fill(const Cells& cells, const Block& block) {
     first_.clear();
@@ -37,7 +37,7 @@ class StencilMatrix {
   void multiply(const std::vector<double>& x, std::vector<double>& y) const;
 
  private:
-  /// Columns of a 3×3 block, each filled up to what vectors of the machine hold.
+  /// Columns of a 3×3 block, each padded to the width of a machine vector.
   struct Coupling {
     std::array<std::array<double, 4>, 3> column;
     std::size_t of;  // the neighbour's first displacement

@@ -40,7 +40,7 @@ ElementTerms full_element(const std::array<GaussPoint, 8>& points, double lambda
   return terms;
 }
 
-/// The deviator at the Gauss points, the dilatation as its mean: with ε̄ = ε + ⅓(mean − tr ε)·I the energy is
+/// Takes the deviator at the Gauss points and the dilatation as its mean. With ε̄ = ε + ⅓(mean − tr ε)·I the energy is
 /// 2μ·(ε:ε − ⅓(tr ε)²) + (λ + ⅔μ)·mean².
 ElementTerms bbar_element(const std::array<GaussPoint, 8>& points, double lambda, double mu) {
   ElementTerms terms = full_element(points, -2 * mu / 3, mu);
@@ -87,7 +87,7 @@ std::size_t slot_between_corners(std::size_t a, std::size_t b) {
 }
 
 Result<void> check_material(const Material& m) {
-  // Beyond these, products of what a belly is made of leave single precision.
+  // Beyond these, products of a belly's quantities leave single precision.
   if (!(m.density_kg_m3 >= 1 && m.density_kg_m3 <= 1e6)) {
     return fail(fmt::format("density {} kg/m^3 must be from 1 to 1e6", m.density_kg_m3));
   }

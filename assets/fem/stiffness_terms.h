@@ -1,11 +1,11 @@
 #pragma once
 // The stiffness and mass of a belly, assembled once per template and scaled to every individual.
 //
-// A mesh scaled by S across (x, y) and l along (z), r = S / l, has the stiffness
-//   K = S·(A/r + B + r·C)
-// where A collects the products of two gradients across, B of one across and one along, C of two along (E and ν
-// inside), and the mass S²·l·M₁. A occupies xx, xy, yx, yy, zz of the 3×3 coupling of two nodes, B xz, yz, zx, zy,
-// C xx, yy, zz: twelve numbers a pair.
+// A mesh scaled by S across (x, y) and l along (z), r = S / l, has the mass S²·l·M₁ and the stiffness
+//   K = S·(A/r + B + r·C).
+// A collects the products of two gradients across, B of one across and one along, C of two along (E and ν inside).
+// A occupies xx, xy, yx, yy, zz of the 3×3 coupling of two nodes, B xz, yz, zx, zy, C xx, yy, zz: twelve numbers a
+// pair.
 
 #include <array>
 #include <cstddef>
@@ -27,17 +27,17 @@ struct StencilPair {
 
 inline constexpr std::size_t stencil_size = 27;
 
-/// Place in a node's stencil of the neighbour at offset (dx, dy, dz), each −1, 0 or 1.
+/// Returns the place in a node's stencil of the neighbour at offset (dx, dy, dz), each −1, 0 or 1.
 constexpr std::size_t stencil_slot(int dx, int dy, int dz) {
   const int slot = (dz + 1) * 9 + (dy + 1) * 3 + dx + 1;
   return static_cast<std::size_t>(slot);
 }
 
-/// That of an element's corner b as seen from its corner a.
+/// Returns the slot of an element's corner b as seen from its corner a.
 std::size_t slot_between_corners(std::size_t a, std::size_t b);
 
 /// Unconstrained operators of a template. `pair[27·node + slot]` and `consistent_mass_kg[27·node + slot]` couple a node
-/// to its neighbour at that slot (zero where there is none); `lumped_mass_kg[node]` is the row sum, whose total is
+/// to its neighbour at that slot (zero if it does not exist). `lumped_mass_kg[node]` is the row sum, whose total is
 /// exactly density × volume.
 struct StiffnessTerms {
   Cells cells{};
@@ -46,23 +46,23 @@ struct StiffnessTerms {
   std::vector<double> lumped_mass_kg;
 };
 
-/// Fails, naming the valid range, unless density > 0, Young's modulus > 0 and −1 < Poisson's ratio < 0.5, all finite.
+/// Fails unless density is 1–1e6 kg/m³, Young's modulus 1–1e12 Pa and Poisson's ratio −0.99–0.4999; names the range.
 Result<void> check_material(const Material& material);
 
 /// ε of the hourglass stiffness ε·4μ·V·Σ|∇N|²/8 of one-point elements. Flanagan and Belytschko's λ + 2μ, which is 4μ at
-/// ν = ⅓, grows without bound towards ν = ½ and locks there: at ν = 0.49 a clamped 2×2×8 block bent sideways is 64 %
-/// too stiff, with 4μ 3 % too soft. Sideways flexibility of that block and of a tapering, bent one against refined
-/// meshes, ν from ⅓ to 0.49: +13 and +13 % with 0.03, +5 and −7 % with 0.05, −11 and −31 % with 0.1 (full integration
-/// −15 and −24 % at ν = ⅓, −46 and −66 % at 0.49; B-bar −3 and −11 %).
+/// ν = ⅓, grows without bound towards ν = ½ and locks there. At ν = 0.49 a clamped 2×2×8 block bent sideways is 64 %
+/// too stiff with it, 3 % too soft with 4μ. The sideways flexibility of that block and of a tapering, bent one differs
+/// from refined meshes, ν from ⅓ to 0.49, by +13 and +13 % with 0.03. It differs by +5 and −7 % with 0.05, −11 and −31
+/// % with 0.1. Full integration has −15 and −24 % at ν = ⅓, −46 and −66 % at 0.49, B-bar −3 and −11 %.
 inline constexpr double hourglass_share = 0.05;
 
-/// Trilinear isotropic elements; masses at 2×2×2 Gauss points for every kind. `full`: 2×2×2 Gauss points. `bbar`: with
-/// the dilatation's mean over the element (Hughes, The Finite Element Method, 1987, sections 3 and 4.5). `one_point`:
-/// mean gradients and hourglass stiffness (Flanagan and Belytschko, Int. J. Numer. Meth. Eng. 17, 1981). Fails on a
-/// bad material or an inverted element, which it names.
+/// Assembles trilinear isotropic elements; all kinds have masses at 2×2×2 Gauss points. `full` has 2×2×2 Gauss points.
+/// `bbar` takes the dilatation's mean over the element (Hughes, The Finite Element Method, 1987, sections 3 and 4.5).
+/// `one_point` has mean gradients and hourglass stiffness (Flanagan and Belytschko, Int. J. Numer. Meth. Eng. 17,
+/// 1981). Fails on a bad material or an inverted element, which the error names.
 Result<StiffnessTerms> assemble(const HexahedralMesh& mesh, const Material& material, Element element = Element::full);
 
-/// The 3×3 coupling (row-major) of a pair in a body scaled by S across and l along, N/m.
+/// Returns the 3×3 coupling (row-major) of a pair in a body scaled by S across and l along, N/m.
 std::array<double, 9> stiffness_block(const StencilPair& pair, double across, double along);
 
 /// Calls f(neighbour, slot) for every neighbour of node (i, j, k) that exists, itself included, x fastest.

@@ -16,7 +16,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-/// Eight sums beside each other, for one after the other would wait for itself; in this order on any machine.
+/// Takes eight interleaved sums, because one would wait for itself; in this order on any machine.
 double dot(const double* a, const double* b, std::size_t count) {
   constexpr std::size_t sums = 8;
   double sum[sums] = {}, rest = 0;
@@ -31,7 +31,7 @@ double dot(const Numbers& a, const Numbers& b) {
   return dot(a.data(), b.data(), a.size());
 }
 
-/// Lower Cholesky factor of a symmetric matrix of half-width `band`, row by row; the last `kept` rows remain, row i at
+/// Lower Cholesky factor of a symmetric matrix of half-width `band`, row by row. The last `kept` rows remain, row i at
 /// i mod kept with column c at c + band − i.
 class WindowCholesky {
  public:
@@ -42,12 +42,12 @@ class WindowCholesky {
   double* row(std::size_t i) { return &factor_[i % kept_ * (band_ + 1)]; }
   const double* row(std::size_t i) const { return &factor_[i % kept_ * (band_ + 1)]; }
 
-  /// Turns row i of the matrix, already in row(i), into the factor's. False where the matrix is not positive definite.
+  /// Turns row i of the matrix, already in row(i), into the factor's. Returns false if it is not positive definite.
   bool eliminate(std::size_t i) {
     double* mine = row(i);
     const std::size_t first = i > band_ ? i - band_ : 0;
     std::size_t begin = first;
-    while (begin < i && mine[begin + band_ - i] == 0) ++begin;  // what is zero so far stays zero
+    while (begin < i && mine[begin + band_ - i] == 0) ++begin;  // zeros so far stay zero
     for (std::size_t c = begin; c < i; ++c) {
       const double* other = row(c);
       const std::size_t from = std::max(begin, c > band_ ? c - band_ : 0);
@@ -65,7 +65,7 @@ class WindowCholesky {
   Numbers factor_;
 };
 
-/// M = L·Lᵀ of one component of displacement over all nodes; the identity on those that do not move.
+/// Factorises M = L·Lᵀ of one component of displacement over all nodes; the identity on those that do not move.
 WindowCholesky mass_factor(const StencilPencil& pencil, std::size_t component) {
   const Cells& cells = pencil.cells;
   const std::size_t nodes = node_count(cells);
@@ -87,7 +87,7 @@ WindowCholesky mass_factor(const StencilPencil& pencil, std::size_t component) {
   return factor;
 }
 
-/// v ↦ L⁻¹·K·L⁻ᵀ·v, whose spectrum is the pencil's.
+/// v ↦ L⁻¹·K·L⁻ᵀ·v, which has the pencil's spectrum.
 class SymmetricOperator {
  public:
   SymmetricOperator(const StencilPencil& pencil, StencilMatrix& stiffness)
@@ -136,7 +136,7 @@ class SymmetricOperator {
   Numbers work_;
 };
 
-/// Largest eigenvalue of a symmetric tridiagonal matrix by bisection on Sturm's count, to 1e-9 of itself.
+/// Returns the largest eigenvalue of a symmetric tridiagonal matrix by bisection on Sturm's count, to 1e-9 of itself.
 double tridiagonal_top(const Numbers& diagonal, const Numbers& off) {
   double low = 0, high = 0;
   for (std::size_t i = 0; i < diagonal.size(); ++i) {
@@ -146,7 +146,7 @@ double tridiagonal_top(const Numbers& diagonal, const Numbers& off) {
   while (high - low > 1e-9 * high) {
     const double x = 0.5 * (low + high);
     double d = 1;
-    bool above = false;  // whether an eigenvalue exceeds x
+    bool above = false;  // true if an eigenvalue exceeds x
     for (std::size_t i = 0; i < diagonal.size() && !above; ++i) {
       d = x - diagonal[i] - (i > 0 ? off[i - 1] * off[i - 1] / d : 0.0);
       above = !(d > 0);
@@ -156,8 +156,8 @@ double tridiagonal_top(const Numbers& diagonal, const Numbers& off) {
   return low;
 }
 
-/// Largest Ritz value: never above the largest eigenvalue. Stops early, once it has all but stood still over sixteen
-/// steps, only if `patient` is false.
+/// Returns the largest Ritz value, never above the largest eigenvalue. If `patient` is false, stops early once it has
+/// hardly moved over sixteen steps.
 double lanczos_top(SymmetricOperator& op, const Numbers& start, std::size_t longest, bool patient) {
   Numbers now = start, before(now.size()), next(now.size()), diagonal, off;
   double top = 0;
@@ -186,7 +186,7 @@ std::size_t pencil_band(const Cells& cells) {
   return 3 * (plane_nodes(cells) + cells[0] + 2) + 2;
 }
 
-/// Whether σ·M − K has a Cholesky factor: then no eigenvalue reaches σ.
+/// True if σ·M − K has a Cholesky factor; then no eigenvalue reaches σ.
 bool exceeds_spectrum(const StencilPencil& pencil, double sigma) {
   const Cells& cells = pencil.cells;
   WindowCholesky factor(pencil.moving.size(), pencil_band(cells), 0);

@@ -1,5 +1,5 @@
 #pragma once
-// A proven upper bound, tight, on the fastest free vibration of a stencil: the largest λ of K·x = λ·M·x.
+// A proven, tight upper bound on the fastest free vibration of a stencil: the largest λ of K·x = λ·M·x.
 
 #include <array>
 #include <span>
@@ -19,18 +19,17 @@ struct StencilPencil {
   std::vector<bool> moving;                      // three a node
 };
 
-/// Where Lanczos iteration starts: always the same direction, drawn from the sphere alike in all directions, over what
-/// moves.
+/// Returns the start of Lanczos iteration over the moving displacements: always the same direction, drawn uniformly
+/// from the sphere.
 std::vector<double> lanczos_start(const std::vector<bool>& moving);
 
-/// Never below the largest λ and at most 0.1 % above it, 1/s²; 0 where nothing moves, infinite where
-/// an entry is not finite. Lanczos iteration estimates λ
-/// from below, a banded Cholesky factor of σ·M − K proves that none reaches σ, and where it does not exist σ is raised
-/// and then bisected. Beyond 2e10 operations for one factor (some 12000 nodes of usual shape) no proof is
-/// attempted: Lanczos runs on for so long that its estimate, from a start drawn at random, lies 2 % too low with a
-/// probability below 1e-12 whatever the spectrum (Kuczyński and Woźniakowski, SIAM J. Matrix Anal. Appl. 13, 1992);
-/// 2 % are added. `start`: lanczos_start(pencil.moving), which takes longer than a Lanczos step.
-/// `work`: memory that calls share.
+/// Returns a bound that is never below the largest λ and at most 0.1 % above it, 1/s²; 0 if nothing moves, infinite if
+/// an entry is not finite. Lanczos iteration estimates λ from below. A banded Cholesky factor of σ·M − K proves that no
+/// λ reaches σ; if it does not exist, σ is raised and then bisected. Beyond 2e10 operations for one factor (about 12000
+/// nodes of usual shape) no proof is attempted. Lanczos then runs until its estimate, from a random start, is 2 % too
+/// low with a probability below 1e-12 for any spectrum (Kuczyński and Woźniakowski, SIAM J. Matrix Anal. Appl. 13,
+/// 1992), and 2 % are added. `start` is lanczos_start(pencil.moving), which takes longer than a Lanczos step. `work` is
+/// memory that calls share.
 double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double> start, StencilMatrix& work);
 
 }  // namespace mobil::inline v0_3

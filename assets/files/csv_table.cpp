@@ -14,14 +14,14 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// "a, b, c".
+/// Returns "a, b, c".
 std::string listed(std::span<const std::string_view> names) {
   std::string text;
   for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
   return text;
 }
 
-/// Nothing for an open quote.
+/// Returns nothing for an open quote.
 std::optional<std::vector<std::string>> split(std::string_view line) {
   std::vector<std::string> cells(1);
   bool quoted = false;

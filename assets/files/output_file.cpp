@@ -22,10 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_links = 40;  // as the kernel has it
+constexpr int max_links = 40;  // as in the kernel
 constexpr std::string_view advice = "choose a folder that exists, is writable and has space";
 
-/// Short, so that it fits wherever the final name does; hidden, so that nobody takes it for a result.
+/// Short, so that it fits wherever the final name does; hidden, so that it is not taken for a result.
 fs::path temporary_in(const fs::path& folder) {
   static std::atomic<unsigned> count{0};
   return folder / fmt::format(".mobil-{}-{}.partial", ::getpid(), count++);
@@ -35,7 +35,7 @@ fs::path folder_of_file(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// What the path leads to, which need not exist.
+/// Returns the target of the path's links, which need not exist.
 Result<fs::path> followed(const fs::path& path) {
   fs::path at = path;
   std::error_code error;
@@ -61,10 +61,10 @@ bool copied(const fs::path& from, const fs::path& to) {
   return in.eof() && out.flush().good();
 }
 
-/// Moves a complete file to its place, wherever links lead and whatever is there.
+/// Moves a complete file to its place, following links and replacing an existing file.
 Result<void> move_file(const fs::path& from, OutputFile& place) {
   std::error_code error;
-  if (!place.in_place()) fs::rename(from, place.temporary(), error);  // fails where a link leads to another disk
+  if (!place.in_place()) fs::rename(from, place.temporary(), error);  // fails if a link leads to another disk
   if ((place.in_place() || error) && !copied(from, place.temporary())) {
     return fail(fmt::format("{}: cannot be written ({}); {}", place.path().string(), std::strerror(errno), advice));
   }
@@ -156,7 +156,7 @@ Result<OutputFolder> OutputFolder::make(const fs::path& folder) {
     if (at == at.parent_path()) break;
   }
   made.inside_ = temporary_in(folder);
-  const auto hold = hold_unfinished();  // once they are taken away, no folder is made any more
+  const auto hold = hold_unfinished();  // after their removal no folder is made
   note_unfinished(made.inside_, made.made_);
   if (!error) fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error)) {
@@ -172,7 +172,7 @@ Result<OutputFolder> OutputFolder::make(const fs::path& folder) {
 
 namespace {
 
-/// What a file is called after its number: .png of frame_0012.png; nothing where it is not called so.
+/// Returns the ending of a name after its number: .png of frame_0012.png; nothing for a name of another form.
 std::optional<std::string> after_number(const std::string& name, std::string_view before) {
   if (before.empty() || !name.starts_with(before)) return std::nullopt;
   const auto first = name.begin() + static_cast<std::ptrdiff_t>(before.size());

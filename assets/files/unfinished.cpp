@@ -16,7 +16,7 @@ struct Register {
   std::set<pid_t> process;
 };
 
-/// Never destroyed: other threads may still write when main returns.
+/// Never destroyed, because other threads can still write when main returns.
 Register& unfinished() {
   static auto& made = *new Register;
   return made;
@@ -51,7 +51,7 @@ void remove_with_folders(const std::filesystem::path& path, const std::filesyste
   auto at = path;
   do {
     at = at.parent_path();
-    std::filesystem::remove(at, error);  // fails where it is not there, or not empty
+    std::filesystem::remove(at, error);  // fails if it is missing or not empty
   } while (at != made && at.has_relative_path());
 }
 
@@ -64,10 +64,10 @@ void remove_unfinished() noexcept {
   for (const pid_t process : unfinished().process) {
     ::kill(process, SIGKILL);
     siginfo_t ended{};
-    ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT);  // until then it may still make files
+    ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT);  // until then it can still create files
   }
   for (const auto& [path, made] : unfinished().made_of) {
-    // Under another name no thread finds it to make more files in it, which would keep it.
+    // Under another name no thread finds it to create more files in it, which would keep it.
     auto away = path;
     away += ".removed";
     std::error_code error;

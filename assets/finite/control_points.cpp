@@ -32,14 +32,14 @@ struct Between {
   double part;
 };
 
-/// Of a fine mesh's planes along one axis, evenly spread: the control plane below and how far it is to the next.
+/// Returns the control plane below a fine mesh's plane on one axis, evenly spread, and the part of the way to the next.
 Between place_between(std::uint32_t fine_index, std::uint32_t fine_cells, std::uint32_t control_cells) {
   const std::uint32_t each = fine_cells / control_cells;
   const std::uint32_t lower = std::min(fine_index / each, control_cells - 1);
   return {lower, static_cast<double>(fine_index - lower * each) / each};
 }
 
-/// Control points × nodes: shape functions of the control cells at the nodes of a fine mesh.
+/// Returns control points × nodes: shape functions of the control cells at the nodes of a fine mesh.
 MatrixXd shape_functions(const HexahedralMesh& fine, const Cells& control) {
   MatrixXd shape = MatrixXd::Zero(static_cast<Index>(node_count(control)), static_cast<Index>(fine.node.size()));
   const Cells& cells = fine.cells;
@@ -75,7 +75,7 @@ Corners moved_corners(const HexahedralMesh& mesh, const Hexahedron& h, const std
   return at;
 }
 
-/// First of the points between the ends, and how many they are.
+/// Returns the first of the points between the ends, and their number.
 std::pair<Index, Index> inner_points(const Cells& cells) {
   const auto plane = static_cast<Index>(plane_nodes(cells));
   return {plane, plane * (static_cast<Index>(cells[2]) - 1)};

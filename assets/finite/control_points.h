@@ -1,6 +1,6 @@
 #pragma once
-// A fine mesh's displacement as that of a few control points, whose trilinear cells are what is shown: the nearest to
-// it in the mean over the belly's mass that keeps the volume which the cells enclose.
+// Converts a fine mesh's displacement to that of a few control points, whose trilinear cells are shown. It is the
+// nearest in the mean over the belly's mass that keeps the volume enclosed by the cells.
 
 #include <vector>
 
@@ -18,21 +18,21 @@ struct ControlMesh {
   Eigen::MatrixXd inner;   // Cholesky's factor of `mass` without both ends
 };
 
-/// Fails where the belly's mesh has not all nodes of the control cells, or those have one layer.
+/// Fails if the belly's mesh lacks nodes of the control cells, or if those have one layer.
 Result<ControlMesh> make_control_mesh(const FiniteBelly& belly, const Cells& cells);
 
-/// Displacement of the control points, three a point, m, nearest to `displacement_m`, that of all nodes of the belly;
-/// both ends as they are there.
+/// Returns the control points' displacement, three a point, m, nearest to `displacement_m`, that of all nodes of the
+/// belly. Both ends are the same as there.
 std::vector<double> nearest_points(const ControlMesh& points, const std::vector<double>& displacement_m);
 
-/// Moves the points between the ends as little as is needed, in the mean over mass, so that their cells enclose `ratio`
-/// times the volume at rest. Fails where eight of Newton's steps do not get there.
+/// Moves the points between the ends as little as possible, in the mean over mass, so that their cells enclose `ratio`
+/// times the volume at rest. Fails if eight Newton steps do not suffice.
 Result<void> keep_volume(const ControlMesh& points, std::vector<double>& displacement_m, double ratio = 1);
 
-/// Volume that the control points' cells enclose, over that at rest.
+/// Returns the volume that the control points' cells enclose, over that at rest.
 double enclosed_volume(const HexahedralMesh& mesh, const std::vector<double>& displacement_m);
 
-/// Those of a finer mesh's nodes that are control points: three displacements each.
+/// Returns the displacements of a finer mesh's nodes that are control points, three each.
 std::vector<double> sampled_points(const Cells& fine, const Cells& control, const std::vector<double>& displacement_m);
 
 }  // namespace mobil::inline v0_3

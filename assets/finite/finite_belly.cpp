@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr std::size_t max_iterations = 16;
-constexpr double converged_share = 1e-5;  // of the length: a step of Newton's; the next one would be its square
+constexpr double converged_share = 1e-5;  // of the length, in a Newton step; the next one would be its square
 constexpr double longest_share = 0.05;
 constexpr double min_load = 1.0 / 64;
 
@@ -25,7 +25,7 @@ double foundation_per_kg(const FiniteBelly& belly) {
   return circular * circular;
 }
 
-/// The forces that are out of balance (in scratch.residual_n, negated), and the tangent: elements and foundation.
+/// Assembles the unbalanced forces (in scratch.residual_n, negated), and the tangent of elements and foundation.
 void assemble_sections(const FiniteBelly& belly, const FiniteState& state, double stiffening, double pull_m,
                        FiniteScratch& scratch) {
   const std::size_t plane = plane_nodes(belly.mesh.cells), layers = belly.mesh.cells[2];
@@ -50,7 +50,7 @@ void assemble_sections(const FiniteBelly& belly, const FiniteState& state, doubl
   }
 }
 
-/// Factorises the tangent of a state, stiffened until it is positive definite; whether it was so as it is.
+/// Factorises the tangent of a state, stiffened until it is positive definite. Returns true if it already was.
 bool factorise_tangent(const FiniteBelly& belly, const FiniteState& state, double pull_m, FiniteScratch& scratch) {
   double stiffening = 0;
   for (;;) {
@@ -66,7 +66,7 @@ bool factorise_tangent(const FiniteBelly& belly, const FiniteState& state, doubl
   return stiffening == 0;
 }
 
-/// Moves the nodes that are free by `share` of the step, the insertion face to where the state's shortening has it.
+/// Moves the free nodes by `share` of the step, and the insertion face to the state's shortening.
 void move_nodes(const FiniteBelly& belly, const FiniteScratch& scratch, double share, const std::vector<double>& from_m,
                 FiniteState& state) {
   const std::size_t first = 3 * std::size_t{plane_nodes(belly.mesh.cells)};
@@ -79,7 +79,7 @@ void move_nodes(const FiniteBelly& belly, const FiniteScratch& scratch, double s
   }
 }
 
-/// Newton's method at a load; whether it converged. `state` has that load and the shape of another.
+/// Runs Newton's method at a load; returns true if it converged. `state` has that load and the shape of another.
 bool converge(const FiniteBelly& belly, FiniteScratch& scratch, FiniteState& state) {
   const std::size_t last = 3 * std::size_t{first_insertion_node(belly.mesh.cells)};
   double pull_m = end_of(belly, state.shortening) - state.displacement_m[last + 2];

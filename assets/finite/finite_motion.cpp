@@ -18,7 +18,7 @@ constexpr double hht = -0.1, newmark_beta = (1 - hht) * (1 - hht) / 4, newmark_g
 constexpr int max_iterations_a_step = 14;
 constexpr double settled_m = 1e-7, longest_m = 0.01;
 
-/// Forces that hold the nodes between the faces: elements' and foundation's; their tangent is left in scratch.chain.
+/// Returns the elements' and foundation's forces on the nodes between the faces, with their tangent in scratch.chain.
 VectorXd holding_force(const FiniteBelly& belly, const Activity& activity, double foundation_hz,
                        const std::vector<double>& displacement_m, FiniteScratch& scratch) {
   assemble_elements(belly, activity, displacement_m, 0, 0, scratch);

@@ -10,11 +10,11 @@ namespace {
 
 constexpr Cells tabled_cells = {2, 2, 8};
 
-/// Of a table's points along one direction how much each counts at some place.
+/// Weights of a table's points along one direction.
 template <std::size_t points>
 using PointWeights = std::array<double, points>;
 
-/// Lagrange's polynomial through `count` of the places from `first` on.
+/// Returns the weights of Lagrange's polynomial through `count` of the places from `first` on.
 template <std::size_t points>
 PointWeights<points> through(const std::array<double, points>& places, std::size_t first, std::size_t count, double x) {
   PointWeights<points> weight{};
@@ -36,7 +36,7 @@ PointWeights<9> along(const std::array<double, 9>& sections, double z) {
   return through(sections, static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - 2, 0, 5)), 4, z);
 }
 
-/// Where the table's sections lie in the template, of its length.
+/// Returns the positions of the table's sections in the template, over its length.
 std::array<double, 9> tabled_sections(Muscle muscle) {
   const HexahedralMesh mesh = finite_mesh(muscle, tabled_cells);
   std::array<double, 9> z{};

@@ -1,6 +1,6 @@
 #pragma once
-// A muscle's static shapes at finite strain (assets/finite/shape_table.h) as a tick reads them: over the control points
-// of a template's mesh, beside what linear statics would show in their place.
+// A muscle's static shapes at finite strain (assets/finite/shape_table.h) in the tick's layout, over the control points
+// of a template's mesh. They are stored with the linear static shapes that they replace.
 
 #include <array>
 #include <vector>
@@ -17,17 +17,17 @@ struct FiniteShape {
   Cells cells{};
   float length_m = 0;          // of the template's belly at rest
   std::vector<float> vector;   // `shape_modes` numbers a component
-  std::vector<float> even;     // of a belly drawn out evenly by 1 m: the part of the length, along z alone
-  std::vector<float> stretch;  // of the linear belly drawn out by 1 m, statically
-  /// By vector, amount and power of ln r.
+  std::vector<float> even;     // of a belly stretched evenly by 1 m: the part of the length, only along z
+  std::vector<float> stretch;  // of the linear belly stretched by 1 m, statically
+  /// By mode, amount and power of ln r.
   std::array<std::array<std::array<float, shape_ratio_terms>, shape_amount_count>, shape_modes> coefficient{};
 };
 
-/// What tables say of: shortenings and slendernesses beyond are as at these ends.
+/// Ranges of the tables. Shortenings and slendernesses beyond take the values of these ends.
 inline constexpr float min_shortening = -0.2F, max_shortening = 0.25F, min_slenderness = 0.8F, max_slenderness = 1.26F;
 
-/// For the control points of `mesh`, a template's. Tables have 3×3×9 points; between them a section's are quadratic,
-/// and along the belly a cubic goes through the nearest four.
+/// Makes the shapes for the control points of `mesh`, a template's. Tables have 3×3×9 points. Interpolation is
+/// quadratic within a section, and cubic through the nearest four points along the belly.
 FiniteShape make_finite_shape(Muscle muscle, const HexahedralMesh& mesh, const StaticStretch& stretch);
 
 }  // namespace mobil::inline v0_3

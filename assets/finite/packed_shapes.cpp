@@ -35,7 +35,7 @@ Result<PackedShapes> pack_shapes(const ShapeTable& table) {
   for (std::size_t v = 0; v < shape_modes; ++v) {
     double most = 1e-30;
     for (const double x : table.vector[v]) most = std::max(most, std::abs(x));
-    // coarser than 16 bits allow: what is seen is some 10 mm, and four digits of that are 1 µm
+    // coarser than 16 bits allow: visible motion is about 10 mm, and four digits of that are 1 µm
     packed.unit_m[v] = static_cast<float>(most / 9999);
     const auto unit = static_cast<double>(packed.unit_m[v]);
     for (std::size_t i = 0; i < packed_numbers; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// A shape table as it is kept in source: modes in 16 bits.
+// A shape table as stored in source: modes in 16 bits.
 
 #include <array>
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace mobil::inline v0_3 {
 
-/// Numbers of a vector: three at each of the 63 points between the ends of 2×2×8 cells.
+/// Numbers of a mode: three at each of the 63 points between the ends of 2×2×8 cells.
 inline constexpr std::size_t packed_numbers = 189;
 
-/// `vector[v]`: in units of `unit_m[v]`. `coefficient[v]`: of C₀, of C₁, of C₂.
+/// `vector[v]` is in units of `unit_m[v]`. `coefficient[v]` has those of C₀, of C₁ and of C₂.
 struct PackedShapes {
   std::array<float, shape_modes> unit_m;
   std::array<std::array<std::int16_t, packed_numbers>, shape_modes> vector;
@@ -26,7 +26,7 @@ Result<PackedShapes> pack_shapes(const ShapeTable& table);
 
 ShapeTable unpack_shapes(const PackedShapes& packed);
 
-/// The initialiser of a PackedShapes, in lines of at most 120 columns; floats to five digits.
+/// Returns the initialiser of a PackedShapes, in lines of at most 120 columns; floats to five digits.
 std::string initialiser(const PackedShapes& packed);
 
 }  // namespace mobil::inline v0_3

@@ -8,7 +8,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// A mesh's shapes as control points, volume not yet kept.
+/// A mesh's shapes as control points, with volume not yet kept.
 struct ProjectedShapes {
   ControlMesh points;
   std::vector<FiniteState> shapes;  // displacement: of control points

@@ -1,6 +1,6 @@
 #pragma once
 // Static shapes of a belly over shortening and activation, and those of bodies of some slenderness as control points:
-// what a shape table is made from.
+// the samples for a shape table.
 
 #include <array>
 #include <span>
@@ -13,25 +13,25 @@
 
 namespace mobil::inline v0_3 {
 
-/// Shortenings and activations that tables are made from; and slenderness r, a body's size across over that along,
-/// against the template's: bodies in use have 0.80 to 1.26.
+/// Shortenings and activations for which tables are made, and slenderness r. It is a body's size across over that
+/// along, relative to the template's; bodies in use have 0.80 to 1.26.
 inline constexpr std::array<double, 10> sampled_shortenings = {-0.2, -0.15, -0.1, -0.05, 0, 0.05, 0.1, 0.15, 0.2, 0.25};
 inline constexpr std::array<double, 5> sampled_activations = {0, 0.05, 0.15, 0.4, 1};
 inline constexpr std::array<double, 3> sampled_ratios = {0.8, 1, 1.26};
 
-/// Fascia in the static shapes, over the foundation of a belly that moves. With the latter's own, slender relaxed
-/// bellies buckle at e = 0.16 to 0.25, and bent active ones draw themselves straight by up to 7.6 mm, into the bone
-/// that bends them. Sixteen times it, sections' means stay within 0.6 mm of where they rest; it resists no bulge.
+/// Fascia in the static shapes, relative to the foundation of a moving belly. With the latter's own, slender relaxed
+/// bellies buckle at e = 0.16 to 0.25, and bent active ones straighten by up to 7.6 mm, into the bone that bends them.
+/// With sixteen times it, sections' means stay within 0.6 mm of their rest; bulging is not resisted.
 inline constexpr double static_foundation_factor = 16;
 
-/// One shape for every pair, activations slowest; both lists ascending. Fails where no shape is found, naming the pair.
+/// Returns one shape for every pair, activations slowest; both lists ascending. Fails without a shape, naming the pair.
 Result<std::vector<FiniteState>> static_shapes(const FiniteBelly& belly, std::span<const double> shortenings,
                                                std::span<const double> activations);
 
-/// A belly of which samples are taken: its mesh at the template's size with n and with m > n elements a side, whose
-/// shapes are extrapolated to elements of no size (order 2). Of all muscles, displacement across from 4×4×16 and 6×6×24
-/// elements is within 1.6 % rms, 3.5 % at worst, of that from 6×6×24 and 8×8×32; without extrapolation 8×8×32 is off by
-/// 1.7 and 3.9 %. Nodes taken from the meshes as they are do not converge so: corners of the faces that are held.
+/// A belly to sample: its mesh at the template's size with n and with m > n elements a side, whose shapes are
+/// extrapolated to elements of no size (order 2). In all muscles, displacement across from 4×4×16 and 6×6×24 elements
+/// is within 1.6 % rms, 3.5 % at worst, of that from 6×6×24 and 8×8×32. Without extrapolation 8×8×32 is off by 1.7 and
+/// 3.9 %. Nodes taken directly from the meshes converge worse, at corners of the held faces.
 struct SampledBelly {
   HexahedralMesh coarse, fine;
   FiniteTissue tissue;
@@ -46,7 +46,7 @@ struct ShapeSample {
   std::vector<double> displacement_m;
 };
 
-/// As static_shapes. Fails as it and as make_control_mesh do.
+/// Returns samples of static_shapes. Fails like it and like make_control_mesh.
 Result<std::vector<ShapeSample>> shape_samples(const SampledBelly& belly, double ratio,
                                                std::span<const double> shortenings,
                                                std::span<const double> activations);

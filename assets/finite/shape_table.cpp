@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 
 constexpr std::size_t table_terms = shape_amount_count * shape_ratio_terms;
 
-/// Numbers of the points before the first that moves, and of those that do.
+/// Returns the count of numbers of the points before the first that moves, and of those that do.
 std::pair<std::size_t, std::size_t> moving_numbers(const Cells& cells) {
   const std::size_t plane = 3 * std::size_t{plane_nodes(cells)};
   return {plane, plane * (cells[2] - 1)};

@@ -49,7 +49,7 @@ constexpr PackedShapes tables[] = {
 // clang-format on
 static_assert(std::size(tables) == lattice_muscles);
 
-// The mesh that control points are of; and what shapes are extrapolated from (shape_samples.h says how near).
+// The mesh of the control points, and the meshes from which shapes are extrapolated (errors in shape_samples.h).
 constexpr Cells control_cells = {2, 2, 8}, coarse_cells = {4, 4, 16}, fine_cells = {6, 6, 24};
 
 }  // namespace
@@ -60,7 +60,7 @@ ShapeTable shape_table(Muscle muscle) {
 
 HexahedralMesh finite_mesh(Muscle muscle, const Cells& cells) {
   return *bend_block(cells, muscle_lattice(muscle), reference_belly_m(muscle),
-                     belly_grading);  // a template's: it is sound
+                     belly_grading);  // a template's, so it is sound
 }
 
 SampledBelly sampled_belly(Muscle muscle) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a leg weighs, and the numbers of the rules in systems/forces.
+// Masses of a leg, and constants of the rules in systems/forces.
 
 #include <mobil/components/segments.h>
 #include "assets/body/fat_distribution.h"
@@ -22,7 +22,7 @@ constexpr float extra_mass_of(Segment s) {
   return static_cast<float>(mass_per_extra_fat(index(s)));
 }
 
-/// Radii of gyration: Winter, Biomechanics and Motor Control of Person Movement, table of Dempster's segments.
+/// Radii of gyration: Winter, Biomechanics and Motor Control of Human Movement, table of Dempster's segments.
 inline constexpr Rod thigh = [] {
   using enum Segment;
   const double cap = -unit_body.joint_offset[index(patella_right)].y;
@@ -36,12 +36,12 @@ inline constexpr Rod shank = {
     static_cast<float>(mass_of(Segment::shank_right)),
     static_cast<float>(-unit_body.centre_of_mass[index(Segment::shank_right)].y / fraction::shank), 0.302F,
     extra_mass_of(Segment::shank_right)};
-/// Its centre of mass is a tracked point of its own.
+/// The foot's centre of mass is tracked as a separate point.
 inline constexpr Rod foot = {static_cast<float>(mass_of(Segment::foot_right) + mass_of(Segment::toes_right)), 0.0F,
                              0.475F, extra_mass_of(Segment::foot_right) + extra_mass_of(Segment::toes_right)};
 
-/// Height over the ground of the point that the feet's forces lean toward, of the centre of mass's; the fitted walk
-/// adds to it.
+/// Height above the ground of the point towards which the feet's forces lean, over the centre of mass's. The fitted
+/// walk adds to it.
 inline constexpr float pivot_height = 1.4F;
 
 }  // namespace mobil::inline v0_3::forces

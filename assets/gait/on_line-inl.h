@@ -1,4 +1,4 @@
-// Places along the walking line of this step: of the hips and of both feet. Include it as engine/wide-inl.h says.
+// Places of the hips and of both feet along the walking line of this step. Include it as engine/wide-inl.h describes.
 
 #if defined(MOBIL_ASSETS_GAIT_ON_LINE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ASSETS_GAIT_ON_LINE_INL_H_
@@ -13,15 +13,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// The walking line in the frame of the stance foothold (+Z its heading there): it comes from the foothold before and
-/// goes on to the next one.
+/// The walking line in the frame of the stance foothold (+Z its heading there), from the foothold before to the next
+/// one.
 struct Line {
   Chord from, to;
   Wide from_heading, to_heading;  // of the chords
   Wide from_s, from_c, to_s, to_c;
   Wide turned_before, turn;  // heading at the stance foothold less that at the one before; at the next one less it
   Wide shift_before, shift, shift_next;  // of footholds, to the left
-  Wide slant;                            // of the chords of who stands, beside the way the body faces
+  Wide slant;                            // of a standing walker's chords, relative to the body
 };
 
 HWY_INLINE Line line_of(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state) {
@@ -56,9 +56,8 @@ HWY_INLINE Ground part_way(const Ground& a, const Ground& b, const Wide& part) {
   return {mix(a.left, b.left, part), mix(a.forward, b.forward, part)};
 }
 
-/// A place of the line in the frame of the stance foothold, `forward` along it, and the heading of who walks there.
-/// Both chords' lines have one curvature about the foothold, so that it matters little where one is mixed into the
-/// other.
+/// A place of the line in the frame of the stance foothold, `forward` along it, and the walker's heading there. Both
+/// chords' lines have one curvature about the foothold, so the place of the blend between them matters little.
 struct OnLine {
   Ground place;
   Wide heading;
@@ -68,7 +67,7 @@ HWY_INLINE OnLine on_line(const Line& line, const Wide& forward, const Wide& pha
   constexpr float shortest = 0.05F;
   const Wide from = (forward + line.from.length_m) / max(line.from.length_m, shortest);
   const Wide to = forward / max(line.to.length_m, shortest);
-  // Who turns on the spot: at the rates of both turns at either end.
+  // A walker who turns on the spot has the rates of both turns at either end.
   auto heading = [&](const Chord& chord, const Wide& chord_heading, const Wide& part, const Wide& spot) {
     return select(chord.length_m > 0.0F, chord_heading + heading_on_chord(chord, part) - line.slant,
                   (phase - 0.5F) * spot);
@@ -79,8 +78,8 @@ HWY_INLINE OnLine on_line(const Line& line, const Wide& forward, const Wide& pha
               heading(line.to, line.to_heading, to, line.turn), ahead)};
 }
 
-/// How much longer the outer leg would have to be at a strike in a turn, to a foothold that is shifted and, on the
-/// outer arc, further ahead: the pelvis sinks by it.
+/// Returns the length that the outer leg lacks at a strike in a turn, to a foothold that is shifted and, on the outer
+/// arc, further ahead. The pelvis sinks by it.
 HWY_INLINE Wide longer_leg(const Wide& length, const Wide& turn, const Wide& shift_before, const Wide& shift,
                            const Wide& height) {
   constexpr auto leg = static_cast<float>(fraction::hip_height);  // of the height
@@ -90,26 +89,27 @@ HWY_INLINE Wide longer_leg(const Wide& length, const Wide& turn, const Wide& shi
   return fma(far, far + 2.0F * ankle_outward * height, ahead * (ahead + length)) * 0.8F / (2.0F * leg * height);
 }
 
-/// How far to the left of the line the hips go, whose feet are put to the left of it: on the way to standing and from
-/// there, to the middle of the feet.
+/// Returns the hips' shift to the left of the line, to the middle of feet that are put left of it, on the way to
+/// standing and from there.
 HWY_INLINE Wide shift_at_rest(const StepPlan<Lanes<float>>& plan, const Line& line, const Wide& eased) {
   const Wide zero = wide(0.0F);
   return mix(select(stands(plan.from), 0.5F * (line.shift_before + line.shift), zero),
              select(stands(plan.to), 0.5F * (line.shift + line.shift_next), zero), eased);
 }
 
-/// Where a foot is, in the frame of the stance foothold, and its heading there.
+/// Place of a foot in the frame of the stance foothold, and its heading there.
 struct Foothold {
   Ground ankle;
   Wide heading;
 };
 
-/// Of the stance foot.
+/// Returns the stance foot's place.
 HWY_INLINE Foothold stance_foothold(const Line& line, const FootMotion& foot, const Wide& out) {
   return {{fma(out, foot.ankle_out, line.shift), foot.ankle_forward}, wide(0.0F)};
 }
 
-/// Of the other: first in the frame of the foothold before, then along the line, at last in the frame of the next.
+/// Returns the other foot's: first in the frame of the foothold before, then along the line, at last in that of the
+/// next.
 HWY_NOINLINE inline Foothold other_foothold(const Line& line, const FootMotion& foot, const Wide& out) {
   const Wide left = out * foot.ankle_out, along = foot.ankle_forward;
   const Wide &length_before = line.from.length_m, &length = line.to.length_m;
@@ -132,7 +132,7 @@ HWY_NOINLINE inline Foothold other_foothold(const Line& line, const FootMotion& 
   const Ground aside = turned(left + mix(line.shift_before, line.shift_next, foot.swung), wide(0.0F), s, c);
   const Ground in_air = {way.place.left + aside.left, way.place.forward + aside.forward};
   const WideMask early = part < 0.5F;
-  const WideMask walks = length_before + length > 0.0F;  // who turns on the spot has no line to follow
+  const WideMask walks = length_before + length > 0.0F;  // turning on the spot has no line
   const Ground planted = {select(early, from.left, to.left), select(early, from.forward, to.forward)};
   const Ground there = part_way(planted, in_air, smooth(3.0F * min(part, 1.0F - part)));
   f.ankle = {select(walks, there.left, f.ankle.left), select(walks, there.forward, f.ankle.forward)};

@@ -10,7 +10,7 @@ namespace mobil::inline v0_3 {
 float slope_speed(float asked_m_s, float steepness) {
   constexpr double easiest = -0.05, per_steepness = 3.5;
   constexpr float on_stairs_m_s = 0.6F;
-  // As easy downhill as on level ground, up to twice the easiest slope.
+  // Downhill is as easy as level ground, up to twice the easiest slope.
   const double beyond = std::max(std::fabs(double{steepness} - easiest) + easiest, 0.0);
   const auto part = static_cast<float>(exact::exp(-per_steepness * beyond));
   return std::max(asked_m_s * part, std::min(asked_m_s, on_stairs_m_s));

@@ -1,4 +1,4 @@
-// Where a foot on the ground can press it. Include it as engine/wide-inl.h says.
+// Area where a foot on the ground can press it. Include it as engine/wide-inl.h describes.
 
 #if defined(MOBIL_ASSETS_GAIT_SOLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ASSETS_GAIT_SOLE_INL_H_
@@ -13,16 +13,16 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 namespace sole {
-/// The fitted centre of pressure is counted from here, ahead of the ankle, in body heights.
+/// Origin of the fitted centre of pressure, ahead of the ankle, in body heights.
 constexpr float pressed_ahead = 0.05F / 1.75F;
-/// Pitch (rad) from which on the heel alone bears, and heel rise from which on the forefoot alone does; how far that
-/// end bears, in body heights: pads are soft and round.
+/// Pitch (rad) from which on only the heel bears, and heel rise from which on only the forefoot does. `pad` is the
+/// extent of the bearing end, in body heights, because pads are soft and round.
 constexpr float toes_lifted = 0.30F, heel_lifted = 0.15F, pad = 0.03F / 1.75F;
-/// To each side of the foot's line, in body heights.
+/// Extent to each side of the foot's line, in body heights.
 constexpr float half_width = 0.025F;
 }  // namespace sole
 
-/// How far the part of a foot that bears reaches from its ankle's foothold, along the foot.
+/// Extent of the bearing part of a foot from its ankle's foothold, along the foot.
 struct SoleReach {
   Wide back, front;
 };
@@ -35,7 +35,7 @@ HWY_INLINE SoleReach sole_reach(const Wide& height, const Wide& pitch) {
           height * min(fma(toes_down, wide(tip - heel), wide(heel + sole::pad)), tip)};
 }
 
-/// Where a walk of that shape presses the ground, along the foot, at a part of the foot's stance.
+/// Returns the place at which a walk of that shape presses the ground, along the foot, at a part of the foot's stance.
 template <class Shape>
 HWY_INLINE Wide pressed(const Shape& of, const Wide& height, const Wide& part) {
   return fma(wide(sole::pressed_ahead), height,

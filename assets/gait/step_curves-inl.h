@@ -1,5 +1,5 @@
-// The curves that a step's shape stands for (mobil/components/step_shape.h), of sixteen walkers. Include it as
-// engine/wide-inl.h says.
+// Curves of a step's shape (mobil/components/step_shape.h), of sixteen walkers. Include it as engine/wide-inl.h
+// describes.
 
 #if defined(MOBIL_ASSETS_GAIT_STEP_CURVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ASSETS_GAIT_STEP_CURVES_INL_H_
@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Foot flat and heel rise in the usual walk, of the cycle from a leg's own heel strike; the part of the cycle in which
-/// the heel's pad yields.
+/// Foot flat and heel rise in the usual walk, of the cycle from a leg's own heel strike. `pad_part` is the part of the
+/// cycle in which the heel's pad yields.
 constexpr float usual_flat = 0.09F, usual_rise = 0.30F, pad_part = 0.05F;
 
 HWY_INLINE WideMask stands(const HeelStrike<Lanes<float>>& strike) {
@@ -27,8 +27,8 @@ HWY_INLINE WideMask stands_still(const StepPlan<Lanes<float>>& plan) {
   return stands(plan.from) & stands(plan.to);
 }
 
-/// The foot of a body of height 1 m: ahead of and behind the ankle, radius of the heel's rim, height of the toes'
-/// joint, and of the ankle over each.
+/// The foot of a body of height 1 m: distances ahead of and behind the ankle, radius of the heel's rim, height of the
+/// toes' joint, and of the ankle above each.
 namespace unit_foot {
 constexpr auto back = static_cast<float>(fraction::heel_back), ball = static_cast<float>(fraction::ball_forward);
 constexpr auto toes = static_cast<float>(fraction::toes_length), rim = static_cast<float>(fraction::heel_radius);
@@ -37,10 +37,10 @@ constexpr float over_rim = static_cast<float>(fraction::ankle_height) - rim;
 constexpr float over_joint = static_cast<float>(fraction::ankle_height) - joint;
 }  // namespace unit_foot
 
-/// How far an ankle is outward of its hip in somebody who stands, of the height.
+/// Outward distance of a standing person's ankle from the hip, of the height.
 constexpr float ankle_outward = 0.022F;
 
-/// The numbers of two strikes' shapes, mixed.
+/// Mixed numbers of two strikes' shapes.
 struct MixedShape {
   const Lanes<float>*from, *to;
   Wide part;
@@ -48,7 +48,7 @@ struct MixedShape {
     return mix(load(from[p.first + i]), load(to[p.first + i]), part);
   }
 };
-/// The numbers of one.
+/// Numbers of one shape.
 struct OneShape {
   const Lanes<float>* numbers;
   HWY_INLINE Wide operator()(const ShapePart& p, std::size_t i) const { return load(numbers[p.first + i]); }
@@ -72,7 +72,7 @@ HWY_NOINLINE inline StepWaves step_waves(const Wide& phase) {
   return w;
 }
 
-/// `count` harmonics of the step, about a value.
+/// Returns `count` harmonics of the step, about a value.
 template <class Shape>
 HWY_INLINE Wide harmonics_about(const Wide& value, const Shape& of, const ShapePart& part, std::size_t count,
                                 const StepWaves& w) {
@@ -82,20 +82,20 @@ HWY_INLINE Wide harmonics_about(const Wide& value, const Shape& of, const ShapeP
   return sum;
 }
 
-/// A mean and `count` harmonics of the step.
+/// Returns a mean and `count` harmonics of the step.
 template <class Shape>
 HWY_INLINE Wide harmonics(const Shape& of, const ShapePart& part, std::size_t count, const StepWaves& w) {
   return harmonics_about(of(part, 0), of, part, count, w);
 }
 
-/// The hips' way to the left while the right foot stands, to the right while the left one does.
+/// Returns the hips' way to the left while the right foot stands, to the right while the left one does.
 template <class Shape>
 HWY_INLINE Wide hips_aside(const Shape& of, const StepWaves& w) {
   const ShapePart& p = step_shape::aside;
   return fma(of(p, 0), w.cosine[1], fma(of(p, 1), w.cosine[3], fma(of(p, 2), w.sine[1], of(p, 3) * w.sine[3])));
 }
 
-/// (1 − u)³ times a polynomial that starts with the part's first number and no slope of its own; 0 from u = 1 on.
+/// Returns (1 − u)³ times a polynomial that starts with the part's first number and no slope of its own; 0 from u = 1.
 template <class Shape>
 HWY_INLINE Wide falling(const Shape& of, const ShapePart& part, const Wide& u) {
   const Wide left = max(1.0F - u, 0.0F);
@@ -104,7 +104,7 @@ HWY_INLINE Wide falling(const Shape& of, const ShapePart& part, const Wide& u) {
   return left * left * left * fma(of(part, 0), fma(u, fma(u, wide(6.0F), wide(3.0F)), wide(1.0F)), tail);
 }
 
-/// Pitch from heel rise (u = 0) to toe-off (u = 1): heel up, negative.
+/// Returns the pitch from heel rise (u = 0) to toe-off (u = 1): heel up, negative.
 template <class Shape>
 HWY_INLINE Wide heel_rise(const Shape& of, const Wide& u) {
   const Wide v = clamp(u, 0.0F, 1.0F);
@@ -113,7 +113,7 @@ HWY_INLINE Wide heel_rise(const Shape& of, const Wide& u) {
   return -(v * v * v * sum);
 }
 
-/// Legendre polynomials of x.
+/// Returns a sum of Legendre polynomials of x.
 template <class Shape>
 HWY_INLINE Wide legendre_sum(const Shape& of, const ShapePart& part, const Wide& x) {
   Wide before = wide(1.0F), now = x, sum = fma(of(part, 1), x, of(part, 0));
@@ -127,13 +127,13 @@ HWY_INLINE Wide legendre_sum(const Shape& of, const ShapePart& part, const Wide&
   return sum;
 }
 
-/// 64 (u (1 − u))³: 1 in the middle, 0 at both ends with two derivatives.
+/// Returns 64 (u (1 − u))³: 1 in the middle, 0 at both ends with two derivatives.
 HWY_INLINE Wide bump(const Wide& u) {
   const Wide q = u * (1.0F - u);
   return 64.0F * q * q * q;
 }
 
-/// The bump times Legendre polynomials.
+/// Returns the bump times Legendre polynomials.
 template <class Shape>
 HWY_INLINE Wide bumps(const Shape& of, const ShapePart& part, const Wide& u) {
   return bump(u) * legendre_sum(of, part, 2.0F * u - 1.0F);
@@ -144,7 +144,7 @@ struct Moving {
   Wide value, rate, bend;
 };
 
-/// Pitch of the toes, heel up, of a foot whose heel has risen by `heel_up`, with its derivatives by that.
+/// Returns the toes' pitch, heel up, of a foot whose heel has risen by `heel_up`, with its derivatives by that.
 HWY_INLINE Moving toe_pitch(const Wide& heel_up) {
   constexpr float w2 = toe_rocker::within * toe_rocker::within, part = toe_rocker::part;
   const Wide d = max(heel_up - toe_rocker::from, 0.0F), d2 = d * d, r = 1.0F / (d2 + w2);
@@ -152,14 +152,14 @@ HWY_INLINE Moving toe_pitch(const Wide& heel_up) {
           (2.0F * part * w2) * d * (3.0F * w2 - d2) * r * r * r};
 }
 
-/// The ankle of a planted foot by its pitch, and its derivatives by that: how far it is ahead of the foothold along the
-/// foot, and its height. Toes up the foot rolls on the rim of its heel, heel up over its toes.
+/// The ankle of a planted foot by its pitch, with derivatives: distance ahead of the foothold along the foot, and
+/// height. Toes up, the foot rolls on the rim of its heel; heel up, over its toes.
 struct PlantedAnkle {
   Moving along, up;
-  Wide toes;  // how far they are bent upward
+  Wide toes;  // upward bend of the toes
 };
 
-/// Inlined, so that who takes the places alone does not pay for the derivatives.
+/// Inlined, so that callers that use only the places do not pay for the derivatives.
 HWY_INLINE PlantedAnkle planted_ankle(const Wide& height, const Wide& pitch) {
   using namespace unit_foot;
   Wide s, c, q_s, q_c;
@@ -190,7 +190,7 @@ HWY_INLINE Wide quintic_at(const Quintic<Lanes<float>>& q, const Wide& u) {
   return sum;
 }
 
-/// From one state at u = 0 to another at u = 1, derivatives by u.
+/// Stores the quintic from one state at u = 0 to another at u = 1, derivatives by u.
 HWY_NOINLINE inline void store_quintic(const Moving& a, const Moving& b, Quintic<Lanes<float>>& out) {
   const Wide r = b.value - a.value - a.rate - 0.5F * a.bend, s = b.rate - a.rate - a.bend, q = 0.5F * (b.bend - a.bend);
   store(a.value, out.coefficient[0]);
@@ -201,7 +201,7 @@ HWY_NOINLINE inline void store_quintic(const Moving& a, const Moving& b, Quintic
   store(6.0F * r - 3.0F * s + q, out.coefficient[5]);
 }
 
-/// Phase of the step at a part of its time: at the pace of the strikes at either end, and no change of pace there.
+/// Returns the step's phase at a part of its time, with the pace of the strikes and no change of pace at either end.
 HWY_INLINE Wide step_phase(const Wide& from, const Wide& to, const Wide& u) {
   const Wide r = 1.0F - from, s = to - from;
   return u * fma(u * u, fma(u, fma(u, 6.0F * r - 3.0F * s, 7.0F * s - 15.0F * r), 10.0F * r - 4.0F * s), from);
@@ -210,7 +210,7 @@ HWY_NOINLINE inline Wide step_phase(const StepPlan<Lanes<float>>& plan, const Wi
   return step_phase(load(plan.phase_rate_from), load(plan.phase_rate_to), u);
 }
 
-/// The part of a step's time at which it has a phase.
+/// Returns the part of a step's time at a phase.
 HWY_NOINLINE inline Wide time_of_phase(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
   Wide low = wide(0.0F), high = wide(1.0F);
   for (int i = 0; i < 20; ++i) {
@@ -222,16 +222,16 @@ HWY_NOINLINE inline Wide time_of_phase(const StepPlan<Lanes<float>>& plan, const
   return high;
 }
 
-/// How far the numbers of the shapes are mixed.
+/// Returns the part of the mix of the shapes' numbers.
 HWY_INLINE Wide mixed_part(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
   const Wide start = load(plan.mixed_from);
   return smooth((phase - start) / (1.0F - start));
 }
 
-/// How far the heel of somebody's first step rises, of what it does in the walk to come.
+/// Heel rise of a first step, relative to the coming walk.
 constexpr float first_rise = 0.3F;
 
-/// The numbers of the heel rise with which the other foot leaves the ground: of the walk before it, or of a first step.
+/// Numbers of the heel rise with which the other foot leaves the ground: of the walk before it, or of a first step.
 struct LeavingShape {
   const StepPlan<Lanes<float>>& plan;
   WideMask first;
@@ -239,14 +239,14 @@ struct LeavingShape {
   HWY_INLINE Wide operator()(const ShapePart& p, std::size_t i) const {
     return select(first, first_rise * load(plan.to.shape[p.first + i]), load(plan.from.shape[p.first + i]));
   }
-  /// Phases of the step over which the heel rises; the first may lie before it.
+  /// Returns the phase of the step at which the heel starts to rise; it can be before the step.
   HWY_INLINE Wide begins() const {
     const Wide lift = usual_rise + load(plan.from.shape[step_shape::times.first + 1]);
     return select(first, wide(0.0F), 2.0F * lift - 1.0F);
   }
 };
 
-/// Pitch of the stance foot.
+/// Returns the pitch of the stance foot.
 HWY_NOINLINE inline Wide stance_pitch(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& phase) {
   const OneShape from{plan.from.shape};
   const Wide cycle = 0.5F * phase;
@@ -256,7 +256,7 @@ HWY_NOINLINE inline Wide stance_pitch(const StepPlan<Lanes<float>>& plan, const 
          heel_rise(of, (cycle - lift) / (rising - lift));
 }
 
-/// 64 u³(1 − u)³ times Legendre polynomials of 2u − 1.
+/// Returns 64 u³(1 − u)³ times Legendre polynomials of 2u − 1.
 HWY_INLINE Wide other_way(const Lanes<float> (&by)[other_way_count], const Wide& u) {
   return bumps(OneShape{by}, {"", 0, other_way_count, 0}, u);
 }
@@ -267,14 +267,14 @@ struct HipsPlace {
   Wide forward, ahead, aside;
 };
 
-/// `u`: the part of the step's time at which its phase has those waves.
+/// `u` is the part of the step's time at which its phase has those waves.
 HWY_NOINLINE inline HipsPlace hips_place(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& u,
                                          const Wide& phase, const StepWaves& w) {
   return {harmonics_about(quintic_at(plan.even_m, phase), of, step_shape::hips_forward, 4, w),
           other_way(plan.ahead_m, u), hips_aside(of, w) - other_way(plan.aside_m, u)};
 }
 
-/// By its series, for |x| < 3.
+/// Returns the cosine by its series, for |x| < 3.
 constexpr float cosine(double x) {
   double term = 1, sum = 1;
   for (int k = 1; k < 16; ++k) {
@@ -288,7 +288,7 @@ HWY_INLINE Wide posture(const Lanes<float>& from, const Lanes<float>& to, const 
   return mix(load(from), load(to), part);
 }
 
-/// cos K π (p − at/1000) from the waves of p.
+/// Returns cos K π (p − at/1000) from the waves of p.
 template <int K, int At>
 HWY_INLINE Wide wave(const StepWaves& w) {
   constexpr double half_turn = 3.14159265358979324, angle = half_turn * K * At / 1000;
@@ -296,7 +296,7 @@ HWY_INLINE Wide wave(const StepWaves& w) {
   return fma(wide(c), w.cosine[K], s * w.sine[K]);
 }
 
-/// Of the pelvis, seen from the stance leg: that side forward, and that side up.
+/// Return the pelvis' rotation and list, seen from the stance leg: that side forward, and that side up.
 HWY_INLINE Wide pelvis_rotation(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased) {
   return posture(plan.from.posture.pelvis_rotation, plan.to.posture.pelvis_rotation, eased) *
          wave<1, pelvis_phase::rotation_1000>(w);
@@ -307,15 +307,15 @@ HWY_INLINE Wide pelvis_list(const StepPlan<Lanes<float>>& plan, const StepWaves&
          (p::list_first * wave<1, p::list_first_1000>(w) + p::list_third * wave<3, p::list_third_1000>(w));
 }
 
-/// Of the pelvis: its front down.
+/// Returns the pelvis' tilt, its front down.
 HWY_INLINE Wide pelvis_tilt(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased) {
   const PostureParameters<Lanes<float>>&from = plan.from.posture, &to = plan.to.posture;
   return fma(posture(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave<2, pelvis_phase::tilt_1000>(w),
              posture(from.pelvis_tilt, to.pelvis_tilt, eased));
 }
 
-/// How far the pelvis sinks in a step between unlike walks, so that no leg is straight: of the height, per m/s by which
-/// they differ; and the most.
+/// Sinking of the pelvis in a step between unlike walks, so that no leg is straight: of the height, per m/s of their
+/// difference, and its maximum.
 constexpr float sinks_by = 0.015F, max_sinking = 0.006F;
 
 HWY_INLINE Wide hips_height(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height, const Wide& u,

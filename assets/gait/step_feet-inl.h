@@ -1,4 +1,4 @@
-// Both feet at a phase of a step. Include it as engine/wide-inl.h says.
+// Both feet at a phase of a step. Include it as engine/wide-inl.h describes.
 
 #if defined(MOBIL_ASSETS_GAIT_STEP_FEET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ASSETS_GAIT_STEP_FEET_INL_H_
@@ -12,8 +12,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// A foot: pitch, bend of the toes, heading of the line under it, toe-out; its ankle's height, distance from the body's
-/// middle line on the leg's own side, and place along the line.
+/// A foot: pitch, bend of the toes and toe-out. Its ankle has a height, a distance from the body's middle line on the
+/// leg's own side, and a place along the line.
 struct FootMotion {
   Wide pitch, toes, toe_out, ankle_up, ankle_out, ankle_forward;
   Wide part;        // of the time of the swing
@@ -21,7 +21,7 @@ struct FootMotion {
   Wide in_the_air;  // 64 u³ (1 − u)³ of the swing
 };
 
-/// A planted foot of that pitch.
+/// Returns a planted foot of that pitch.
 HWY_NOINLINE inline FootMotion plant(const Wide& height, const Wide& pitch, const Wide& toe_out,
                                      const Wide& half_width) {
   const PlantedAnkle ankle = planted_ankle(height, pitch);
@@ -47,7 +47,7 @@ HWY_NOINLINE inline FootMotion stance_foot(const StepPlan<Lanes<float>>& plan, c
   return foot;
 }
 
-/// The ankle's height at which a foot in the air is not in the ground: raised smoothly where it would be.
+/// Returns the ankle's height, raised smoothly for a foot in the air that would enter the ground.
 HWY_NOINLINE inline Wide above_ground(const FootMotion& foot, const Wide& height) {
   using namespace unit_foot;
   Wide s, c, t_s, t_c;
@@ -56,7 +56,7 @@ HWY_NOINLINE inline Wide above_ground(const FootMotion& foot, const Wide& height
   const Wide heel = fma(wide(-back), s, -over_rim * c) - rim;
   const Wide on_joint = fma(wide(ball), s, -over_joint * c) - joint * t_c;
   const Wide lowest = fma(min(min(heel, on_joint), fma(wide(unit_foot::toes), t_s, on_joint)), height, foot.ankle_up);
-  // the positive part of what lacks, rounded: twice continuously differentiable, and nothing from 2 mm on
+  // the missing height where positive, rounded: twice continuously differentiable, and 0 from `within` on
   const Wide within = 0.0005F * height;
   const Wide x = clamp(0.5F - 0.5F * lowest / within, 0.0F, 1.0F);
   const Wide rounded = 2.0F * within * x * x * x * (1.0F - 0.5F * x);
@@ -64,7 +64,7 @@ HWY_NOINLINE inline Wide above_ground(const FootMotion& foot, const Wide& height
   return fma(smooth(64.0F * foot.in_the_air), lacking, foot.ankle_up);
 }
 
-/// The other foot's pitch on the ground and in the air, and its ankle's place there, relative to its last foothold.
+/// The other foot's pitch on the ground and in the air, and its ankle's place there relative to its last foothold.
 struct OtherAnkle {
   Wide part;  // of the time of the swing
   WideMask swings;
@@ -76,8 +76,8 @@ HWY_NOINLINE inline OtherAnkle other_ankle(const StepPlan<Lanes<float>>& plan, c
   const Wide off = load(plan.double_support), landing = load(plan.landing);
   const LeavingShape leaving(plan);
   const Wide lift = leaving.begins(), stride = load(plan.stride_part);
-  // Who goes on standing does not swing. Who lands at the end of the step comes a little further where its curves are
-  // asked for beyond it.
+  // A walker who continues to stand does not swing. A foot that lands at the end of the step moves a little further
+  // when its curves are evaluated beyond it.
   const Wide most = select(landing > 0.0F, select(landing < 1.0F, wide(1.0F), wide(1.25F)), wide(0.0F));
   OtherAnkle a;
   a.swings = phase >= off;
@@ -85,7 +85,7 @@ HWY_NOINLINE inline OtherAnkle other_ankle(const StepPlan<Lanes<float>>& plan, c
   a.part = u;
   a.swing_pitch = quintic_at(plan.swing_pitch, u) + bumps(of, step_shape::swing_pitch, u);
   a.standing_pitch = heel_rise(leaving, (phase - lift) / max(off - lift, 1e-3F));
-  // Who turns on the spot lifts the foot.
+  // A walker who turns on the spot lifts the foot.
   const Wide lifted = select(stands_still(plan), 0.014F * height, wide(0.0F)) * bump(u);
   a.up = quintic_at(plan.swing_up_m, u) + stride * bumps(of, step_shape::swing_up, u) +
          other_way(plan.swing_by_up_m, u) + lifted;
@@ -94,7 +94,7 @@ HWY_NOINLINE inline OtherAnkle other_ankle(const StepPlan<Lanes<float>>& plan, c
   return a;
 }
 
-/// The other foot: places relative to its last foothold.
+/// Returns the other foot, with places relative to its last foothold.
 HWY_NOINLINE inline FootMotion other_foot(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
                                           const Wide& phase) {
   const OtherAnkle a = other_ankle(plan, of, height, phase);
@@ -104,7 +104,7 @@ HWY_NOINLINE inline FootMotion other_foot(const StepPlan<Lanes<float>>& plan, co
       plant(height, select(a.swings, a.swing_pitch, a.standing_pitch),
             mix(load(plan.trailing_toe_out), load(plan.to.toe_out), swung), load(plan.trailing_half_width_m));
   constexpr float straighten = 1.0F / (swing_toes::to - swing_toes::from);
-  // They are straight smoothly, too, where the foot comes level before that.
+  // They also straighten smoothly if the foot becomes level before that.
   constexpr float nearly_level = 0.2F;
   const Wide bent = mix(wide(1.0F), smooth(-a.swing_pitch * (1.0F / nearly_level)), smooth(4.0F * u));
   foot.toes = foot.toes * (1.0F - smooth((u - swing_toes::from) * straighten)) * bent;

@@ -8,17 +8,17 @@ namespace {
 
 namespace table = step_table;
 
-/// Standing, beside what the slowest walk has.
+/// Values of standing; the others are those of the slowest walk.
 constexpr double standing_length = 0.25, standing_double_support = 0.22;
 
-/// Nodes that make up a value, and how much of each.
+/// Nodes of a value, with their weights.
 struct Blend {
   std::array<std::size_t, 4> node;
   std::array<float, 4> weight;
   float walks;  // 1; less below the slowest node
 };
 
-/// Where a speed is among the nodes.
+/// Position of a speed among the nodes.
 struct Place {
   std::size_t node;  // the slower neighbour
   float part;        // of the way to the faster one
@@ -39,7 +39,7 @@ Blend speed_blend(float at) {
   Blend b;
   b.node = {i == 0 ? 0 : i - 1, i, i + 1, std::min(i + 2, table::speed_count - 1)};
   b.weight = {-0.5F * u * v * v, v * (1 + u - 1.5F * u * u), u * (1 + v - 1.5F * v * v), -0.5F * v * u * u};
-  // Where a neighbour lacks, the slope is that to the other one.
+  // Without a neighbour, the slope is that to the other one.
   if (i == 0) {
     b.weight[1] += 2 * b.weight[0];
     b.weight[2] -= b.weight[0];

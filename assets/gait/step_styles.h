@@ -1,5 +1,5 @@
 #pragma once
-// How the table's steps change with the posture of a walk: README.md beside this file.
+// Changes of the table's steps with the posture of a walk; see README.md in this folder.
 
 #include <array>
 #include <string_view>
@@ -9,8 +9,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// A parameter of a walk, and the unit of what of the step it changes: deg, parts of the cycle, m, or a part of what
-/// it usually is.
+/// A parameter of a walk, and the unit of its effect on the step: deg, parts of the cycle, m, or a part of the usual
+/// value.
 struct StyleEffect {
   float GaitStyle::*parameter;
   std::string_view what;

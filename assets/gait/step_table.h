@@ -1,5 +1,5 @@
 #pragma once
-// Steps of people of all speeds and step lengths, fitted to measured walking: README.md beside this file says to what.
+// Steps of people of all speeds and step lengths, fitted to measured walking; see README.md in this folder.
 
 #include <array>
 #include <cstddef>
@@ -16,13 +16,13 @@ inline constexpr std::array<double, length_count> length = {0.76, 0.88, 1.00, 1.
 inline constexpr std::size_t usual = 2;  // of `length`
 }  // namespace step_table
 
-/// What was given at a speed: the usual step length (of the leg), one double support (of the cycle), the pelvis' mean
-/// tilt and how far it turns and lists to each side (rad).
+/// Given values at a speed: the usual step length (of the leg), one double support (of the cycle), the pelvis' mean
+/// tilt, and its turn and list to each side (rad).
 struct StepGiven {
   double step_length, double_support, pelvis_tilt, pelvis_rotation, pelvis_list;
 };
 
-/// A shape whose lengths are of a body of height 1 m.
+/// A shape with the lengths of a body of height 1 m.
 using TabledShape = std::array<float, step_shape::size>;
 
 extern const std::array<StepGiven, step_table::speed_count> step_given;

@@ -1,4 +1,4 @@
-// Feet and hips over ground that is not level. Include it as engine/wide-inl.h says.
+// Feet and hips over ground that is not level. Include it as engine/wide-inl.h describes.
 
 #if defined(MOBIL_ASSETS_GAIT_UNEVEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_ASSETS_GAIT_UNEVEN_INL_H_
@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// The ground about a foothold: its height over the stance foothold, and how much it rises to the left of the stance
-/// foot's heading and along it, m per m; and how far the foothold is moved that way.
+/// The ground about a foothold: its height above the stance foothold, and its rise to the left of the stance foot's
+/// heading and along it, m per m. `moved_left` and `moved_along` are the foothold's displacement.
 struct Slope {
   Wide height, left, along;
   Wide moved_left, moved_along;
@@ -36,7 +36,7 @@ HWY_INLINE Slope slope_at(const Footing<Lanes<float>>& footing, FootholdOf which
           fma(x, sine, z * cosine), fnma(moved_z, sine, moved_x * cosine), fma(moved_x, sine, moved_z * cosine)};
 }
 
-/// The rotation that takes the vertical to the normal of such ground, by the shortest way.
+/// Returns the shortest rotation from the vertical to the normal of such ground.
 HWY_INLINE WideQuat tilt_of(const Wide& left, const Wide& along) {
   const Wide up = 1.0F / sqrt(fma(left, left, fma(along, along, wide(1.0F))));
   const Wide w = 1.0F + up, x = -along * up, z = left * up;
@@ -56,16 +56,16 @@ HWY_INLINE Slopes slopes_of(const Footing<Lanes<float>>& footing, const Wide& he
           slope_at(footing, FootholdOf::landing, s, c)};
 }
 
-/// How a step over a rise differs from one on level ground: `rise_table::numbers` times a part that grows with
-/// the steepness at its strike.
+/// Differences of a step over a rise from one on level ground: `rise_table::numbers` times a part that grows with the
+/// steepness at its strike.
 struct RiseParameters {
   Wide of[rise_table::count];
-  Wide rate;  // of the hips' height, of the phase
+  Wide rate;  // of the hips' height, by phase
   HWY_INLINE Wide operator[](rise_table::Number n) const { return of[n]; }
 };
 
-/// Between two footholds whose ground itself rises by `along`, m per m, on the mean: who steps off an edge does so from
-/// the forefoot however long the step, for the ankle bends no further.
+/// Returns the parameters between two footholds whose ground rises by `along`, m per m, on average. A walker steps off
+/// an edge from the forefoot however long the step, because the ankle does not bend further.
 HWY_INLINE RiseParameters rise_parameters(const Wide& rise, const Wide& along, const Wide& length, const Wide& height) {
   using namespace rise_table;
   const Wide one = wide(1.0F);
@@ -84,27 +84,27 @@ HWY_INLINE RiseParameters rise_parameters(const Wide& rise, const Wide& along, c
   return m;
 }
 
-/// What two strikes' manners are at a part of the way from one to the other.
+/// Parameters of two strikes, mixed at a part of the way from one to the other.
 struct MixedParameters {
   const RiseParameters &from, &to;
   Wide part;
   HWY_INLINE Wide operator[](rise_table::Number n) const { return mix(from[n], to[n], part); }
 };
 
-/// How far a heel has risen more than on level ground, from its beginning to toe-off; `double_support` that after the
-/// other foot's strike, of the cycle.
+/// Returns how far a heel has risen more than on level ground, from its beginning to toe-off. `double_support` is that
+/// after the other foot's strike, of the cycle.
 HWY_INLINE Wide heel_up(const Wide& cycle, const Wide& double_support) {
   const Wide off = 0.5F + double_support;
   return smooth((cycle - rise_table::heel_up_from) / (off - rise_table::heel_up_from));
 }
 
-/// A leg at a strike: the horizontal way from its foothold to the hip; pitch of the foot on level ground and now; how
-/// the ground rises along it.
+/// A leg at a strike: horizontal way from its foothold to the hip, pitch of the foot on level ground and here, and rise
+/// of the ground along it.
 struct StrikeLeg {
   Wide hip_ahead, level_pitch, pitch, along;
 };
 
-/// How much higher over its foothold than on level ground a leg lets the hips be, `ahead` being how far they are moved.
+/// Returns the height over its foothold, relative to level ground, that a leg permits hips that are moved by `ahead`.
 HWY_NOINLINE inline Wide reaches_higher(const StrikeLeg& leg, const Wide& ahead, const Wide& height) {
   const Wide zero = wide(0.0F), full = static_cast<float>(fraction::thigh + fraction::shank) * height;
   const auto reach = [&](const Wide& pitch, const Wide& along, const Wide& hip) HWY_ATTR {
@@ -116,8 +116,8 @@ HWY_NOINLINE inline Wide reaches_higher(const StrikeLeg& leg, const Wide& ahead,
   return reach(leg.pitch, leg.along, leg.hip_ahead + ahead) - reach(leg.level_pitch, zero, leg.hip_ahead);
 }
 
-/// How high over the stance foothold of the step the hips are at a strike, beside level ground: over the lower foot as
-/// they would be there, and no higher than both legs reach.
+/// Returns the hips' height above the step's stance foothold at a strike, relative to level ground. Above the lower
+/// foot it is as on level ground, and at most both legs' reach.
 HWY_NOINLINE inline Wide hips_at_strike(const HeelStrike<Lanes<float>>& strike, const Slope& behind, const Slope& ahead,
                                         const RiseParameters& posture, const Wide& height) {
   using namespace rise_table;
@@ -127,7 +127,7 @@ HWY_NOINLINE inline Wide hips_at_strike(const HeelStrike<Lanes<float>>& strike, 
   const Wide lands = of(step_shape::strike, 0), half = wide(0.5F);
   const Wide rise = usual_rise + of(step_shape::times, 1), double_support = load(strike.double_support);
   const Wide leaves = heel_rise(of, (half - rise) / (half + double_support - rise));
-  const Wide nearer = 0.5F * (behind.moved_along - ahead.moved_along);  // the hips are moved half as far as both feet
+  const Wide nearer = 0.5F * (behind.moved_along - ahead.moved_along);  // the hips move half as far as both feet
   const StrikeLeg leading = {hips, lands, fnma(posture[strike_less], lands, lands - posture[toes_first]), ahead.along};
   const StrikeLeg trailing = {hips + load(strike.length_m), leaves,
                               fnma(posture[heel_up_more], heel_up(half, double_support), leaves), behind.along};
@@ -137,8 +137,8 @@ HWY_NOINLINE inline Wide hips_at_strike(const HeelStrike<Lanes<float>>& strike, 
                  behind.height + reaches_higher(trailing, moved - nearer, height)));
 }
 
-/// The ground of a step; the manners of the rises before and after its stance foothold, and how high the hips are at
-/// its two strikes.
+/// The ground of a step, the parameters of the rises before and after its stance foothold, and the hips' height at its
+/// two strikes.
 struct Uneven {
   Slopes slopes;
   RiseParameters from, to;
@@ -152,7 +152,7 @@ HWY_NOINLINE inline Uneven uneven_of(const StepPlan<Lanes<float>>& plan, const F
   const auto& [leaving, stance, landing] = u.slopes;
   // Both steps see a strike along the heading at its leading foothold.
   const Slopes there = slopes_of(footing, heading + turn);
-  // Who stands does so as on level ground.
+  // A standing walker uses level-ground posture.
   const Wide zero = wide(0.0F);
   const auto level = [&](const HeelStrike<Lanes<float>>& strike, const Wide& value)
                          HWY_ATTR { return select(stands(strike), zero, value); };
@@ -162,27 +162,27 @@ HWY_NOINLINE inline Uneven uneven_of(const StepPlan<Lanes<float>>& plan, const F
       rise_parameters(level(plan.to, landing.height), level(plan.to, 0.5F * (there.stance.along + there.landing.along)),
                       load(plan.step_length_m), height);
   u.hips_from = hips_at_strike(plan.from, leaving, stance, u.from, height);
-  // Who stands moves no foot.
+  // A standing walker moves no foot.
   u.hips_to = select(load(plan.landing) > 0.0F, hips_at_strike(plan.to, there.stance, there.landing, u.to, height),
                      u.hips_from);
   return u;
 }
 
-/// On uneven ground legs that become straight hold the hips back over more than a fraction of a millimetre.
+/// Returns the distance over which straightening legs hold the hips back on uneven ground, more than on level ground.
 HWY_INLINE Wide gentler(const Uneven& uneven, const Wide& eased, const Wide& height) {
   constexpr float part_of_rise = 0.15F, max_h = 0.012F;
   return min(part_of_rise * mix(abs(uneven.slopes.leaving.height), abs(uneven.slopes.landing.height), eased),
              max_h * height);
 }
 
-/// A bump with a value and a slant.
+/// Returns a bump with a value and a slant.
 HWY_INLINE Wide slanted_bump(const MixedParameters& m, rise_table::Number value, rise_table::Number slant,
                              const Wide& u) {
   return bump(u) * fma(2.0F * u - 1.0F, m[slant], m[value]);
 }
 
-/// How much higher over the stance foothold, and further ahead, the hips are than on level ground. At a strike their
-/// height follows from that of both feet alone, so that it is known on either side of it.
+/// Position of the hips relative to level ground: up over the stance foothold, and ahead. At a strike their height
+/// follows only from that of both feet, so it is equal on either side of it.
 struct HipsOver {
   Wide up, ahead, lean;
 };
@@ -202,14 +202,14 @@ HWY_NOINLINE inline HipsOver hips_over(const StepPlan<Lanes<float>>& plan, const
           height * (mixed[hips_ahead] + slanted_bump(mixed, hips_ahead_middle, hips_ahead_late, p)), mixed[trunk_lean]};
 }
 
-/// How far the hips are moved with the footholds: at a strike to the middle of what both feet are.
+/// Returns the way of the hips with the footholds: at a strike, the mean of both feet's.
 HWY_INLINE Ground hips_moved(const Slopes& slopes, const Wide& eased) {
   const Slope hips = part_way(part_way(slopes.leaving, slopes.stance, wide(0.5F)),
                               part_way(slopes.stance, slopes.landing, wide(0.5F)), eased);
   return {hips.moved_left, hips.moved_along};
 }
 
-/// Moves the ankle of a foot on the ground that is pitched otherwise.
+/// Moves the ankle of a foot on the ground to another pitch.
 HWY_NOINLINE inline void pitch_planted(const Wide& height, const Wide& pitch, FootMotion& foot) {
   const FootMotion was = plant(height, foot.pitch, foot.toe_out, wide(0.0F)),
                    is = plant(height, pitch, foot.toe_out, wide(0.0F));
@@ -220,8 +220,8 @@ HWY_NOINLINE inline void pitch_planted(const Wide& height, const Wide& pitch, Fo
   foot.ankle_forward = foot.ankle_forward + is.ankle_forward - was.ankle_forward;
 }
 
-/// An ankle over its foothold, of a foot of that pitch: rolled over its heel or over its toes; between the two where
-/// the pitch is less than `rounded`, for which planted_ankle has a corner.
+/// An ankle over its foothold at that pitch, rolled over its heel or over its toes. Pitches below `rounded` are blended
+/// between the two, where planted_ankle has a corner.
 struct RolledAnkle {
   Wide along, up;
 };
@@ -238,7 +238,7 @@ HWY_NOINLINE inline RolledAnkle rolled_ankle(const Wide& height, const Wide& pit
       height * mix(joint_y + ankle_y, fma(wide(back), s, over_rim * c) + rim, on_heel)};
 }
 
-/// The same of a foot in the air, by a part of it; exactly where the corner is not rounded.
+/// Moves the ankle of a foot in the air to another pitch, by a part of it; exact where the corner is not rounded.
 HWY_NOINLINE inline void pitch_in_air(const Wide& height, const Wide& pitch, const Wide& part, const Wide& rounded,
                                       FootMotion& foot) {
   const RolledAnkle was = rolled_ankle(height, foot.pitch, rounded), is = rolled_ankle(height, pitch, rounded);
@@ -254,7 +254,7 @@ HWY_NOINLINE inline void pitch_in_air(const Wide& height, const Wide& pitch, con
   foot.ankle_forward = fma(c, along, foot.ankle_forward);
 }
 
-/// How much higher than straight from one foothold to the next the foot in the air is.
+/// Returns the height of the foot in the air above the straight line from one foothold to the next.
 HWY_INLINE Wide lift_now(const Footing<Lanes<float>>& footing, const Wide& part) {
   const auto hill = [&](float top) HWY_ATTR {
     return smooth(part * (1.0F / top)) * (1.0F - smooth((part - top) * (1.0F / (1.0F - top))));
@@ -262,8 +262,8 @@ HWY_INLINE Wide lift_now(const Footing<Lanes<float>>& footing, const Wide& part)
   return fma(load(footing.lift_early_m), hill(swing_lift::early), load(footing.lift_late_m) * hill(swing_lift::late));
 }
 
-/// A foot that comes to another height lands flat or, on the way down, toes first; one that goes down leaves the ground
-/// with its heel further up.
+/// Adapts both feet to another height. A foot that comes to it lands flat or, on the way down, toes first; one that
+/// goes down leaves the ground with its heel further up.
 HWY_NOINLINE inline void step_otherwise(const StepPlan<Lanes<float>>& plan, const Footing<Lanes<float>>& footing,
                                         const MixedShape& of, const Uneven& uneven, const Wide& height,
                                         const Wide& phase, FootMotion& stance, FootMotion& other) {
@@ -274,7 +274,7 @@ HWY_NOINLINE inline void step_otherwise(const StepPlan<Lanes<float>>& plan, cons
   const Wide ends = mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
   const Wide flat = usual_flat + from(step_shape::times, 0);
   const Wide heel = falling(from, step_shape::strike, cycle / flat);
-  // On the way up the pitch must not pass level on its way to it.
+  // On the way up the pitch must not pass through level.
   const Wide falls = select(uneven.slopes.leaving.height < 0.0F, flat, wide(toes_first_part));
   const Wide u = min(cycle / falls, one), left = 1.0F - u;
   const Wide toes = left * left * left * fma(u, fma(u, wide(6.0F), wide(3.0F)), one);
@@ -285,7 +285,7 @@ HWY_NOINLINE inline void step_otherwise(const StepPlan<Lanes<float>>& plan, cons
   const Wide part = other.part, lands = smooth(part);
   const Wide risen = heel_up(0.5F + cycle, 0.5F * load(plan.double_support));
   const Wide lifted = fnma(uneven.from[heel_up_more], risen * (1.0F - lands), other.pitch);
-  // The corner of the landing foot is as it is on the ground at the strike alone.
+  // The landing foot's corner equals the one on the ground only at the strike.
   const Wide rounded = fma(smooth(2.0F * part - 1.0F), wide(-0.199F), wide(0.2F));
   pitch_in_air(height, lifted, 1.0F - smooth(2.0F * part), wide(1e-3F), other);
   const MixedParameters mixed{uneven.from, uneven.to, lands};
@@ -300,7 +300,7 @@ HWY_NOINLINE inline void step_otherwise(const StepPlan<Lanes<float>>& plan, cons
   other.ankle_up = select(phase >= load(plan.double_support), above_ground(other, height), other.ankle_up);
 }
 
-/// Where the ankle of the other foot would be, lay it flat, of its last foothold and of its next one; part of the way.
+/// Returns the place of the other foot's ankle if laid flat, part of the way from its last foothold to its next one.
 HWY_NOINLINE inline Ground flat_other(const StepPlan<Lanes<float>>& plan, const Line& line, const Wide& swung,
                                       const Wide& out) {
   Wide before_s, before_c, ahead_s, ahead_c;
@@ -314,8 +314,7 @@ HWY_NOINLINE inline Ground flat_other(const StepPlan<Lanes<float>>& plan, const 
   return part_way(from, to, swung);
 }
 
-/// A foot whose places are those on level ground, on such ground instead. `flat`: where its ankle would be, lay it
-/// flat.
+/// Moves a foot from level ground to such ground. `flat` is the place of its ankle if laid flat.
 HWY_NOINLINE inline void put_on(const Slope& slope, const Ground& flat, FootMotion& foot, Foothold& at) {
   const WideVec off = rotate(tilt_of(slope.left, slope.along),
                              {at.ankle.left - flat.left, foot.ankle_up, at.ankle.forward - flat.forward});

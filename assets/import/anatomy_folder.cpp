@@ -18,7 +18,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// A row's mesh, whole and in mobil's frame, and its box in the file's.
+/// A row's mesh, complete and in mobil's frame, and its box in the file's.
 struct LoadedMesh {
   SurfaceMesh mesh;
   MeshBox raw, box;
@@ -28,7 +28,7 @@ tl::unexpected<Error> fault_of(const ManifestRow& row, std::string_view what) {
   return fail(fmt::format("{} ({}): {}", row.file, row.where, what));
 }
 
-/// Reads a row's mesh and mends it. What is known of it is in the part's report in any case.
+/// Reads a row's mesh and mends it. The part's report has the known data of it in any case.
 Result<LoadedMesh> load_mesh(ManifestRow& row, const LandmarkTable& table, const AnatomyOptions& options) {
   SurfaceReport& report = row.part.report;
   auto file = read_mesh(row.file);
@@ -68,7 +68,7 @@ Result<LoadedMesh> load_mesh(ManifestRow& row, const LandmarkTable& table, const
   return loaded;
 }
 
-/// The part with its mesh as light as `options` says.
+/// Writes the part with its mesh simplified by `options`.
 Result<void> finish_part(const ManifestRow& row, const LoadedMesh& loaded, const AnatomyOptions& options,
                          AnatomyPart& part) {
   const bool bone = part.kind == AnatomyKind::bone;

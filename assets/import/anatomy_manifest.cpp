@@ -43,7 +43,7 @@ constexpr std::array<std::pair<std::string_view, Segment>, 16> bone_segment = {{
     {"sesamoid", Segment::toes_right},
 }};
 
-/// Of a bone or of several joined by '+', by the first one's name.
+/// Returns the segment of a bone or of several joined by '+', by the first one's name.
 std::optional<Segment> segment_of(std::string_view bone) {
   for (const auto& [name, segment] : bone_segment) {
     if (bone.starts_with(name)) return segment;
@@ -62,7 +62,7 @@ std::optional<Muscle> group_of(std::string_view name) {
   return found && muscle_groups()[static_cast<std::size_t>(*found)] ? found : std::nullopt;
 }
 
-/// Letters of a name, small; all else spaces.
+/// Returns the letters of a name in lower case; all else is spaces.
 std::string plain_words(std::string_view name) {
   std::string words = " ";
   for (const char c : name) {
@@ -72,7 +72,7 @@ std::string plain_words(std::string_view name) {
   return words + " ";
 }
 
-/// The member of the table all of whose name's words are among these.
+/// Returns the member of the table whose name's words are all among these.
 const MemberMuscle* member_called(std::string_view name) {
   const std::string words = plain_words(name);
   for (const MemberMuscle& m : member_muscles()) {
@@ -85,7 +85,7 @@ const MemberMuscle* member_called(std::string_view name) {
   return nullptr;
 }
 
-/// Group and muscle by the manifest's group and by the names; the group that is written there is the one that counts.
+/// Finds group and muscle by the manifest's group and by the names. The manifest's group takes precedence.
 void find_muscle_of(AnatomyPart& part, std::string_view group, std::string_view name, std::string_view file) {
   if (part.kind == AnatomyKind::tendon) {
     part.group = Muscle::triceps_surae;
@@ -100,7 +100,7 @@ void find_muscle_of(AnatomyPart& part, std::string_view group, std::string_view 
   part.muscle = find_muscle(member->name);
 }
 
-/// Where a muscle of this group begins and ends when the manifest does not say.
+/// Returns the default ends of a muscle of this group.
 std::pair<Segment, Segment> usual_ends(AnatomyKind kind, std::optional<Muscle> group) {
   using enum Segment;
   if (kind == AnatomyKind::tendon) return {shank_right, foot_right};
@@ -131,7 +131,7 @@ bool wanted(const AnatomyPart& part, const AnatomyOptions& options) {
   return options.other_muscles;
 }
 
-/// A point of three columns PREFIX_x, _y, _z; nothing where the columns or all three cells are empty.
+/// Returns a point of three columns PREFIX_x, _y, _z; nothing if the columns or all three cells are empty.
 Result<std::optional<Vec3<float>>> point(const CsvTable& table, std::size_t row, const std::string& prefix,
                                          const MeshFrame& frame) {
   const std::array<std::string_view, 3> text = {cell(table, row, prefix + "_x"), cell(table, row, prefix + "_y"),
@@ -167,7 +167,7 @@ Result<void> read_attachments(const CsvTable& table, std::size_t row, const Mesh
 
 using LandmarkPoint = std::array<double, 3>;
 
-/// Nothing where the table has no such row.
+/// Returns nothing if the table has no such row.
 Result<std::optional<LandmarkPoint>> landmark(const CsvTable& table, std::string_view name, std::string_view side) {
   for (std::size_t row = 0; row < table.row.size(); ++row) {
     if (cell(table, row, "name") != name || cell(table, row, "side") != side) continue;
@@ -181,7 +181,7 @@ Result<std::optional<LandmarkPoint>> landmark(const CsvTable& table, std::string
   return std::optional<LandmarkPoint>();
 }
 
-/// What the columns unit and up say of all rows; the cells of the first.
+/// Returns unit and up of all rows, which must be those of the first.
 Result<std::pair<std::string_view, std::string_view>> frame_cells(const CsvTable& table) {
   const auto unit = cell(table, 0, "unit"), up = cell(table, 0, "up");
   for (std::size_t row = 1; row < table.row.size(); ++row) {
@@ -198,7 +198,7 @@ bool stands(const std::array<LandmarkPoint, 3>& joint, std::size_t up, double le
   return joint[0][up] > joint[1][up] && joint[1][up] > joint[2][up] && joint[0][up] - joint[2][up] > 0.8 * length;
 }
 
-/// The frame by the columns, and where they are silent by the distance from hip to ankle.
+/// Returns the frame by the columns or, where they are empty, by the distance from hip to ankle.
 Result<MeshFrame> landmark_frame(const CsvTable& table, const std::array<LandmarkPoint, 3>& joint, double x_left) {
   const auto cells = frame_cells(table);
   if (!cells) return tl::unexpected(cells.error());
@@ -233,7 +233,7 @@ Result<MeshFrame> landmark_frame(const CsvTable& table, const std::array<Landmar
   return frame;
 }
 
-/// The path of a mesh that lies in the folder; links are followed.
+/// Returns the path of a mesh in the folder; links are followed.
 Result<std::string> file_in_folder(const std::string& folder, std::string_view file, const std::string& where) {
   const std::filesystem::path named(file);
   const bool plain = std::none_of(file.begin(), file.end(), [](unsigned char c) { return c < ' ' || c == 127; });
@@ -251,7 +251,7 @@ Result<std::string> file_in_folder(const std::string& folder, std::string_view f
                   where, shown(file)));
 }
 
-/// A row of the manifest; nothing where it is not wanted.
+/// Returns a row of the manifest; nothing if it is not wanted.
 Result<std::optional<ManifestRow>> read_row(const CsvTable& table, std::size_t row, const std::string& folder,
                                             const MeshFrame& usual, const AnatomyOptions& options) {
   const std::optional<ManifestRow> passed_over;

@@ -1,5 +1,5 @@
 #pragma once
-// The two tables of an anatomy folder, read and checked before any mesh is.
+// The two tables of an anatomy folder, read and checked before any mesh.
 
 #include <cstddef>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// One wanted row: everything about a part but its mesh (whose name is set).
+/// One wanted row: everything about a part except its mesh, of which only the name is set.
 struct ManifestRow {
   std::string where;  // "FOLDER/manifest.csv line N", for messages
   std::string name;   // of the mesh's file, as written there
@@ -22,7 +22,7 @@ struct ManifestRow {
   bool watertight = false;
 };
 
-/// The rows that can be read and are wanted, in their order, and the faults of the others.
+/// The rows that are readable and wanted, in their order, and the faults of the others.
 struct Manifest {
   std::vector<ManifestRow> row;
   std::vector<std::string> faults;
@@ -34,11 +34,11 @@ struct LandmarkTable {
   std::vector<std::string> said;
 };
 
-/// The columns unit and up name the unit and the axes. Where they are empty, the distance from hip to ankle (0.4–1.3 m)
-/// and its direction decide. load_anatomy says what fails.
+/// Reads the landmarks. The columns unit and up give the unit and the axes. If they are empty, the distance from hip to
+/// ankle (0.4–1.3 m) and its direction decide. load_anatomy lists the failures.
 Result<LandmarkTable> read_landmarks(const std::string& folder);
 
-/// The rows that `options` wants; fails for a table that cannot be read, or has no such row.
+/// Reads the rows that `options` selects. Fails on a table that cannot be read, or without such a row.
 Result<Manifest> read_manifest(const std::string& folder, const MeshFrame& frame, const AnatomyOptions& options);
 
 }  // namespace mobil::inline v0_3

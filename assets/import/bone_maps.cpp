@@ -16,8 +16,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using geometry::smoothstep;
 
-/// The shortest rotation of one unit vector onto another. (Eigen's takes a singular value decomposition, and its
-/// compilation six seconds.)
+/// Returns the shortest rotation of one unit vector onto another. (Eigen's uses a singular value decomposition, which
+/// takes six seconds to compile.)
 Matrix3d shortest_turn(const Vector3d& from, const Vector3d& onto) {
   Vector3d half = from + onto;
   if (half.squaredNorm() < 1e-12) half = from.unitOrthogonal();
@@ -26,7 +26,7 @@ Matrix3d shortest_turn(const Vector3d& from, const Vector3d& onto) {
   return Eigen::Quaterniond(from.dot(half), axis.x(), axis.y(), axis.z()).toRotationMatrix();
 }
 
-/// From the upper joint to the lower: length fitted along the axis, `across` at right angles to it.
+/// Returns the map from the upper joint to the lower: length fitted along the axis, `across` at right angles to it.
 BoneMap long_bone(const Vector3d& upper, const Vector3d& lower, const Vector3d& body_upper, const Vector3d& body_lower,
                   double across) {
   const Vector3d axis = (lower - upper).normalized(), target = (body_lower - body_upper).normalized();
@@ -40,8 +40,8 @@ BoneMap long_bone(const Vector3d& upper, const Vector3d& lower, const Vector3d& 
   return map;
 }
 
-/// What the ground and the body's heel and ball are matched with: the anatomy's lowest point, the back of the heel
-/// bone, the lowest point of the first metatarsal.
+/// Points that match the ground and the body's heel and ball: the anatomy's lowest point, the back of the heel bone,
+/// the lowest point of the first metatarsal.
 struct FootShape {
   double lowest_y = std::numeric_limits<double>::infinity();
   double heel_z = 0, ball_z = 0;
@@ -91,14 +91,14 @@ BoneMap foot_map(const Anatomy& anatomy, const Body& body, const Vector3d& ankle
   return map;
 }
 
-/// Place along the leg, from the hip down: 0 pelvis, 1 thigh, 2 shank, 3 foot.
+/// Returns the place along the leg, from the hip down: 0 pelvis, 1 thigh, 2 shank, 3 foot.
 int rank(Segment segment) {
   switch (segment) {
     case Segment::pelvis:
       return 0;
     case Segment::thigh_right:
       return 1;
-    case Segment::patella_right:  // the muscle runs on to the shank, as the ligament
+    case Segment::patella_right:  // the muscle continues to the shank as the ligament
     case Segment::shank_right:
       return 2;
     default:
@@ -173,7 +173,7 @@ const BoneMap& BoneMaps::of(Segment right_segment) const {
 
 Vector3d BoneMaps::along_muscle(const Vector3d& p, Segment origin, Segment insertion) const {
   const int first = std::min(rank(origin), rank(insertion)), last = std::max(rank(origin), rank(insertion));
-  // The seat bones lie below the hip centre, the kneecap's ligament below the knee's: the blends begin under them.
+  // The seat bones are below the hip centre, the kneecap's ligament below the knee's: the blends begin under them.
   const double below_hip = smoothstep(0.05, 0.13, hip.y() - p.y());
   const bool over_kneecap = origin == Segment::patella_right || insertion == Segment::patella_right;
   const double below_knee =

@@ -1,5 +1,5 @@
 #pragma once
-// Where each part of the anatomy's right leg comes to lie in one body: one map a bone, agreeing at the joint centres.
+// Maps of the anatomy's right leg to one body: one map a bone, agreeing at the joint centres.
 
 #include <mobil/assets/import/anatomy_folder.h>
 #include <mobil/components/body.h>
@@ -11,7 +11,7 @@ inline Eigen::Vector3d eigen(const Vec3<float>& v) {
   return {v.x, v.y, v.z};
 }
 
-/// p ↦ to + linear·(p − from), m; the foot's also bends along z, in front of and behind the ankle.
+/// p ↦ to + linear·(p − from), m; the foot's also has factors along z, in front of and behind the ankle.
 struct BoneMap {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
   Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
@@ -28,20 +28,20 @@ struct LegJoints {
 struct BoneMaps {
   BoneMap pelvis, thigh, patella, shank, foot;
   Eigen::Vector3d hip, knee, ankle;  // of the anatomy, where the maps meet
-  double size = 1;                   // leg length against the anatomy's
+  double size = 1;                   // leg length over the anatomy's
 
   const BoneMap& of(Segment right_segment) const;
-  /// Of a point of a muscle that runs from one segment to another: the maps from the first to the last along the leg,
-  /// blended over a few centimetres about the joints between, so that each end stays on its bone.
+  /// Maps a point of a muscle that runs from one segment to another. The maps from the first to the last along the leg
+  /// are blended over a few centimetres about the joints between, so each end stays on its bone.
   Eigen::Vector3d along_muscle(const Eigen::Vector3d& p, Segment origin, Segment insertion) const;
 };
 
 LegJoints leg_joints(const Body& body);
 
-/// Pelvis: hip centre on hip centre, its width by the spacing of the hip centres, height and depth by the leg's length.
-/// Thigh and shank: joint centres on joint centres, turned by the least rotation, across by the leg's length. Foot:
-/// upright, ankle on ankle, lowest point on the ground, heel and ball at the body's (held to 0.9–1.1 of what the
-/// leg's length gives). Fails for a body whose lengths are not finite and positive.
+/// Returns the maps. Pelvis: hip centre on hip centre, its width by the spacing of the hip centres, height and depth by
+/// the leg's length. Thigh and shank: joint centres on joint centres, turned by the smallest rotation, across by the
+/// leg's length. Foot: upright, ankle on ankle, lowest point on the ground, heel and ball at the body's (within 0.9–1.1
+/// of the leg's length scale). Fails on a body whose lengths are not finite and positive.
 Result<BoneMaps> bone_maps(const Anatomy& anatomy, const Body& body);
 
 }  // namespace mobil::inline v0_3

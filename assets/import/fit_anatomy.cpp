@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// So far below the knee a quadriceps has its ligament with it.
+/// A quadriceps that extends this far below the knee includes its ligament.
 constexpr double past_kneecap_m = 0.035;
 
 Vec3<float> single(const Vector3d& v) {
@@ -58,7 +58,7 @@ void add_bone(const AnatomyPart& part, const BoneMaps& maps, const LegJoints& jo
   bones.push_back(std::move(image));
 }
 
-/// Centre of the highest or lowest hundredth of a surface.
+/// Returns the centre of the highest or lowest hundredth of a surface.
 Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
   auto by_height = mesh.position;
   std::sort(by_height.begin(), by_height.end(),

@@ -18,7 +18,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Opens regular files of one folder for reading, and nothing else.
+/// Opens only regular files of one folder, for reading.
 class FolderFiles : public Assimp::DefaultIOSystem {
  public:
   explicit FolderFiles(const std::filesystem::path& file) : folder_(resolved(file).parent_path()) {}
@@ -108,7 +108,7 @@ Result<RawMesh> read_gltf_scene(const std::string& path) {
   Assimp::Importer importer;
   leave_gltf_alone(importer);
   importer.SetIOHandler(new FolderFiles(path));  // the importer deletes it
-  // No post-processing: it trusts indices, which are only checked here.
+  // No post-processing, because it trusts indices, which are only checked here.
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     return fail(fmt::format("cannot be read as glTF ({}); copy or export it again", shown(importer.GetErrorString())));

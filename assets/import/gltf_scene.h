@@ -1,5 +1,5 @@
 #pragma once
-// A glTF file through assimp, in this process: for a process that may be lost.
+// A glTF file through assimp, in this process. Call it in a process that can be lost.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Only the importers of glTF are registered, and only files below the mesh's folder are opened. Fails with a line
-/// that lacks the path.
+/// Registers only the importers of glTF, and opens only files below the mesh's folder. Fails with a line that lacks the
+/// path.
 Result<RawMesh> read_gltf_scene(const std::string& path);
 
 }  // namespace mobil::inline v0_3

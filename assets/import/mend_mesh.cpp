@@ -17,7 +17,7 @@ using namespace geometry;
 
 constexpr std::uint32_t no_edge = ~0U;
 
-/// The edge of the neighbouring triangle; none at a border. Nothing where an edge has more than two triangles.
+/// Returns the edge of the neighbouring triangle, none at a border; nothing if an edge has more than two triangles.
 std::optional<std::vector<std::uint32_t>> twin_edges(const SurfaceMesh& mesh) {
   const auto sorted = sorted_edges(mesh);
   std::vector<std::uint32_t> twin(sorted.size(), no_edge);
@@ -40,7 +40,7 @@ double double_area(const Vec& a, const Vec& b, const Vec& c) {
   return length(cross(b - a, c - a));
 }
 
-/// From `start` along open edges back to it: the vertices in the border's order. Empty where they do not lead back.
+/// Follows open edges from `start` back to it. Returns the border's vertices in order; none if they do not lead back.
 std::vector<std::uint32_t> border_loop(const std::vector<std::uint32_t>& next, std::uint32_t start) {
   std::vector<std::uint32_t> loop;
   for (std::uint32_t v = start; loop.empty() || v != start; v = next[v]) {
@@ -223,7 +223,7 @@ std::size_t turn_outwards(SurfaceMesh& mesh, const Pieces& pieces) {
   std::vector<bool> turns(pieces.count, false);
   for (std::uint32_t p = 0; p < pieces.count; ++p) {
     turns[p] = volume[p] < 0;
-    const bool large = 100 * triangles[p] >= pieces.of.size();  // so few that each may be compared with all
+    const bool large = 100 * triangles[p] >= pieces.of.size();  // few enough to compare each with all
     if (p == main || !large || turns[p] == main_turns) continue;
     if (std::abs(times_inside_others(mesh, pieces, p)) > 0.5) turns[p] = main_turns;
   }

@@ -19,16 +19,16 @@ namespace {
 
 using namespace geometry;
 
-// Bounds, and in brackets the worst of the 40 muscles of a real leg made for display: up to 0.35 % of a muscle's
-// triangles cut others, 2.8 % of them are specks; no piece cuts another; volume / area^1.5 is 0.011 or more, twice
-// volume / area 1.5 mm or more. Its skin reaches 26 mm over the middle plane, bones and muscles not at all.
+// Bounds. In the worst of the 40 muscles of a real leg made for display, 0.35 % of the triangles cut others and 2.8 %
+// are specks. No piece cuts another, volume / area^1.5 is at least 0.011, and twice volume / area at least 1.5 mm. Its
+// skin extends 26 mm over the middle plane, bones and muscles do not.
 constexpr double max_cut_share = 0.02, max_speck_share = 0.1;
 constexpr std::size_t max_cuts_between_pieces = 8;
 constexpr double min_fullness = 0.003, min_thickness_m = 0.0003;
 constexpr float max_over_middle_m = 0.05F;
-/// A closed hole is at most so much of the surface, and all of them together.
+/// Maximum share of the surface of one closed hole, and of all of them together.
 constexpr double hole_share = 0.01, all_holes_share = 0.03;
-/// A piece inside another counts as a copy from this share of the volume on; smaller ones are said.
+/// Share of the volume from which on a piece inside another counts as a copy; smaller ones are accepted.
 constexpr double copy_share = 0.1;
 
 double area_of(const SurfaceMesh& mesh) {
@@ -88,7 +88,7 @@ Result<void> mend_topology(SurfaceMesh& mesh, bool fleshy, SurfaceReport& report
       count_edges(mesh).border, counted(holes.left, "hole is", "holes are"), 100 * hole_share, 100 * all_holes_share));
 }
 
-/// Of a closed surface of several pieces: none may lie in another as a copy of it.
+/// Fails if a piece of a closed surface is inside another as a copy of it.
 Result<void> check_nested(const SurfaceMesh& mesh, const Pieces& pieces) {
   const std::vector<double> volume = piece_volumes(mesh, pieces);
   const double largest = *std::max_element(volume.begin(), volume.end());

@@ -22,7 +22,7 @@ namespace {
 
 enum class MeshFormat : std::uint8_t { obj, stl, ply, gltf };
 
-/// By the end of the name, in any case.
+/// Returns the format by the ending of the name, in any case.
 Result<MeshFormat> format_of(const std::string& path) {
   const std::string end = std::filesystem::path(path).extension().string();
   if (same_word(end, ".obj")) return MeshFormat::obj;

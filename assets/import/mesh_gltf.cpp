@@ -39,14 +39,14 @@ constexpr bool limit_memory = false;  // sanitizers reserve terabytes of address
 constexpr bool limit_memory = true;
 #endif
 
-/// What the child sends first: a mesh of so many positions and indices, or a line of so many characters.
+/// First message of the child: counts of positions and indices of a mesh, or of characters of a line.
 struct Answer {
   std::uint64_t positions = 0, indices = 0, line = 0;
 };
 
 // ------------------------------------------------------------------------------------------------------- the child
 
-/// Addresses in use now, which a child has from its parent; 0 where the system does not say.
+/// Returns the addresses in use, which a child has from its parent; 0 if the system does not report them.
 rlim_t addresses_now() {
   unsigned long long pages = 0;
   if (std::FILE* file = std::fopen("/proc/self/statm", "r"); file != nullptr) {
@@ -112,7 +112,7 @@ using Clock = std::chrono::steady_clock;
 
 enum class Received { all, less, late };
 
-/// Exactly so many bytes, before the end of time.
+/// Receives exactly so many bytes before `end`.
 Received receive(int pipe, void* data, std::size_t bytes, Clock::time_point end) {
   auto* to = static_cast<char*>(data);
   while (bytes > 0) {
@@ -156,7 +156,7 @@ void receive_answer(int pipe, Clock::time_point end, Child& child) {
   part(child.line.data(), answer.line);
 }
 
-/// What came through the pipe is a file's as well.
+/// Checks the mesh from the pipe, which is as untrusted as the file.
 bool is_sound(const RawMesh& raw) {
   for (const auto& p : raw.position) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;

@@ -17,7 +17,7 @@ struct PlacedVertex {
   friend auto operator<=>(const PlacedVertex&, const PlacedVertex&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// For each position the first one that is equal. Sorted, not hashed: no file can make it slow.
+/// Returns the first equal position of each. Sorted, not hashed, so that no file can make it slow.
 std::vector<std::uint32_t> first_equal(const std::vector<Vec3<float>>& position) {
   std::vector<PlacedVertex> sorted(position.size());
   for (std::uint32_t v = 0; v < position.size(); ++v) {

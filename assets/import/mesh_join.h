@@ -1,5 +1,5 @@
 #pragma once
-// What the readers of mesh formats share: triangles by index from what a file names.
+// Shared by the readers of mesh formats: indexed triangles from those of a file.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,20 +13,20 @@
 
 namespace mobil::inline v0_3 {
 
-/// Vertices and triangles as a file names them: three indices each, all below the count of positions, which are finite.
+/// Vertices and triangles of a file: three indices each, all below the count of positions, which are finite.
 struct RawMesh {
   std::vector<Vec3<float>> position;
   std::vector<std::uint32_t> triangle;
 };
 
-/// See MeshFile. Vertices stand in the order in which triangles name them; those that none names are left out. Fails
-/// where no triangle has three different corners.
+/// Returns the mesh; see MeshFile. Vertices are in the order in which triangles first use them; unused ones are left
+/// out. Fails if no triangle has three different corners.
 Result<MeshFile> join_mesh(const RawMesh& raw, std::string_view path);
 
-/// "PATH line N: what", for faults of a text.
+/// Returns "PATH line N: what", for faults of a text.
 tl::unexpected<Error> fault_in_line(std::string_view path, std::size_t line, std::string_view what);
 
-/// Fails for more triangles than max_mesh_triangles.
+/// Returns the failure of more triangles than max_mesh_triangles.
 tl::unexpected<Error> too_many_triangles(std::string_view path);
 
 }  // namespace mobil::inline v0_3

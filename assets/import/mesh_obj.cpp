@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t max_obj_vertices = 3 * max_mesh_triangles;
 
-/// What the format has beside vertices and faces.
+/// Statements of the format other than vertices and faces.
 constexpr std::array<std::string_view, 44> passed_over = {
     "vt",       "vn",       "vp",     "g",   "o",    "s",     "mg",    "usemtl", "mtllib", "usemap",     "maplib",
     "l",        "p",        "cstype", "deg", "bmat", "step",  "curv",  "curv2",  "surf",   "parm",       "trim",
@@ -29,7 +29,7 @@ struct ObjReader {
   std::size_t largest_line = 0;
 };
 
-/// A word that begins a comment ends the statement.
+/// Returns the next word; one that begins a comment ends the statement.
 std::string_view next_of_statement(MeshText& text) {
   const auto word = next_word(text);
   return word.starts_with('#') ? std::string_view() : word;
@@ -63,7 +63,7 @@ Result<void> read_obj_vertex(ObjReader& reader) {
   return {};
 }
 
-/// The vertex of a corner "v", "v/vt", "v//vn" or "v/vt/vn", counted from 1; nothing where it is none of these.
+/// Returns the vertex of a corner "v", "v/vt", "v//vn" or "v/vt/vn", counted from 1; nothing for other words.
 std::optional<std::int64_t> corner_vertex(std::string_view word) {
   std::optional<std::int64_t> vertex;
   for (int part = 0;; ++part) {

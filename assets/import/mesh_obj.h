@@ -8,9 +8,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// Vertices and faces; all other statements of the format are passed over. A vertex has three numbers, a weight of 1
-/// after them or not, and a colour after them or not. Messages begin with `path`; see read_mesh for what fails, which
-/// also is a statement that OBJ does not have.
+/// Reads vertices and faces; all other statements of the format are skipped. A vertex has three numbers, then
+/// optionally a weight of 1 and a colour. Messages begin with `path`. Fails as read_mesh, and on a statement that OBJ
+/// does not have.
 Result<MeshFile> read_obj(std::string_view bytes, std::string_view path);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// The pieces of a mesh that hang together by their vertices.
+// Pieces of a mesh that are connected by their vertices.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace mobil::inline v0_3 {
 
-/// A number for each triangle, counted from 0, the same for all that hang together.
+/// A number for each triangle, from 0, the same within a connected piece.
 struct Pieces {
   std::vector<std::uint32_t> of;  // each triangle's
   std::uint32_t count = 0;
 };
 Pieces label_pieces(const SurfaceMesh& mesh);
 
-/// Triangles in each piece.
+/// Returns the number of triangles in each piece.
 std::vector<std::size_t> piece_triangles(const Pieces& pieces);
 
-/// Volume that each piece encloses, in the cube of the mesh's unit: negative where it is wound inwards.
+/// Returns the volume that each piece encloses, in the cube of the mesh's unit; negative if it is wound inwards.
 std::vector<double> piece_volumes(const SurfaceMesh& mesh, const Pieces& pieces);
 
-/// Keeps the triangles of the pieces for whose number `stays` holds, and the vertices that they use.
+/// Keeps the triangles of the pieces whose number satisfies `stays`, and the vertices that they use.
 template <class Stays>
 void keep_pieces(SurfaceMesh& mesh, const Pieces& pieces, Stays stays) {
   std::size_t kept = 0;

@@ -15,13 +15,12 @@ namespace {
 using namespace geometry;
 
 constexpr float reach_limit_m = 1.5F, smallest_extent_m = 0.002F;
-// Of a real leg's 14 + 26 muscles the smallest is 67 mm long and the largest 581 mm; its smallest bone is 8 mm long and
-// its largest 440 mm.
+// A real leg's muscles (14 + 26) are 67 to 581 mm long, and its bones are 8 to 440 mm long.
 constexpr float smallest_muscle_m = 0.03F, largest_part_m = 1.0F;
 // The boxes of that leg's muscles come within 33 mm of the lines from hip to knee to ankle, that of its kneecap within
 // 29 mm, and those of its muscles touch their bones'.
 constexpr float line_limit_m = 0.06F, bone_limit_m = 0.05F;
-// So far do pelvis and foot stretch beyond hip and ankle, which is all that landmarks say about them.
+// Reach of pelvis and foot beyond hip and ankle, for which there are only these landmarks.
 constexpr float pelvis_reach_m = 0.15F, foot_reach_m = 0.25F;
 
 float component_gap(float least, float most, float other_least, float other_most) {
@@ -34,7 +33,7 @@ float gap(const MeshBox& a, const MeshBox& b) {
                     component_gap(a.least.z, a.most.z, b.least.z, b.most.z));
 }
 
-/// Place along the leg, from the hip down.
+/// Returns the place along the leg, from the hip down.
 int place_of(Segment segment) {
   switch (segment) {
     case Segment::pelvis:
@@ -59,10 +58,10 @@ float gap_to_line(const MeshBox& box, const Vec3<float>& from, const Vec3<float>
   return least;
 }
 
-/// To the nearest of the lines between joints, from the part's origin to its insertion.
+/// Returns the distance to the nearest of the lines between joints, from the part's origin to its insertion.
 float gap_to_leg(const MeshBox& box, bool fleshy, int first, int last, const AnatomyLandmarks& at) {
   float least = std::numeric_limits<float>::infinity();
-  if (fleshy) {  // also the muscles of pelvis and foot alone come near thigh and shank
+  if (fleshy) {  // muscles of only pelvis or foot also come near thigh and shank
     const bool passes_line = first <= 2 && last >= 1;
     first = passes_line ? std::max(first, 1) : 1;
     last = passes_line ? std::min(last, 2) : 2;

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a mesh lies where its row says that it does: by its box, the joints and the bones.
+// Checks a mesh's place against its row: by its box, the joints and the bones.
 
 #include <optional>
 #include <string>
@@ -11,31 +11,31 @@
 
 namespace mobil::inline v0_3 {
 
-/// Parallel to the axes.
+/// A box parallel to the axes.
 struct MeshBox {
   Vec3<float> least, most;
 };
 
-/// Of a mesh with at least one vertex.
+/// Returns the box of a mesh with at least one vertex.
 MeshBox box_of(const SurfaceMesh& mesh);
 
-/// Of a box in a file's frame, in mobil's axes, m.
+/// Converts a box in a file's frame to mobil's axes, m.
 MeshBox to_mobil(const MeshBox& box, const MeshFrame& frame);
 
-/// The boxes of a folder's bones, m, mobil's axes.
+/// Box of a bone of the folder, m, mobil's axes.
 struct PlacedBone {
   Segment segment;
   MeshBox box;
 };
 
-/// What is wrong with a part's place or size, as "reaches …; valid: …"; nothing where it is right. `box` in m, mobil's
-/// axes. Bones are compared with the joints alone, muscles and tendons also with the bones from their origin to their
-/// insertion, where each segment on the way has one; skins only with how far a body reaches.
+/// Returns a fault of a part's place or size, as "reaches …; valid: …", or nothing. `box` is in m, mobil's axes. Bones
+/// are compared only with the joints. Muscles and tendons are also compared with the bones from their origin to their
+/// insertion, if each segment between has one. Skins are compared only with a body's reach.
 std::optional<std::string> misplaced(const MeshBox& box, const AnatomyPart& part, const AnatomyLandmarks& landmarks,
                                      const std::vector<PlacedBone>& bones);
 
-/// "; it would fit with unit cm, up y" for the frames in which a box of the file's own numbers is not misplaced; or how
-/// to mend it otherwise.
+/// Returns "; it would fit with unit cm, up y" for the frames in which a box of the file's own numbers is not
+/// misplaced, or another remedy.
 std::string frames_that_fit(const MeshBox& raw, const AnatomyPart& part, const AnatomyLandmarks& landmarks,
                             const std::vector<PlacedBone>& bones);
 

@@ -28,7 +28,7 @@ struct PlyReader {
   std::vector<double> value;  // of one property
 };
 
-/// Where in the file something is: a line of a text, an item of a binary file.
+/// Returns a fault with its place in the file: a line of a text, an item of a binary file.
 tl::unexpected<Error> ply_fault(const PlyReader& reader, const PlyElement& element, std::size_t item,
                                 std::string_view what) {
   if (reader.format == PlyFormat::ascii) return fault_in_line(reader.path, reader.text.line, what);
@@ -69,7 +69,7 @@ double binary_value(const unsigned char* bytes, PlyType type, bool big) {
   }
 }
 
-/// One value as text: a coordinate or index must be a finite number, any other a number.
+/// Reads one value as text: a coordinate or index must be a finite number, any other a number.
 std::optional<double> text_value(PlyReader& reader, PlyType type, bool wanted) {
   const auto word = next_word(reader.text);
   if (type != PlyType::float32 && type != PlyType::float64) {
@@ -81,7 +81,7 @@ std::optional<double> text_value(PlyReader& reader, PlyType type, bool wanted) {
   return number ? std::optional(static_cast<double>(*number)) : std::nullopt;
 }
 
-/// `count` values into reader.value; binary ones that nobody wants are passed over.
+/// Reads `count` values into reader.value; unwanted binary ones are skipped.
 Result<void> read_values(PlyReader& reader, const PlyElement& element, std::size_t item, PlyType type,
                          std::size_t count, bool wanted) {
   reader.value.clear();
@@ -109,7 +109,7 @@ Result<void> read_values(PlyReader& reader, const PlyElement& element, std::size
   return {};
 }
 
-/// One property of one item. A list's count must be justified by what is left of the file.
+/// Reads one property of one item. The rest of the file must be long enough for a list's count.
 Result<void> read_property(PlyReader& reader, const PlyElement& element, std::size_t item, const PlyProperty& property,
                            bool wanted) {
   if (!property.count) return read_values(reader, element, item, property.type, 1, wanted);
@@ -161,7 +161,7 @@ Result<void> add_face(PlyReader& reader, const PlyElement& element, std::size_t 
   return {};
 }
 
-/// The line of an item of a text: past empty ones. False at the end of the text.
+/// Moves to the line of a text's item, past empty ones. Returns false at the end of the text.
 bool find_item(PlyReader& reader, bool first) {
   if (!first && !next_line(reader.text)) return false;
   for (;;) {
@@ -199,7 +199,7 @@ Result<void> read_items(PlyReader& reader, const PlyElement& element, bool first
   return {};
 }
 
-/// Whether the elements are those of a surface.
+/// Fails unless the elements are those of a surface.
 Result<void> check_elements(const PlyHeader& header, PlyReader& reader) {
   const auto find = [&](std::string_view name) { return std::ranges::find(header.element, name, &PlyElement::name); };
   const auto vertex = find("vertex"), face = find("face");

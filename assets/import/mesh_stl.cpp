@@ -59,7 +59,7 @@ struct StlReader {
   RawMesh raw;
 };
 
-/// The words of the grammar in their order, wherever the lines end.
+/// Reads a word of the grammar; line ends do not matter.
 Result<void> expect(StlReader& reader, std::string_view wanted) {
   const auto word = next_word_of_any_line(reader.text);
   if (same_word(word, wanted)) return {};
@@ -104,7 +104,7 @@ Result<void> read_facet(StlReader& reader) {
   return {};
 }
 
-/// From after "solid" to the end of the line of "endsolid".
+/// Reads from after "solid" to the end of the line of "endsolid".
 Result<void> read_solid(StlReader& reader) {
   next_line(reader.text);  // the rest of the line is a name
   for (;;) {

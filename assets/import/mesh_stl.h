@@ -8,8 +8,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Binary is what is as long as its count of facets says, whatever it begins with; text begins with "solid". Normals
-/// and attributes are passed over. Messages begin with `path`; see read_mesh for what fails.
+/// A file is binary if it is as long as its count of facets requires, whatever it begins with; text begins with
+/// "solid". Normals and attributes are skipped. Messages begin with `path`. Fails as read_mesh.
 Result<MeshFile> read_stl(std::string_view bytes, std::string_view path);
 
 }  // namespace mobil::inline v0_3

@@ -14,13 +14,13 @@ bool ends_line(char c) {
   return c == '\n' || c == '\r';
 }
 
-/// How many bytes the end of a line at `at` takes; 0 where there is none.
+/// Returns the bytes of the line end at `at`, or 0.
 std::size_t end_length(std::string_view bytes, std::size_t at) {
   if (at >= bytes.size() || !ends_line(bytes[at])) return 0;
   return bytes[at] == '\r' && at + 1 < bytes.size() && bytes[at + 1] == '\n' ? 2 : 1;
 }
 
-/// Past a backslash and the end of its line, where lines may go on.
+/// Skips a backslash and the end of its line, if lines can continue.
 bool skip_continuation(MeshText& text) {
   if (!text.continued || text.at >= text.bytes.size() || text.bytes[text.at] != '\\') return false;
   const std::size_t end = end_length(text.bytes, text.at + 1);

@@ -1,5 +1,5 @@
 #pragma once
-// Words and numbers of a mesh file written as text, whatever the locale; lines end with LF, CRLF or CR.
+// Words and numbers of a mesh file written as text, independent of the locale; lines end with LF, CRLF or CR.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,34 +13,34 @@ struct MeshText {
   std::string_view bytes;
   std::size_t at = 0;
   std::size_t line = 1;
-  bool continued = false;  // a backslash before the line's end goes on with the next line
+  bool continued = false;  // a backslash before the line's end continues it
 };
 
-/// Past a mark of UTF-8 at the beginning, if there is one.
+/// Returns the text after a UTF-8 mark at the beginning, if there is one.
 MeshText mesh_text(std::string_view bytes, bool continued = false);
 
-/// The next word of the present line; empty at its end.
+/// Returns the next word of the current line; empty at its end.
 std::string_view next_word(MeshText& text);
 
-/// The next word of any line; empty at the end of the text.
+/// Returns the next word of any line; empty at the end of the text.
 std::string_view next_word_of_any_line(MeshText& text);
 
-/// Goes to the beginning of the next line. False at the end of the text.
+/// Moves to the beginning of the next line. Returns false at the end of the text.
 bool next_line(MeshText& text);
 
-/// The whole word as a coordinate: finite, decimal, at most a sign before it. A number too small for a float is 0.
+/// Returns the word as a coordinate: finite, decimal, with an optional sign. A number too small for a float is 0.
 std::optional<float> coordinate(std::string_view word);
 
-/// The whole word as a number of any kind, also inf and nan: for values that are passed over.
+/// True if the word is a number of any kind, including inf and nan, for values that are skipped.
 bool is_number(std::string_view word);
 
-/// The whole word as an integer.
+/// Returns the word as an integer.
 std::optional<std::int64_t> whole_number(std::string_view word);
 
-/// Equal but for the case of ASCII letters; `small` has none but small ones.
+/// True if the words are equal except for the case of ASCII letters; `small` must be lower case.
 bool same_word(std::string_view word, std::string_view small);
 
-/// What a message may show of a file's or user's text: printable ASCII, at most 40 characters, in quotes.
+/// Returns a file's or user's text as messages show it: printable ASCII, at most 40 characters, in quotes.
 std::string shown(std::string_view word);
 
 }  // namespace mobil::inline v0_3

@@ -39,14 +39,14 @@ bool has_fraction(PlyType type) {
   return type == PlyType::float32 || type == PlyType::float64;
 }
 
-/// The words of one line, of which headers have few.
+/// Returns the words of one line; headers have few.
 std::vector<std::string_view> header_words(MeshText& text) {
   std::vector<std::string_view> words;
   for (auto word = next_word(text); !word.empty() && words.size() < 8; word = next_word(text)) words.push_back(word);
   return words;
 }
 
-/// What a line of the header should have been.
+/// Returns the fault of a header line, with valid ones.
 tl::unexpected<Error> bad_header(std::string_view path, const MeshText& text, std::string_view valid) {
   return fault_in_line(path, text.line,
                        fmt::format("not a line of a PLY header; valid: {}: export the mesh again", valid));
@@ -84,7 +84,7 @@ Result<void> add_element(const std::vector<std::string_view>& word, const MeshTe
   return {};
 }
 
-/// The least bytes that one item takes: a value as text takes a digit and a separator.
+/// Returns the minimum bytes of one item; a value as text takes a digit and a separator.
 std::size_t min_size(const PlyElement& element, PlyFormat format) {
   std::size_t bytes = 0;
   for (const auto& property : element.property) {
@@ -94,7 +94,7 @@ std::size_t min_size(const PlyElement& element, PlyFormat format) {
 }
 
 Result<void> check_counts(const PlyHeader& header, std::size_t left, std::string_view path) {
-  left += header.format == PlyFormat::ascii ? 1 : 0;  // the last separator may be missing
+  left += header.format == PlyFormat::ascii ? 1 : 0;  // the last separator can be missing
   for (const auto& element : header.element) {
     const std::size_t each = min_size(element, header.format);
     if (element.count == 0) continue;
@@ -109,7 +109,7 @@ Result<void> check_counts(const PlyHeader& header, std::size_t left, std::string
   return {};
 }
 
-/// Where the data begin: after the line's end, which is as the first line's was.
+/// Moves to the data, past the line's end, which is as the first line's.
 void skip_last_line_end(MeshText& text, bool two_bytes) {
   const auto rest = text.bytes.substr(text.at);
   if (two_bytes && rest.starts_with("\r\n")) {

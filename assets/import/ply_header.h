@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PLY file: which elements follow, and how they are written.
+// The header of a PLY file: its elements, and their encoding.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace mobil::inline v0_3 {
 enum class PlyFormat : std::uint8_t { ascii, little_endian, big_endian };
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// Bytes of one value in a binary file.
+/// Returns the bytes of one value in a binary file.
 std::size_t size_of(PlyType type);
 
 struct PlyProperty {
@@ -36,8 +36,8 @@ struct PlyHeader {
   std::vector<PlyElement> element;
 };
 
-/// Reads the header and leaves `text` at the first byte of the data. Fails for anything that the format does not have,
-/// and for more elements than the bytes that follow can hold.
+/// Reads the header and leaves `text` at the first byte of the data. Fails on anything that the format does not have,
+/// and on more elements than the remaining bytes can hold.
 Result<PlyHeader> read_ply_header(MeshText& text, std::string_view path);
 
 }  // namespace mobil::inline v0_3

@@ -19,7 +19,7 @@ Eigen::Vector3d at(const SurfaceMesh& mesh, std::uint32_t vertex) {
   return {p.x, p.y, p.z};
 }
 
-/// Rotated so that the smallest index comes first: equal for triangles of the same corners and winding.
+/// Returns the triangle rotated so that its smallest index is first: equal for the same corners and winding.
 std::array<std::uint32_t, 3> canonical(std::array<std::uint32_t, 3> t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
@@ -77,7 +77,7 @@ SurfaceMesh clustered(const SurfaceMesh& mesh, double cell_m) {
   }
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  for (const auto& t : triangles) {  // a sheet folded flat onto itself vanishes, both sides of it
+  for (const auto& t : triangles) {  // a sheet folded flat onto itself vanishes, with both sides
     if (std::binary_search(triangles.begin(), triangles.end(), canonical({t[0], t[2], t[1]}))) continue;
     light.triangle.insert(light.triangle.end(), t.begin(), t.end());
   }

@@ -30,7 +30,7 @@ bool apart(const CutBox& a, const CutBox& b) {
          a.most.z < b.least.z || b.most.z < a.least.z;
 }
 
-/// A node holds the triangles first to last of the order; its children are itself + 1 and `second`, 0 in a leaf.
+/// A node has the triangles first to last of the order. Its children are itself + 1 and `second`, 0 in a leaf.
 struct CutNode {
   CutBox box;
   std::uint32_t first, last, second;
@@ -75,7 +75,7 @@ Corners corners_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
   return corner;
 }
 
-/// Six times the volume of a tetrahedron, with its sign.
+/// Returns six times the volume of a tetrahedron, with its sign.
 double side(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
   return dot(a - d, cross(b - d, c - d));
 }
@@ -84,7 +84,7 @@ bool one_sign(double a, double b, double c) {
   return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
 }
 
-/// Whether an edge of `other` goes through the inside of `triangle`.
+/// True if an edge of `other` passes through the inside of `triangle`.
 bool pierced(const Corners& triangle, const Corners& other) {
   const auto& [a, b, c] = triangle;
   std::array<double, 3> s{};

@@ -1,5 +1,5 @@
 #pragma once
-// How often a surface cuts itself.
+// Self-intersections of a surface.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace mobil::inline v0_3 {
 
-/// Pairs of triangles without a common vertex that cut each other, all of them and those of two different pieces.
-/// Triangles that touch, or lie in one plane, do not count.
+/// Pairs of triangles without a common vertex that cut each other: all of them, and those of two different pieces.
+/// Triangles that touch or are coplanar do not count.
 struct CutCount {
   std::size_t pairs = 0, between_pieces = 0;
-  bool complete = true;  // false: the search ended early, and there may be more
+  bool complete = true;  // false: the search ended early, and there can be more
 };
 
-/// `piece`: a number for each triangle; see label_pieces. The search ends at `max_pairs`, or after so many comparisons
-/// of boxes that only a tangle needs them.
+/// Counts the pairs. `piece` has a number for each triangle; see label_pieces. The search ends at `max_pairs`, or after
+/// a number of box comparisons that only a tangle needs.
 CutCount count_cuts(const SurfaceMesh& mesh, std::span<const std::uint32_t> piece, std::size_t max_pairs = 100'000);
 
 }  // namespace mobil::inline v0_3

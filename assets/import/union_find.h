@@ -1,5 +1,5 @@
 #pragma once
-// Sets that are joined until it is known what belongs together.
+// Disjoint sets that can be joined.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Members 0 to count - 1, each at first a set of its own, known by its least member.
+/// Members 0 to count - 1, each at first a separate set, identified by its smallest member.
 struct UnionFind {
   std::vector<std::uint32_t> root;
 

@@ -21,7 +21,7 @@ double area(const LegEllipse& e) {
 }
 
 constexpr Quat<double> upright{0, 0, 0, 1};
-/// The published leg, straight, its hip in the origin.
+/// The published leg, straight, with its hip at the origin.
 constexpr LegFrames<double> published_bones = {
     {0, 0, 0}, {0, -published_leg::thigh_m, 0}, {0, -published_leg::leg_m, 0}, upright, upright, upright, upright};
 

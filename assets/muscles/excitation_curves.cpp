@@ -16,7 +16,7 @@ constexpr ExcitationCurve curves[] = {
 };
 // clang-format on
 
-/// Which measured muscle a member is excited as: itself, its head or neighbour of one function.
+/// Returns the measured muscle whose curve a member uses: itself, its head, or a neighbour of the same function.
 std::string_view measured_as(std::string_view muscle) {
   if (muscle.starts_with("vastus")) return "vastus_medialis";
   if (muscle.starts_with("gastrocnemius") || muscle == "plantaris") return "gastrocnemius_medial";

@@ -1,15 +1,15 @@
 #pragma once
-// How the muscles of the leg are built inside: fibres, pennation, belly and tendon in a body of ours, from the
-// published columns of the table, as `mobil body` writes them. The simulation reads fibre and tendon (MemberPlan).
+// Architecture of the leg's muscles: fibres, pennation, belly and tendon in a body, from the published columns of the
+// table, as `mobil body` writes them. The simulation reads fibre and tendon (MemberPlan).
 //
 // Sources.
-//   Fibres, pennation, belly: Ward, Eng, Smallwood & Lieber: Are current measurements of lower extremity muscle
+//   Fibres, pennation, belly: Ward, Eng, Smallwood & Lieber, Are current measurements of lower extremity muscle
 //     architecture accurate? Clin. Orthop. Relat. Res. 467, 2009; 21 cadavers of 1.684 m. Fibre lengths are at a
-//     sarcomere length of 2.7 µm; the belly goes from its first fibre to its last.
-//   Tendon and the fibre length that belongs to it: the gait2392 model of OpenSim (Delp et al. 1990), with the length
-//     of the muscle's path there in the anatomical position. The tendon includes what of it lies within the belly. The
-//     model's quadriceps end on the kneecap.
-//   Where the model has no such muscle, its tendon is what the path leaves beside the fibres.
+//     sarcomere length of 2.7 µm; the belly extends from its first fibre to its last.
+//   Tendon and its matching fibre length: the gait2392 model of OpenSim (Delp et al. 1990), with the length of the
+//     muscle's path there in the anatomical position. The tendon includes its part within the belly. The model's
+//     quadriceps end on the kneecap.
+//   A muscle that the model lacks has the path's length less the fibres' as its tendon.
 //   Density 1060 kg/m³: Mendez & Keys, Metabolism 9, 1960. Volumes: mobil/muscle_table.h.
 
 #include <vector>
@@ -21,29 +21,29 @@ namespace mobil::inline v0_3 {
 
 inline constexpr double muscle_density_kg_m3 = 1060;
 
-/// A muscle of one leg of one body in the anatomical position. Of a group: sums of volume, mass and both sections, and
-/// means of the lengths and the angle by the members' volumes in the reference body.
+/// Parameters of a muscle of one leg of one body in the anatomical position. A group has the sums of its members'
+/// volume, mass and both sections. Its lengths and angle are means by the members' volumes in the reference body.
 struct MuscleParameters {
   double volume_m3 = 0, mass_kg = 0;
   double muscle_tendon_m = 0;  // along the path, L₀
   double belly_m = 0, fibre_m = 0, pennation_deg = 0;
-  double model_fibre_m = 0, tendon_m = 0;  // the model's pair: slack tendon and the fibres that go with it
+  double model_fibre_m = 0, tendon_m = 0;  // the model's pair: slack tendon and matching fibres
   double section_m2 = 0;                   // volume over belly
   double physiological_section_m2 = 0;     // volume · cos(pennation) over fibre length
 };
 
-/// Belly and fibres grow with stature, tendon and its fibres with the muscle's path, as OpenSim scales its models;
-/// the volume is member_volume_m3's (mobil/assets/muscles/muscle_plan.h).
+/// Return the parameters. Belly and fibres scale with stature, tendon and its fibres with the muscle's path, as in
+/// OpenSim. The volume is member_volume_m3's (mobil/assets/muscles/muscle_plan.h).
 MuscleParameters member_parameters(const Body& body, const MemberMuscle& member);
 MuscleParameters muscle_parameters(const Body& body, Muscle muscle);
 
-/// A point that a muscle is fixed to or bends round, right leg in the anatomical position, m.
+/// A point to which a muscle is fixed or round which it bends, right leg in the anatomical position, m.
 struct PathPlace {
   LegBone bone;
   Vec3<double> in_bone_m, world_m;  // in the bone's frame (muscle_table.h); the body standing at x = z = 0
 };
-/// From origin to insertion, without what the path is free of in this position. What ends on the kneecap ends there in
-/// the shank's frame.
+/// Returns the places from origin to insertion, without edges that the path clears in this position. A path that ends
+/// on the kneecap ends there in the shank's frame.
 std::vector<PathPlace> member_places(const Body& body, const MemberMuscle& member);
 
 }  // namespace mobil::inline v0_3

@@ -21,13 +21,13 @@ Vec scaled(const PathPoint& p, const LegScale<double>& scale) {
   return {scale.across * p.at_m.x, along * p.at_m.y, scale.across * p.at_m.z};
 }
 
-/// The edge's direction where the edge is of that bone.
+/// Returns the direction of an edge of that bone.
 Vec edge_axis(LegBone bone, const LegFrames<double>& leg) {
   return rotated(bone == LegBone::thigh ? leg.thigh : leg.shank, {1, 0, 0});
 }
 
-/// Where the shortest path from a to b over the edge through p touches it, relative to p; nothing where the straight
-/// line is free of it.
+/// Returns the point at which the shortest path from a to b over the edge through p touches it, relative to p. Returns
+/// nothing if the straight line clears the edge.
 std::optional<Vec> touch(const Vec& a, const Vec& b, const Vec& axis, PathHold side) {
   const double turn = dot(cross(a, b), axis);
   if (side == PathHold::front ? turn >= 0 : turn <= 0) return std::nullopt;
@@ -64,7 +64,7 @@ KneeSpline<double> knee_spline(const KneeTrack& track) {
 }
 
 Vec track_at(const KneeTrack& track, double flexion_deg) {
-  if (flexion_deg == 0) return track[0];  // what all of the below comes to there
+  if (flexion_deg == 0) return track[0];  // the result of everything below at 0°
   const KneeSpline<double> s = knee_spline(track);
   const double u = flexion_deg / knee_knot_deg;
   Vec at = s.at_zero + u * s.slope;
@@ -82,7 +82,7 @@ LegScale<double> leg_scale(double thigh_m, double shank_m) {
 
 LegScale<double> leg_scale(const Body& body) {
   auto scale = leg_scale(static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m));
-  // Bones of their own lengths are as thick as the height makes them, and pelvis and feet as large.
+  // With custom limb lengths, bones keep the thickness that follows from the height, and pelvis and feet their size.
   if (has_own_limbs(body.request)) {
     const double usual_m = (fraction::thigh + fraction::shank) * static_cast<double>(body.request.height_m);
     scale.across = usual_m / published_leg::leg_m;
@@ -128,7 +128,7 @@ LegFrames<double> rolled(const LegScale<double>& scale, const LegFrames<double>&
 
 namespace {
 
-/// A leg as all its members' paths need it.
+/// A leg with the values that all its members' paths need.
 struct BentLeg {
   const LegScale<double>& scale;
   const LegFrames<double>& leg;
@@ -136,7 +136,7 @@ struct BentLeg {
   double flexion_deg = knee_flexion(leg) / degree;
 };
 
-/// The corners of a member's path one after the other.
+/// Visits the corners of a member's path in order.
 template <class Visit>
 void follow_path(const MemberMuscle& muscle, const BentLeg& bent, Visit visit) {
   const PathPoint end = path_end(muscle, bent.flexion_deg);

@@ -15,7 +15,7 @@ namespace {
 
 using namespace geometry;
 
-/// The muscle frame: z along the unit vector, y the bone's anterior axis carried from the bone's −y to z by the
+/// Returns the muscle frame: z along the unit vector, y the bone's anterior axis carried from the bone's −y to z by the
 /// smallest rotation.
 Quat<double> muscle_rotation(const Quat<double>& bone, const Vec& z) {
   const Vec down = rotated(bone, {0, -1, 0});

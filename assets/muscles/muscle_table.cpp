@@ -11,7 +11,7 @@ namespace {
 
 using namespace published;
 
-// Groups one after the other, in the order of Muscle.
+// Members group by group, in the order of Muscle.
 // clang-format off
 constexpr MemberMuscle members[] = {
 #include "assets/muscles/rows/semimembranosus.inl"
@@ -30,7 +30,7 @@ constexpr MemberMuscle members[] = {
 };
 // clang-format on
 
-/// Whether all rows hold to something.
+/// True if all rows satisfy the rule.
 template <class Rule>
 constexpr bool all_members(Rule rule) {
   return std::all_of(std::begin(members), std::end(members), rule);
@@ -72,7 +72,7 @@ constexpr bool has_architecture(const MemberMuscle& m) {
   return m.fibre_m > 0 && m.belly_m > 0 && m.pennation_deg >= 0 && m.pennation_deg < 90 && (modelled || not_modelled);
 }
 
-/// What a muscle lies on, or is cut back to, lies on none itself: the surfaces are made in this order.
+/// True if the muscle is on, or cut back to, deep muscles only. Surfaces are made in this order.
 constexpr bool lies_on_a_member(const MemberMuscle& m) {
   const auto is_deep = [](std::string_view name) {
     return name.empty() || std::any_of(std::begin(members), std::end(members), [name](const MemberMuscle& beneath) {
@@ -99,7 +99,7 @@ constexpr std::span<const MemberMuscle> members_of_group(Muscle group) {
   return {first, std::find_if_not(first, std::end(members), in_group)};
 }
 
-/// Where the path of a group is drawn; of muscles on their own that follows from their sections.
+/// Groups with their drawn lines; that of a group of one follows from its sections.
 constexpr std::array<MuscleRow, muscle_group_count> groups = {{
     {"hamstrings",
      members_of_group(Muscle::hamstrings),
@@ -138,7 +138,7 @@ static_assert(std::all_of(groups.begin(), groups.end(),
                           [](const MuscleRow& g) { return g.members.size() <= max_row_members; }));
 static_assert(groups.size() + std::size(members) <= max_muscles);
 
-/// Groups, then the members of those that have several.
+/// Returns the groups, then the members of groups with several.
 std::vector<MuscleRow> make_rows() {
   std::vector<MuscleRow> rows(groups.begin(), groups.end());
   for (MuscleRow& group : rows) {

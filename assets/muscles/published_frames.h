@@ -1,5 +1,5 @@
 #pragma once
-// Places on the leg's bones as published (x forward, y up, z to the right, m), brought into the table's frames. For the
+// Converts published places on the leg's bones (x forward, y up, z to the right, m) to the table's frames. Used by the
 // rows of assets/muscles/muscle_table.cpp.
 //
 // Source: the gait2392 model of OpenSim (CC BY 3.0; Delp et al. 1990).
@@ -8,7 +8,7 @@
 
 namespace mobil::inline v0_3::published {
 
-/// The best pin's place from the origin of the published shank, and the published hip–knee and knee–ankle vectors.
+/// The best pin's position from the published shank's origin, and the published hip–knee and knee–ankle vectors.
 inline constexpr double pin_x = -0.00478, pin_y = -0.01264;
 inline constexpr double knee_x = -0.0045 + pin_x, knee_y = -0.39582 + pin_y;
 inline constexpr double ankle_x = -pin_x, ankle_y = -0.43 - pin_y;
@@ -20,7 +20,7 @@ constexpr Vec3<double> to_mobil(double x, double y, double z) {
 constexpr PathPoint on_pelvis(double x, double y, double z) {
   return {LegBone::pelvis, to_mobil(x + 0.0707, y + 0.0661, z - 0.0835)};
 }
-/// The slanting lines of the published joint centres become this skeleton's vertical ones.
+/// Shears the slanting lines of the published joint centres to this skeleton's vertical ones.
 constexpr PathPoint on_femur(double x, double y, double z) {
   return {LegBone::thigh, to_mobil(x - knee_x * y / knee_y, y, z)};
 }
@@ -30,7 +30,7 @@ constexpr PathPoint on_tibia(double x, double y, double z) {
 constexpr PathPoint on_calcaneus(double x, double y, double z) {
   return {LegBone::foot, to_mobil(x - 0.04877, y - 0.04195, z + 0.00792)};
 }
-/// Places given in the table's frames already, but for x, which counts towards the leg's outside.
+/// Places already in the table's frames, except that x counts towards the leg's outside.
 constexpr PathPoint in_thigh(double lateral, double up, double forward) {
   return {LegBone::thigh, {-lateral, up, forward}};
 }
@@ -38,7 +38,7 @@ constexpr PathPoint in_shank(double lateral, double up, double forward) {
   return {LegBone::shank, {-lateral, up, forward}};
 }
 
-/// An edge that the path passes in front of, or behind.
+/// Mark an edge that the path passes in front of, or behind.
 constexpr PathPoint before(PathPoint p) {
   p.hold = PathHold::front;
   return p;
@@ -54,7 +54,7 @@ constexpr KneeTrack along_tibia(const KneeTrack& track) {
   return placed;
 }
 
-/// The published tibia from the pin's, in the tibia's frame: R(−flexion)·(its origin in the femur) against the pin.
+/// Published tibia relative to the pin's, in the tibia's frame: R(−flexion)·(its origin in the femur) less the pin.
 inline constexpr KneeTrack rolling = {{{0, 0, 0},
                                        to_mobil(-0.000714, 0.000397, 0),
                                        to_mobil(-0.000952, 0.000533, 0),

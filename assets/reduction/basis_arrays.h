@@ -1,5 +1,5 @@
 #pragma once
-// The arrays of a modal basis, one after the other: what its fingerprint is of, and what a file keeps of it.
+// The arrays of a modal basis in order, for fingerprints and files.
 
 #include <cstddef>
 
@@ -7,8 +7,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Calls f(array, length) with each array of a basis (const or not) and the length that its options say, in a fixed
-/// order. The motions of its middle body (`turned`) may lack: their lengths are then 0.
+/// Calls f(array, length) with each array of a basis (const or not) in a fixed order. The lengths follow from its
+/// options. The motions of its middle body (`turned`) can be missing: their lengths are then 0.
 template <class Basis, class F>
 void each_array(Basis& basis, bool has_turned, F&& f) {
   const ModalBasisOptions& o = basis.options;
@@ -33,7 +33,7 @@ void each_array(Basis& basis, bool has_turned, F&& f) {
   f(turned.tension, has_turned ? n * n : 0);
 }
 
-/// The same of its single numbers: f(number).
+/// Calls f(number) with each of a basis' single numbers.
 template <class Basis, class F>
 void each_number(Basis& basis, F&& f) {
   for (auto* const number : {&basis.lift_energy_a, &basis.lift_energy_b, &basis.lift_energy_c,

@@ -1,6 +1,6 @@
 #pragma once
-// Algebra of dense matrices, each operation compiled once: to the compiler every expression of Eigen's is one of its own,
-// and takes it a second.
+// Algebra of dense matrices, each operation compiled once. Every expression of Eigen's is a separate type, and takes
+// the compiler a second.
 
 #include "assets/reduction/modal_cholesky.h"
 #include "engine/eigen.h"
@@ -23,10 +23,10 @@ void add_inner(const Eigen::Ref<const Columns>& a, const Eigen::Ref<const Column
 /// Adds weight·a·bᵀ to `sum`.
 void add_outer(Eigen::MatrixXd& sum, double weight, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/// Returns the x of least |a·x − b|, a column for each of b. `a` has no fewer rows than columns.
+/// Returns the x that minimises |a·x − b|, a column for each of b. `a` has at least as many rows as columns.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// Returns the x of a·x = b, `a` being symmetric and definite.
+/// Returns the x of a·x = b for a symmetric, definite `a`.
 Eigen::MatrixXd solved(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 }  // namespace mobil::inline v0_3

@@ -16,14 +16,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-// Multiplications and additions are never fused here: the same bits with and without that instruction.
+// Multiplications and additions are never fused here, so the bits are the same with and without that instruction.
 #if HWY_HAVE_FLOAT64
 namespace dn = hwy::HWY_NAMESPACE;
 using Tag = dn::CappedTag<double, 8>;
 using V = dn::Vec<Tag>;
 constexpr std::size_t width = dn::MaxLanes(Tag{});
 #else
-// Highway 1.0 has no modes of doubles for WebAssembly: one body at a time.
+// Highway 1.0 has no vectors of doubles for WebAssembly: one body at a time.
 namespace dn {
 struct Tag {};
 using V = double;
@@ -112,7 +112,7 @@ HWY_INLINE V load(const double* p) {
 HWY_INLINE void store(V v, double* p) {
   dn::Store(v, Tag{}, p);
 }
-/// The same at any address.
+/// Load and store at any address.
 HWY_INLINE V load_any(const double* p) {
   return dn::LoadU(Tag{}, p);
 }

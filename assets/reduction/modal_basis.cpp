@@ -23,7 +23,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Columns that modes are made of; more do not change the first 32.
+/// Columns from which modes are made; more do not change the first 32.
 constexpr Index pool = 192;
 
 Result<void> check_options(const Cells& cells, const ModalBasisOptions& o) {
@@ -60,7 +60,7 @@ Result<void> check_options(const Cells& cells, const ModalBasisOptions& o) {
   return {};
 }
 
-/// Products of the modes (ψ first, where there is one) with themselves and with the loads.
+/// Products of the modes (ψ first, if any) with themselves and with the loads.
 struct Projected {
   MatrixXd mass, a, b, c, foundation, tension, frame, traction;
 };
@@ -87,7 +87,7 @@ Projected project(const HexahedralMesh& mesh, const StiffnessTerms& terms, doubl
   return p;
 }
 
-/// What is left of an error of second order in the cells' size, of twice the cells taken away.
+/// Removes an error of second order in the cells' size, using the result of cells of twice the size.
 void extrapolate(Projected& fine, const Projected& coarse) {
   const auto one = [](MatrixXd& f, const MatrixXd& c) {
     if (f.size() > 0) f += (f - c) / 3;
@@ -102,8 +102,8 @@ void extrapolate(Projected& fine, const Projected& coarse) {
   one(fine.traction, coarse.traction);
 }
 
-/// Turns the modes (all but the first `lifts`) into such as have the mass 1, each into a sum of itself and those
-/// before it. As many as can be so are kept.
+/// Makes the modes (except for the first `lifts`) orthonormal in the mass, each a sum of itself and those before it.
+/// Keeps as many as possible.
 void make_orthonormal(Projected& p, Columns& fields, Index lifts) {
   const Index all = fields.cols();
   MatrixXd turn = MatrixXd::Zero(all, all);  // upper triangular
@@ -116,7 +116,7 @@ void make_orthonormal(Projected& p, Columns& fields, Index lifts) {
       for (Index c = lifts; c < kept; ++c) v -= turn.col(c).dot(pull) * turn.col(c);
     }
     const double square = v.dot(product(p.mass, v));
-    if (!(square > 0.01 * p.mass(kept, kept))) break;  // the coarse mesh does not know this one
+    if (!(square > 0.01 * p.mass(kept, kept))) break;  // the coarse mesh cannot represent this one
     turn.col(kept) = v / std::sqrt(square);
   }
   const MatrixXd used = turn.leftCols(kept), across = transposed(used);
@@ -134,7 +134,7 @@ std::vector<double> row_major(const Eigen::Ref<const MatrixXd>& m) {
   return {rows.data(), rows.data() + rows.size()};
 }
 
-/// Mass of the fine mesh's nodes given to the control points between which they lie.
+/// Returns the mass of the fine mesh's nodes, given to the control points around them.
 std::vector<double> control_masses(const StiffnessTerms& terms, const Cells& control) {
   std::vector<double> mass(node_count(control));
   for_each_node(terms.cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
@@ -156,7 +156,7 @@ std::vector<double> control_masses(const StiffnessTerms& terms, const Cells& con
   return mass;
 }
 
-/// q from displacements of the control points: (Φᵀ·W·Φ)⁻¹·Φᵀ·W, N × 3·nodes.
+/// Returns the map from displacements of the control points to q: (Φᵀ·W·Φ)⁻¹·Φᵀ·W, N × 3·nodes.
 std::vector<double> fit_of(const ModalBasis& basis) {
   const Index count = basis.modes, rows = 3 * static_cast<Index>(basis.control_weight.size());
   const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> shape(
@@ -165,7 +165,7 @@ std::vector<double> fit_of(const ModalBasis& basis) {
   Eigen::VectorXd weight(rows);
   for (Index row = 0; row < rows; ++row) weight(row) = basis.control_weight[static_cast<std::size_t>(row / 3)];
   const MatrixXd weighted = weight.asDiagonal() * phi;
-  // Control points may be too few to tell all modes apart: what they cannot see is left out of every one.
+  // Control points can be too few to distinguish all modes; parts that they cannot show are left out of every one.
   const SymmetricEigen gram = symmetric_eigen(product(transposed(phi), weighted));
   const double least = 1e-6 * gram.values(count - 1);
   const Eigen::VectorXd inverse =
@@ -174,7 +174,7 @@ std::vector<double> fit_of(const ModalBasis& basis) {
   return row_major(product(product(scaled, transposed(gram.vectors)), transposed(weighted)));
 }
 
-/// The template scaled so: across and along.
+/// Scales of the template, across and along.
 struct Scale {
   double across, along;
 };
@@ -182,7 +182,7 @@ Scale scale_of(double ratio, double product) {
   return {std::sqrt(ratio * product), std::sqrt(product / ratio)};
 }
 
-/// The modes, most important first, in M₁ orthonormal; and the lift, if there is one, before them.
+/// Returns the modes, most important first, orthonormal in M₁, with the lift, if any, before them.
 Result<Columns> trained_modes(const Training& given, Index lifts) {
   const ModalBasisOptions& o = given.options;
   std::vector<Scale> others;
@@ -219,7 +219,7 @@ Result<Columns> trained_modes(const Training& given, Index lifts) {
   }
   const auto columns = all.leftCols(size);
   const SymmetricEigen gram = symmetric_eigen(inner(columns, mass_times(given.terms, columns)));
-  // Smaller ones are rounding's, and so are more than there are rows that move.
+  // Smaller ones are rounding errors, and so are any beyond the number of rows that move.
   const Index moving = (columns.rowwise().squaredNorm().array() > 0).count();
   const Index real = (gram.values.array() > 1e-14 * gram.values(size - 1)).count();
   const Index count = std::min({Index{max_modes}, real, moving});

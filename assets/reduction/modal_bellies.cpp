@@ -1,9 +1,9 @@
-// With u = ψ·w + V·q, m = S²·l, VᵀM₁V = 1, K = Vᵀ(stiffness and foundation)V, k = Vᵀ(those)ψ and h = VᵀM₁ψ:
+// Let u = ψ·w + V·q, m = S²·l, VᵀM₁V = 1, K = Vᵀ(stiffness and foundation)V, k = Vᵀ(those)ψ and h = VᵀM₁ψ. Then
 //   m·(q̈ + α·q̇) + m·h·(ẅ + α·ẇ) + K·q + k·w = loads.
-// q + h·w is what the mass sees move. K/m = E·Ω²·Eᵀ makes of z = Eᵀ·(q + h·w)
-//   z̈ + α·ż + Ω²·z = Ω²·(P·w + …),   P = Eᵀh − Ω⁻²·Eᵀk/m,   P = Ω⁻²·Eᵀ(load per unit)/m of the others,
-// so that at rest q = E·(z − Eᵀh·w) = −K⁻¹·k·w + K⁻¹·loads. Of tuned bellies K is that of `tuned_activation` but for
-// w's static answer, whose K and k have no tension. The force on a held far face at rest is ψᵀ(stiffness·u − loads):
+// q + h·w is the motion of the mass. With K/m = E·Ω²·Eᵀ, z = Eᵀ·(q + h·w) follows
+//   z̈ + α·ż + Ω²·z = Ω²·(P·w + …),   P = Eᵀh − Ω⁻²·Eᵀk/m,   P = Ω⁻²·Eᵀ(load per unit)/m of the others.
+// At rest q = E·(z − Eᵀh·w) = −K⁻¹·k·w + K⁻¹·loads. Tuned bellies have the K of `tuned_activation`, except in w's
+// static response, whose K and k have no tension. The force on a held far face at rest is ψᵀ(stiffness·u − loads):
 // per metre ψᵀKψ − kᵀK⁻¹k, per load kᵀK⁻¹·VᵀL − ψᵀL.
 #include "assets/reduction/modal_bellies.h"
 
@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
-/// A symmetric matrix, its upper half, and its eigenvectors to be, a row each.
+/// A symmetric matrix, its upper half, and its later eigenvectors, a row each.
 struct Eigen {
   double *a, *e;
   std::size_t n;
@@ -36,7 +36,7 @@ struct Turn {
   bool any;
 };
 
-/// Half an element below zero, lane by lane: what makes a_pq vanish. Lanes where it has vanished stay as they are.
+/// Makes a_pq vanish, lane by lane, and returns the rotation. Lanes where it has vanished do not change.
 HWY_INLINE Turn turn_of(Eigen& x, std::size_t p, std::size_t q) {
   const V app = load(x.at(p, p)), aqq = load(x.at(q, q)), apq = load(x.at(p, q));
   const auto active = dn::Gt(mul(apq, apq), mul(all(1e-22), dn::Abs(mul(app, aqq))));
@@ -77,7 +77,7 @@ HWY_INLINE void turn_between(Eigen& x, const Turn& one, const Turn& other) {
   store(vqs, qs);
 }
 
-/// Of n rows, n even: rounds of a tournament, in each of which every row meets another.
+/// Diagonalises n rows, n even, in rounds of a tournament, in each of which every row meets another.
 void diagonalise(Eigen& x, std::size_t n) {
   constexpr int max_sweeps = 30;
   std::size_t seat[most];
@@ -128,7 +128,7 @@ void sort(Eigen& x, std::size_t n) {
   }
 }
 
-/// rhs ← K⁻¹·rhs, K's lower half row by row in `k`, which is spoilt (Cholesky).
+/// rhs ← K⁻¹·rhs by Cholesky. K's lower half is row by row in `k`, which is overwritten.
 void solve_in_place(double* k, std::size_t n, V* rhs) {
   const auto at = [&](std::size_t i, std::size_t j) { return k + (i * n + j) * width; };
   for (std::size_t i = 0; i < n; ++i) {
@@ -192,7 +192,7 @@ void solve_some(const ModalBasis& basis, V across, V along, std::size_t lane, Mo
     energy = add(add(mul(a, all(basis.lift_energy_a)), mul(b, all(basis.lift_energy_b))),
                  add(mul(c, all(basis.lift_energy_c)), mul(brace, all(basis.lift_energy_foundation))));
   }
-  V answer[most];  // of tuned bellies: K⁻¹·k
+  V answer[most];  // K⁻¹·k of tuned bellies
   if (to.tuned && held) {
     double* const factor = to.scratch[2 * even * even].lane;
     for (std::size_t i = 0; i < n; ++i) {
@@ -208,7 +208,7 @@ void solve_some(const ModalBasis& basis, V across, V along, std::size_t lane, Mo
     for (std::size_t i = 0; i < n; ++i) energy = sub(energy, mul(pull[i], answer[i]));
   }
   for (std::size_t k = 0; k < inputs; ++k) reaction[k] = all(0);
-  V field[frame_inputs];  // what a body's size does to the field that each number stands for
+  V field[frame_inputs];  // factor of a body's size on each number's field
   for (std::size_t k = 0; k < frame_inputs; ++k) field[k] = k < 3 ? all(1) : k % 3 == 2 ? along : across;
   for (std::size_t j = 0; j < n; ++j) {
     const V value = load(x.at(j, j));
@@ -235,7 +235,7 @@ void solve_some(const ModalBasis& basis, V across, V along, std::size_t lane, Mo
         along_row = add(along_row, mul(load(x.row(j, k)), all(basis.tension[i * n + k])));
       taut = add(taut, mul(load(x.row(j, i)), along_row));
     }
-    // What is left of a coarse mesh's tension when its error is extrapolated away may be negative.
+    // The remainder of a coarse mesh's tension can be negative after its error is extrapolated.
     const V least = mul(value, all((min_taut_stiffness - 1) / (1 - tuned_activation)));
     store(dn::Max(mul(taut, slender), least), &to.tension_1_s2(j).lane[lane]);
     store(share, &to.lift_share(j).lane[lane]);

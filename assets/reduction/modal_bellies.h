@@ -1,6 +1,6 @@
 #pragma once
-// The modal problems of up to sixteen bodies of one basis, solved together: a lane is a body, and what a lane gets
-// does not depend on who shares the block. Set-up, in double precision; the same bits on every instruction set.
+// Solves the modal problems of up to sixteen bodies of one basis together. A lane is a body, and its result does not
+// depend on the others in the block. For set-up, in double precision; the same bits on every instruction set.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// What ModalBelly (modal_belly.h) has of one body, of sixteen. Lanes past `count` hold no numbers of use. The
-/// caller sets `tuned` before solve_bellies.
+/// ModalBelly (modal_belly.h) of sixteen bodies. Lanes past `count` have no useful numbers. The caller sets `tuned`
+/// before solve_bellies.
 struct ModalBellies {
   std::uint32_t modes = 0, inputs = 0, count = 0;
   bool tuned = false;
@@ -48,16 +48,16 @@ struct ModalBellies {
 
  private:
   std::size_t eigenvector_at(std::size_t motion, std::size_t vector) const { return (3 + motion) * modes + vector; }
-  /// Reactions stand behind the last motion's.
+  /// Reactions are stored after the last motion's.
   std::size_t participation_at(std::size_t motion, std::size_t input) const {
     return (3 + std::size_t{modes}) * modes + motion * inputs + input;
   }
 };
 
-/// The modal problems of 1 to 16 bodies, solved: by Jacobi's rotations in the order of a tournament, from the motions
-/// of the body in the middle of the basis's range (ModalBasis::turned) where it has them (Golub and Van Loan, Matrix
-/// Computations, 4th ed., 8.5). Fails, of the first body of which it is so, outside the basis's range of ratios (up to
-/// rounding) or where the operator is not positive definite. Asks for no heap where `bellies` had such a basis before.
+/// Solves the modal problems of 1 to 16 bodies by Jacobi's rotations in the order of a tournament. It starts from the
+/// motions of the body in the middle of the basis's range (ModalBasis::turned), if known (Golub and Van Loan, Matrix
+/// Computations, 4th ed., 8.5). Fails, for the first such body, outside the basis's range of ratios (up to rounding) or
+/// if the operator is not positive definite. Does not allocate if `bellies` had such a basis before.
 Result<void> solve_bellies(const ModalBasis& basis, std::span<const BellyScale<double>> bodies, ModalBellies& bellies);
 Result<void> solve_bellies(const ModalBasis& basis, std::span<const BellyScale<float>> bodies, ModalBellies& bellies);
 ModalBelly belly_of(const ModalBellies& bellies, std::size_t lane);

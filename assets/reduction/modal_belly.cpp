@@ -10,7 +10,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// The block of bodies that are all this one.
+/// Returns a block of bodies that all are this one.
 ModalBellies block_of(const ModalBelly& belly) {
   ModalBellies block;
   block.resize(belly.modes, belly.inputs);
@@ -29,14 +29,14 @@ ModalBellies block_of(const ModalBelly& belly) {
   return block;
 }
 
-/// What z is at rest under inputs (or does under their rates).
+/// Returns z at rest under inputs (or its rate under their rates).
 double rest_of(const ModalBelly& belly, std::size_t motion, std::span<const double> input) {
   double sum = 0;
   for (std::size_t k = 0; k < belly.inputs; ++k) sum += belly.participation[motion][k] * input[k];
   return sum;
 }
 
-/// What X and W are over: with one input its P, unless that hardly moves the motion at all (then 0: not kept).
+/// Returns the factor on X and W: 1 over P with one input, or 0 if that hardly moves the motion (not kept); else 1.
 double inverse_unit(const ModalBelly& belly, std::size_t motion) {
   if (belly.inputs != 1) return 1;
   double largest = 0;
@@ -45,7 +45,7 @@ double inverse_unit(const ModalBelly& belly, std::size_t motion) {
   return std::abs(p) > 1e-9 * largest ? 1 / p : 0;
 }
 
-/// The lift of a held far face by `w`, and q, on the control points.
+/// Writes the lift of a held far face by `w`, and q, on the control points.
 void show(const ModalBasis& basis, double w, const double* q, std::span<float> field) {
   const std::size_t width = std::size_t{basis.modes} + 1;
   for (std::size_t row = 0; row < field.size(); ++row) {

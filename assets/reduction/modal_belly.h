@@ -1,5 +1,5 @@
 #pragma once
-// One body's motions along the modes of a basis, and states that are fitted to them and shown. Many bodies at once:
+// One body's motions along the modes of a basis, and the conversion of states to and from them. Many bodies at once:
 // modal_bellies.h.
 
 #include <cstddef>
@@ -11,22 +11,22 @@
 
 namespace mobil::inline v0_3 {
 
-/// A₀: the activation whose motions a tuned belly moves along, about that of the calf in who stands. A foundation
-/// leaves the frequencies of many motions nearly alike, and the least tension decides which these are. Along the
-/// motions of no tension, what tension couples cannot be left out (vibration across, against a nonlinear solution: 14
-/// to 42 % off instead of 7 to 12).
+/// A₀, the activation whose motions a tuned belly moves along, about that of a standing person's calf. A foundation
+/// leaves the frequencies of many motions nearly equal, and the smallest tension decides which these are. Along the
+/// motions without tension, its coupling cannot be left out: vibration across differs from a nonlinear solution by 14
+/// to 42 % instead of 7 to 12.
 inline constexpr double tuned_activation = 0.05;
-/// At full activation ω² is at least that part of what it is at `tuned_activation`: tension stiffens.
+/// Minimum of ω² at full activation, over that at `tuned_activation`: tension stiffens.
 inline constexpr double min_taut_stiffness = 0.25;
 
 /// One body's own motions z = Eᵀ·(q + VᵀM₁ψ·w), E the eigenvectors of its modal stiffness over its mass (EᵀE = 1),
-/// fastest last: z̈ + α·ż + ω²·z = ω²·Σ P·input. Participations P are what z is at rest under each input, per unit.
-/// `tuned`: stiffness and motions with the tension of `tuned_activation`, of which each unit adds tension_1_s2 to ω²;
-/// its end's displacement has the same static answer as without.
+/// fastest last. They follow z̈ + α·ż + ω²·z = ω²·Σ P·input; participations P are z at rest under each input, per unit.
+/// `tuned` includes the tension of `tuned_activation`, of which each unit adds tension_1_s2 to ω². The end's
+/// displacement then has the same static response as without.
 struct ModalBelly {
   std::uint32_t modes = 0, inputs = 0;
   bool tuned = false;
-  double tension_1_s2[max_modes];                     // 0 where not tuned
+  double tension_1_s2[max_modes];                     // 0 unless tuned
   double omega_1_s[max_modes];                        // ascending
   double eigenvector[max_modes][max_modes];           // [vector of V][motion]
   double participation[max_modes][3 + frame_inputs];  // [motion][input]
@@ -35,13 +35,13 @@ struct ModalBelly {
   double lift_mass_kg;                // S²·l·(ψᵀM₁ψ − |VᵀM₁ψ|²); 0 without a lift
 };
 
-/// The modal problem of a body scaled by `across` and `along`, solved: one lane of solve_bellies (modal_bellies.h),
-/// and its errors. On a shared core with 12 modes 9 µs, with frame loads 11 (modal_belly_test
+/// Solves the modal problem of a body scaled by `across` and `along`: one lane of solve_bellies (modal_bellies.h), and
+/// its errors. On a shared core with 12 modes 9 µs, with frame loads 11 (modal_belly_test
 /// --gtest_also_run_disabled_tests --gtest_filter=*Microseconds).
 Result<ModalBelly> make_modal_belly(const ModalBasis& basis, double across, double along, bool tuned = false);
 
-/// Numbers that the kernels take, laid out as systems/deformation/modal.h says: `motion` of modal_motion_width(),
-/// `shape` of modal_shape_width() floats.
+/// Sizes of the kernels' numbers, laid out as in systems/deformation/modal.h: `motion` has modal_motion_width(),
+/// `shape` modal_shape_width() floats.
 constexpr std::size_t modal_motion_width(std::uint32_t modes, std::uint32_t inputs) {
   const std::size_t pairs = inputs > frame_inputs ? frame_inputs / 2 : 0, ends = inputs - 2 * pairs;
   return std::size_t{modes} * (inputs == 1 ? 3 : 3 + ends + pairs);
@@ -52,15 +52,15 @@ constexpr std::size_t modal_state_width(std::uint32_t modes) {
 constexpr std::size_t modal_shape_width(std::uint32_t modes, std::uint32_t inputs) {
   return std::size_t{modes} * (modes + inputs) + 2 * std::size_t{modes} + inputs + 1;
 }
-/// Coordinates q of displacements of the control points (m, 3·nodes) with the held end at `w` (m; 0 without a lift).
+/// Fits q to displacements of the control points (m, 3·nodes) with the held end at `w` (m; 0 without a lift).
 void fit_coordinates(const ModalBasis& basis, double w, std::span<const float> displacement, std::span<double> q);
 
 void write_motion(const ModalBelly& belly, double damping_per_s, double tick_s, std::span<float> motion);
 void write_shape(const ModalBelly& belly, double damping_per_s, std::span<float> shape);
 
-/// A belly's state from the displacement and velocity of its control points (3·nodes floats each, this body's m and
-/// m/s) under `input` and its rates of change (per s), and back. To and fro, displacement and velocity are kept up to
-/// what the modes cannot show.
+/// Convert a belly's state from the displacement and velocity of its control points (3·nodes floats each, this body's m
+/// and m/s) under `input` and its rates of change (per s), and back. A round trip keeps displacement and velocity,
+/// except for parts that the modes cannot show.
 void fit_state(const ModalBasis& basis, const ModalBelly& belly, std::span<const double> input,
                std::span<const double> rate, std::span<const float> displacement, std::span<const float> velocity,
                std::span<float> state);

@@ -13,9 +13,9 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-// Every entry is one sum in the order of its terms, whatever the width of the modes.
+// Every entry is one sum in the order of its terms, whatever the width of the vectors.
 
-/// So many modes of rows from `row` on, and so many columns from `column` on, of rest −= under·underᵀ.
+/// Updates so many vectors of rows from `row` on, and so many columns from `column` on, of rest −= under·underᵀ.
 template <std::size_t modes, std::size_t columns>
 HWY_INLINE void update_tile(const double* under, std::size_t terms, double* rest, std::size_t stride, std::size_t row,
                             std::size_t column) {
@@ -34,7 +34,7 @@ HWY_INLINE void update_tile(const double* under, std::size_t terms, double* rest
     for (std::size_t v = 0; v < modes; ++v) store_any(sum[c][v], rest + (column + c) * stride + row + v * width);
 }
 
-/// On and below the diagonal; a tile may write what lies above it, where nothing is kept.
+/// Updates entries on and below the diagonal. A tile can write above it, where nothing is stored.
 void update(const double* under, std::size_t rows, std::size_t terms, double* rest, std::size_t stride) {
   constexpr std::size_t modes = 2, strip = modes * width, together = 4;
   static_assert(strip <= BandCholesky::max_strip);
@@ -54,7 +54,7 @@ void update(const double* under, std::size_t rows, std::size_t terms, double* re
   }
 }
 
-/// So many modes of rows of under·own⁻ᵀ, from `row` on.
+/// Computes so many vectors of rows of under·own⁻ᵀ, from `row` on.
 template <std::size_t modes>
 HWY_INLINE void divide_strip(const double* own, std::size_t terms, double* under, std::size_t stride, std::size_t row) {
   for (std::size_t c = 0; c < terms; ++c) {
@@ -84,7 +84,7 @@ void divide(const double* own, std::size_t rows, std::size_t terms, double* unde
   }
 }
 
-/// Lower factor of a small dense matrix, in its lower half.
+/// Writes the lower factor of a small dense matrix to its lower half.
 bool factorise_dense(double* own, std::size_t size, std::size_t stride) {
   for (std::size_t c = 0; c < size; ++c) {
     double* const column = own + c * stride;
@@ -112,7 +112,7 @@ bool factorise_all(double* entry, std::size_t size, std::size_t reach, std::size
   return true;
 }
 
-/// x −= columns·by: so many columns beside each other, one term after the other.
+/// x −= columns·by for so many adjacent columns, one term after the other.
 template <std::size_t columns>
 HWY_INLINE void subtract(const double* first, std::size_t stride, const double* by, std::size_t rows, double* x) {
   V factor[columns];
@@ -127,7 +127,7 @@ HWY_INLINE void subtract(const double* first, std::size_t stride, const double* 
     for (std::size_t c = 0; c < columns; ++c) x[i] -= first[c * stride + i] * by[c];
 }
 
-/// Of each column with x: eight sums beside each other, then what is left.
+/// Writes each column's inner product with x: eight interleaved sums, then the remainder.
 template <std::size_t columns>
 HWY_INLINE void inner_of(const double* first, std::size_t stride, const double* x, std::size_t rows, double* inner) {
   constexpr std::size_t sums = 8, modes = sums / width;
@@ -151,7 +151,7 @@ HWY_INLINE void inner_of(const double* first, std::size_t stride, const double* 
   }
 }
 
-/// Columns from `c` on that go together; what lies beyond a column's reach is zero.
+/// Solves the columns from `c` on together; entries beyond a column's reach are zero.
 template <std::size_t columns>
 HWY_INLINE void solve_down(const double* entry, std::size_t stride, std::size_t reach, std::size_t size, std::size_t c,
                            double* x) {

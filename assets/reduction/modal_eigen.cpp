@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t most = max_modes;
 
-/// Diagonal and off-diagonal of QᵀAQ; Q in `q`. All sums run along rows, which is what compilers vectorise.
+/// Writes diagonal and off-diagonal of QᵀAQ, and Q to `q`. All sums run along rows, which compilers vectorise.
 void make_tridiagonal(double (*__restrict a)[most], std::size_t n, double* diagonal, double* beside,
                       double (*__restrict q)[most]) {
   double scale[most];  // reflection k is 1 − scale·v·vᵀ, v in row k of `a` from k + 1 on
@@ -58,7 +58,7 @@ void make_tridiagonal(double (*__restrict a)[most], std::size_t n, double* diago
   }
 }
 
-/// Turns two rows.
+/// Rotates two rows.
 void rotate(double* __restrict low, double* __restrict high, std::size_t n, double c, double s) {
   for (std::size_t i = 0; i < n; ++i) {
     const double a = low[i], b = high[i];
@@ -67,7 +67,7 @@ void rotate(double* __restrict low, double* __restrict high, std::size_t n, doub
   }
 }
 
-/// Diagonalises; the rows of `rows` turn along.
+/// Diagonalises, and rotates the rows of `rows` as well.
 bool diagonalise(double* d, double* e, std::size_t n, double (*rows)[most]) {
   e[n - 1] = 0;
   for (std::size_t l = 0; l < n; ++l) {

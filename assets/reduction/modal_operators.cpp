@@ -22,7 +22,7 @@ double mass_between(const StiffnessTerms& terms, std::uint32_t node, std::uint32
          (terms.consistent_mass_kg[node * stencil_size + slot] + (node == other ? terms.lumped_mass_kg[node] : 0.0));
 }
 
-/// 3×3, row-major.
+/// Returns a coupling, 3×3, row-major.
 std::array<double, 9> coupling(const StiffnessTerms& terms, const OperatorMix& mix, std::uint32_t node,
                                std::uint32_t other, std::size_t slot) {
   const StencilPair& p = terms.pair[node * stencil_size + slot];
@@ -71,7 +71,7 @@ Columns applied(const StiffnessTerms& terms, const OperatorMix& mix, Eigen::Ref<
 }
 
 Columns mass_times(const StiffnessTerms& terms, Eigen::Ref<const Columns> fields) {
-  // a node's three rows lie side by side where columns are not part of more
+  // a node's three rows are adjacent unless the columns are part of more
   if (fields.outerStride() != fields.cols()) return mass_times(terms, Columns(fields));
   Columns result = Columns::Zero(fields.rows(), fields.cols());
   const Index width = 3 * fields.cols();

@@ -1,6 +1,6 @@
 #pragma once
-// What a belly's stiffness and mass make of a few fields at once. Rows of Columns are all displacements of a mesh,
-// three a node, the faces' too; mass is half lumped, half consistent, whose errors in frequency are opposite in sign.
+// Products of a belly's stiffness and mass with a few fields at once. Rows of Columns are all displacements of a mesh,
+// three a node, also of the faces. Mass is half lumped, half consistent, whose errors in frequency have opposite signs.
 
 #include <span>
 #include <vector>
@@ -13,21 +13,21 @@
 
 namespace mobil::inline v0_3 {
 
-/// Σ of a, b and c times the terms A, B, C; M₁ in x and y, and in z: any part of a modal problem.
+/// Sum of a, b and c times the terms A, B, C, and of M₁ in x and y, and in z: any part of a modal problem.
 struct OperatorMix {
   double a = 0, b = 0, c = 0, mass_across = 0, mass_along = 0;
 };
 
-/// One body's stiffness over its mass S²·l, with the foundation: what gives ω² on M₁.
+/// Returns one body's stiffness over its mass S²·l, with the foundation, which gives ω² on M₁.
 OperatorMix stiffness_over_mass(double across, double along, double foundation_1_s2);
 
-/// The mix times `fields`, over all rows.
+/// Returns the mix times `fields`, over all rows.
 Columns applied(const StiffnessTerms& terms, const OperatorMix& mix, Eigen::Ref<const Columns> fields);
 
-/// M₁ times `fields`: the same as of the mix of both masses alone, some times faster.
+/// Returns M₁ times `fields`, as with a mix of only both masses, but several times faster.
 Columns mass_times(const StiffnessTerms& terms, Eigen::Ref<const Columns> fields);
 
-/// leftᵀ·right, summed in pieces that are the same on every machine.
+/// Returns leftᵀ·right, summed in pieces that are the same on every machine.
 Eigen::MatrixXd inner(Eigen::Ref<const Columns> left, Eigen::Ref<const Columns> right);
 
 /// A mix over the displacements that move, factorised.
@@ -36,7 +36,7 @@ class MovingOperator {
   MovingOperator(const StiffnessTerms& terms, FarEnd end, const OperatorMix& mix);
   bool positive_definite() const { return definite_; }
 
-  /// What moves under `loads`, in their place; 0 where nothing moves.
+  /// Replaces `loads` by the displacements under them; 0 where nothing moves.
   void solve(Eigen::Ref<Columns> loads) const;
 
  private:
@@ -46,21 +46,21 @@ class MovingOperator {
   bool definite_ = false;
 };
 
-/// 0 where nothing moves.
+/// Sets the fields to 0 where nothing moves.
 void hold(const Cells& cells, FarEnd end, Eigen::Ref<Columns> fields);
 
-/// Far face one metre out, nothing else moved: 1 column.
+/// Returns the far face one metre out, with nothing else moved: 1 column.
 Columns far_step(const Cells& cells);
-/// A uniform traction of 1 N on the far face along z, or x, y and z.
+/// Returns a uniform traction of 1 N on the far face along z, or x, y and z.
 Columns far_traction(const HexahedralMesh& mesh, bool all_axes);
-/// Accelerations of FrameLoad's twelve numbers, 1 each, over the rest positions scaled by `across` and `along`.
+/// Returns accelerations of FrameLoad's twelve numbers, 1 each, over the rest positions scaled by `across` and `along`.
 Columns frame_fields(const HexahedralMesh& mesh, double across, double along);
 
-/// The mesh of every other node, and those nodes' rows of fields.
+/// Return the mesh of every other node, and those nodes' rows of fields.
 HexahedralMesh every_other(const HexahedralMesh& mesh);
 Columns every_other(const Cells& cells, const Columns& fields);
 
-/// The node of a mesh of `cells` that is (i, j, k) of one of `coarse` whose nodes it has all.
+/// Returns the node of a mesh of `cells` that is (i, j, k) of one of `coarse`, all of whose nodes it has.
 constexpr std::uint32_t nested_node(const Cells& cells, const Cells& coarse, std::uint32_t i, std::uint32_t j,
                                     std::uint32_t k) {
   return node_index(cells, i * (cells[0] / coarse[0]), j * (cells[1] / coarse[1]), k * (cells[2] / coarse[2]));

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// Sine and cosine of 0 ≤ x < 1e6 to some 1e-15: π/2 in three parts, Taylor's series.
+/// Computes sine and cosine of 0 ≤ x < 1e6 to about 1e-15: π/2 in three parts, Taylor's series.
 HWY_INLINE void sin_cos(V x, V& sine, V& cosine) {
   const V quadrant = dn::Floor(add(mul(x, all(0.6366197723675814)), all(0.5)));
   V r = sub(x, mul(quadrant, all(0x1.921fb54400000p+0)));
@@ -47,7 +47,7 @@ HWY_INLINE void store_floats(V v, float* to) {
 #endif
 }
 
-/// Of motions that swing; the others are made over again.
+/// Writes motions that oscillate; the others are overwritten later.
 void swings(const ModalBellies& bellies, double half, double tick_s, double decay, std::size_t stride, float* motion) {
   for (std::size_t j = 0; j < bellies.modes; ++j) {
     float* const to = motion + j * stride * lane_count;
@@ -135,13 +135,13 @@ HWY_EXPORT(swings);
 HWY_EXPORT(shapes);
 HWY_EXPORT(rest);
 
-/// A float's upper sixteen bits, rounded to the nearest: eight digits.
+/// Returns a float's upper sixteen bits, rounded to the nearest: eight binary digits.
 std::uint32_t upper_half(double x) {
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(x));
   return (bits + 0x7FFFU + (bits >> 16 & 1U)) >> 16;
 }
 
-/// Of a motion that creeps home: a and b.
+/// Computes a and b of an overdamped motion.
 void creep(double omega, double half, double tick_s, float& a, float& b) {
   const double apart = std::sqrt(half * half - omega * omega);
   const double slow = exact::exp(-omega * omega / (half + apart) * tick_s);
@@ -161,7 +161,7 @@ void write_swings(const ModalBellies& bellies, double damping_per_s, double tick
       const float g = to[2 * lane_count + lane];
       const double omega = bellies.omega_1_s(j)[lane];
       if (omega * omega < half * half) creep(omega, half, tick_s, a, b);
-      // An undamped motion must not grow by how its numbers round.
+      // An undamped motion must not grow by the rounding of its numbers.
       const auto growth = [g](double x, double y) { return x * (x - static_cast<double>(g) * y) + y * y; };
       while (growth(static_cast<double>(a), static_cast<double>(b)) > 1) {
         a = std::nextafter(a, 0.0F);

@@ -13,7 +13,7 @@ using Eigen::Index;
 
 constexpr Index points = 8, rows_a_point = 4, rows_an_element = points * rows_a_point;
 
-/// Of each point of an element: √(taut)·(a·∇)u, three rows, and √(growth)·a·(a·∇)u, whose squares are its energy.
+/// Writes √(taut)·(a·∇)u, three rows, and √(growth)·a·(a·∇)u of each point of an element; their squares are its energy.
 void write_rows(const FiniteElement& element, const HexahedralMesh& mesh, const FibreTension& tension,
                 const Columns& fields, Eigen::Ref<Columns> rows) {
   for (Index q = 0; q < points; ++q) {

@@ -15,19 +15,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of three walks (0.9, 1.4 and 2.0 m/s) of the groups' muscles of a person of 1.80 m and 80 kg: root mean squares of
-// the inputs and of how much their rates change in a tick of 1/60 s.
+// Root mean squares of the inputs, and of the changes of their rates in a tick of 1/60 s. They are of three walks (0.9,
+// 1.4 and 2.0 m/s) of the groups' muscles of a person of 1.80 m and 80 kg.
 constexpr double tick_s = 1.0 / 60;
 constexpr double walk_kick_m_s = 0.084;
 constexpr std::array<double, frame_inputs> frame_rms = {1.6, 8, 11, 0.3, 4.1, 2.9, 4.2, 12.9, 33, 2.9, 33, 12.8};
 constexpr std::array<double, frame_inputs> frame_kick = {39, 362, 123, 2, 159, 156, 158, 117, 1627, 158, 1628, 116};
 
-// So many modes of a Krylov space hold what a walk excites; of one body alone, whose 32 modes are to be exact, more
-// (triceps surae: 2.2 % of its motion missing with 40, 1.6 % with 80, where the limit of 32 modes is).
+// Vectors of a Krylov space that holds the motion of a walk. One body alone, whose 32 modes should be exact, has more
+// (triceps surae: 2.2 % of its motion missing with 40, 1.6 % with 80, the limit of 32 modes).
 constexpr Index min_depth = 6, krylov_vectors = 40, krylov_vectors_alone = 80;
 
-/// Lower Cholesky factor of a Gram matrix without the rows of dependent columns; `kept` are the others' numbers.
-/// `least` is what a column's square is at least, were it not rounding alone.
+/// Returns the lower Cholesky factor of a Gram matrix without the rows of dependent columns; `kept` has the others'
+/// numbers. `least` is the minimum square of a column above rounding.
 MatrixXd gram_factor(const MatrixXd& gram, const VectorXd& least, std::vector<Index>& kept) {
   constexpr double min_share = 1e-14;  // of a column's square that is its own
   MatrixXd factor = MatrixXd::Zero(gram.rows(), gram.cols());
@@ -70,13 +70,13 @@ Vibrations vibrations(const Training& training, const MovingOperator& inverse, c
   for (Index step = 0; step < depth && start.cols() > 0 && (step == 0 || size < moving); ++step) {
     Columns next = start;
     hold(terms.cells, training.options.far_end, next);
-    if (step == 0) moving = (next.rowwise().squaredNorm().array() > 0).count();  // more modes would be rounding's
+    if (step == 0) moving = (next.rowwise().squaredNorm().array() > 0).count();  // more are rounding errors
     const Columns mass_next = orthonormalise(terms, space.leftCols(size), mass_space.leftCols(size), next);
     const Index added = std::min(next.cols(), moving - size);
     space.middleCols(size, added) = next.leftCols(added);
     mass_space.middleCols(size, added) = mass_next.leftCols(added);
     size += added;
-    // a held face's own mass pulls along at first
+    // a held face's own mass contributes at first
     start = step == 0 ? mass_times(terms, start) : mass_next;
     inverse.solve(start);
   }
@@ -104,7 +104,7 @@ Columns orthonormalise(const StiffnessTerms& terms, const Eigen::Ref<const Colum
                        const Eigen::Ref<const Columns>& mass_basis, Columns& fields) {
   Columns mass_fields = mass_times(terms, fields);
   std::vector<Index> kept;
-  for (int round = 0; round < 2; ++round) {  // once leaves what rounding left of the others
+  for (int round = 0; round < 2; ++round) {  // one round leaves the rounding of the others
     VectorXd least = VectorXd::Zero(fields.cols());
     if (basis.cols() > 0) {
       const MatrixXd others = inner(mass_basis, fields);
@@ -134,7 +134,7 @@ Result<TrainedBody> train(const Training& training, double across, double along)
   const MovingOperator inverse(terms, o.far_end, stiffness);
   if (!inverse.positive_definite()) return fail("the mesh's stiffness is not positive definite; check its material");
 
-  // At rest under 1 of each input, and what that pulls with where it moves.
+  // Displacements at rest under 1 of each input, and the pulls that cause them.
   const Index ends = o.far_end == FarEnd::free ? 3 : 1, inputs = ends + (o.frame_loads ? Index{frame_inputs} : 0);
   Columns rest(3 * static_cast<Index>(node_count(terms.cells)), inputs);
   if (held) {
@@ -149,7 +149,7 @@ Result<TrainedBody> train(const Training& training, double across, double along)
   inverse.solve(rest);
   if (held) rest.leftCols(1) += far_step(terms.cells);
 
-  // A pull is as large as stretches a belly (or bends it) as much as walking does.
+  // A pull stretches (or bends) a belly as much as walking does.
   VectorXd size(inputs), kick(inputs);
   for (Index i = 0; i < ends; ++i) {
     const double moved = held ? 1 : inner(rest.col(i), pull.col(i))(0, 0) * across * across * along;
@@ -162,7 +162,7 @@ Result<TrainedBody> train(const Training& training, double across, double along)
   }
 
   const Vibrations v = vibrations(training, inverse, stiffness, rest);
-  // A kick of an input's rate moves vibration j by so much: what is at rest under it, seen by the vibration.
+  // A kick of an input's rate moves vibration j by its part in the displacement at rest under that input.
   const MatrixXd kicked = inner(v.shape, mass_times(terms, rest)) * kick.asDiagonal() / std::sqrt(tick_s);
   const MatrixXd gramian =
       position_gramian(v.omega2, std::max(o.damping_per_s, 1.0), product(kicked, transposed(kicked)));

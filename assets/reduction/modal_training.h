@@ -1,7 +1,7 @@
 #pragma once
-// What one body's motions are made of, as columns that matter in proportion to their size: the static answer to each
-// load times what the load is in walking, and the position controllability Gramian of its vibrations under kicks of
-// each load's rate, as a walk's polygonal inputs give once a tick.
+// Components of one body's motions, as columns in proportion to their importance. They are the static response to each
+// load times that load in walking, and the position controllability Gramian of its vibrations. Kicks of each load's
+// rate excite these, as a walk's polygonal inputs do once a tick.
 
 #include <cstdint>
 
@@ -13,13 +13,13 @@
 
 namespace mobil::inline v0_3 {
 
-/// What bodies are trained on.
+/// Data of all training bodies.
 struct Training {
   const HexahedralMesh& mesh;
   const StiffnessTerms& terms;
   const ModalBasisOptions& options;
   double foundation_1_s2 = 0;
-  Eigen::Index max_columns = 0;  // that a body's kicks give
+  Eigen::Index max_columns = 0;  // from a body's kicks
 };
 
 struct TrainedBody {
@@ -28,14 +28,14 @@ struct TrainedBody {
   Columns kicks;
 };
 
-/// A body scaled by `across` and `along`. Fails where its stiffness is not positive definite.
+/// Trains a body scaled by `across` and `along`. Fails if its stiffness is not positive definite.
 Result<TrainedBody> train(const Training& training, double across, double along);
 
 /// Root mean square of a held far face's displacement in walking, m.
 inline constexpr double walk_stretch_m = 0.0158;
 
-/// Makes `fields` orthonormal in M₁ to `basis` (with M₁·basis) and in themselves, from the first on; those that depend
-/// on others are left out. Their M₁·fields.
+/// Makes `fields` orthonormal in M₁ to `basis` (with M₁·basis) and among each other, from the first on; dependent ones
+/// are left out. Returns their M₁·fields.
 Columns orthonormalise(const StiffnessTerms& terms, const Eigen::Ref<const Columns>& basis,
                        const Eigen::Ref<const Columns>& mass_basis, Columns& fields);
 

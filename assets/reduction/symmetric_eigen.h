@@ -10,7 +10,7 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;  // a column each, orthonormal
 };
 
-/// Reads the lower half alone.
+/// Reads only the lower half.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
 }  // namespace mobil::inline v0_3

@@ -7,11 +7,11 @@
 namespace mobil::inline v0_3::form {
 namespace {
 
-// How widely head, legs and arms are rounded into the trunk.
+// Widths of the blends between the trunk and head, legs and arms.
 constexpr double head_blend_m = 0.030, leg_blend_m = 0.065, arm_blend_m = 0.035;
-constexpr double far_m = 1;           // of parts that are nowhere near
-constexpr double lowest_head = 1.44;  // below there is no head, m of a body of 1.75 m
-// Of the trunk and of the neck, ahead of the hips, m of a body of 1.75 m: tapes are laid round it.
+constexpr double far_m = 1;           // distance of parts that are nowhere near
+constexpr double lowest_head = 1.44;  // the head starts above, m of a body of 1.75 m
+// Middles of the trunk and of the neck, forward of the hips, m of a body of 1.75 m. Tapes are laid round them.
 constexpr double middle_m = -0.02, neck_middle_m = -0.05;
 
 }  // namespace
@@ -71,7 +71,7 @@ double BodyForm::girth(double y) const {
   constexpr int rays = 60;
   constexpr double longest_m = 0.6;
   const Vec from{0, y, size_ * (y > 1.46 * size_ ? neck_middle_m : middle_m)};
-  // From the back round the right side to the front: a tape spans hollows, so points that lie within are left out.
+  // From the back round the right side to the front. A tape spans hollows, so points inside it are left out.
   std::vector<std::array<double, 2>> tape;
   for (int i = 0; i <= rays; ++i) {
     const double angle = std::numbers::pi * i / rays, out = std::sin(angle), ahead = -std::cos(angle);

@@ -15,7 +15,7 @@ using namespace geometry;
 using form::BodyForm;
 using form::TrunkFit;
 
-constexpr double min_fit = 0.7, max_fit = 1.4, min_thighs = 0.9;  // beyond, a body is no longer one
+constexpr double min_fit = 0.7, max_fit = 1.4, min_thighs = 0.9;  // limits of a plausible body
 
 std::vector<Vec> normals(const std::vector<std::uint32_t>& triangle, const std::vector<Vec>& place) {
   std::vector<Vec> normal(place.size(), Vec{0, 0, 0});
@@ -28,9 +28,9 @@ std::vector<Vec> normals(const std::vector<std::uint32_t>& triangle, const std::
   return normal;
 }
 
-constexpr std::array<int, skin_details> shared_turns = {256, 96, 40, 16};  // of a joint's angle, that vertices share
+constexpr std::array<int, skin_details> shared_turns = {256, 96, 40, 16};  // steps of a joint's angle
 
-/// How much of a vertex arms carry, from the shoulder's joint on.
+/// Returns the arms' share of a vertex, from the shoulder joint on.
 double share_of_arm(const std::vector<SkinFrame>& frames, const SkinVertex& vertex) {
   double share = 0;
   for (std::size_t k = 0; k < SkinVertex::max_frames; ++k) {
@@ -60,7 +60,7 @@ SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, 
   for (std::size_t v = 0; v < binding.rest.size(); ++v)
     mesh.fat.push_back(fat_place(form, binding.rest[v], share_of_arm(mesh.frame, mesh.vertex[v])));
   for (const Vec& r : binding.rest) {
-    // Arms hang beside the legs.
+    // Arms hang next to the legs.
     const bool is_leg = r.y < 0.55 * form.size() || std::abs(r.x) < 0.19 * form.size();
     mesh.leg.push_back(leg_place(form.leg(), {-std::abs(r.x), r.y, r.z}, is_leg ? 1 : 0));
   }
@@ -72,7 +72,7 @@ std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
   const BodyForm form(body);
   const SurfaceMesh surface = mesh_form(form);
   constexpr std::array<double, skin_details> share = {1, 0.14, 0.035, 0.012}, coarseness = {1, 1.8, 3.5, 6};
-  // Flat skin is bent, too: a coarser mesh must not have edges from the knee to the middle of the thigh.
+  // Flat skin bends as well: a coarser mesh must not have edges from the knee to the middle of the thigh.
   constexpr std::array<double, skin_details> longest_m = {1, 0.042, 0.07, 1};
   std::array<SkinMesh, skin_details> mesh;
   for (std::size_t d = 0; d < skin_details; ++d) {
@@ -88,7 +88,7 @@ TrunkFit part_of(const TrunkFit& fit, double share) {
   return {part(fit.hips), part(fit.waist), part(fit.chest), part(fit.neck), part(fit.between), part(fit.thighs)};
 }
 
-/// Makes hips, waist, chest and neck `over` times what the survey has them; what lies between them stays.
+/// Makes the girths of hips, waist, chest and neck `over` times the survey's and leaves the places between unchanged.
 void fit_girths(const Body& body, double over, TrunkFit& fit) {
   struct Place {
     double y_m, girth;  // of a body of 1.75 m
@@ -105,14 +105,14 @@ void fit_girths(const Body& body, double over, TrunkFit& fit) {
       return std::clamp(now * over * wanted / girth, min_fit, max_fit);
     };
     for (const auto& [y_m, girth, by] : places) fit.*by = fitted(fit.*by, form.girth(y_m * form.size()), girth);
-    double hips = 0;  // where they are widest
+    double hips = 0;  // at their widest
     for (const double y_m : {0.885, 0.905, 0.925}) hips = std::max(hips, form.girth(y_m * form.size()));
     fit.hips = fitted(fit.hips, hips, m.buttock_girth);
     if (fit.hips <= min_fit) fit.thighs = std::clamp(fit.thighs * over * m.buttock_girth / hips, min_thighs, 1.0);
   }
 }
 
-/// The shared surface on the form of another body, by way of bodies between the two.
+/// Returns the shared surface on the form of another body, by way of bodies between the two.
 std::vector<Vec> drawn_onto(const SkinMesh& mesh, const Body& body, const TrunkFit& fit, bool shod) {
   constexpr int stages = 4;
   std::vector<Vec> place = mesh.place;
@@ -129,14 +129,14 @@ std::vector<Vec> drawn_onto(const SkinMesh& mesh, const Body& body, const TrunkF
   return place;
 }
 
-/// Moves the places of a part to the middle of their neighbours and back onto the surface: toes become a shoe's tip.
+/// Moves a part's points to the mean of their neighbours and back onto the surface, so toes become a shoe's tip.
 void even_out(const SkinMesh& mesh, SkinPart part, const BodyForm& form, std::vector<Vec>& place) {
   constexpr int rounds = 25;
   const auto p = static_cast<std::size_t>(part);
   const std::span triangles = std::span(mesh.triangle)
                                   .subspan(3 * std::size_t{mesh.first_triangle[p]},
                                            3 * std::size_t{mesh.first_triangle[p + 1] - mesh.first_triangle[p]});
-  std::vector<bool> moves(place.size(), false);  // not what other parts share
+  std::vector<bool> moves(place.size(), false);  // false if shared with other parts
   for (const std::uint32_t v : triangles) moves[v] = true;
   for (std::size_t i = 0; i < mesh.triangle.size(); ++i) {
     if (i < 3 * mesh.first_triangle[p] || i >= 3 * mesh.first_triangle[p + 1]) moves[mesh.triangle[i]] = false;
@@ -149,7 +149,7 @@ void even_out(const SkinMesh& mesh, SkinPart part, const BodyForm& form, std::ve
   }
 }
 
-/// kg/m³, from the share of fat (Siri 1961); a woman's of 25 years from her body mass index (Gallagher et al. 2000).
+/// Returns kg/m³ from the share of fat (Siri 1961), a woman's of 25 years from body mass index (Gallagher et al. 2000).
 double density(const Body& body) {
   const auto index = static_cast<double>(body.composition.body_mass_index);
   const double fat = body.request.sex == Sex::woman
@@ -158,8 +158,8 @@ double density(const Body& body) {
   return 1e3 * 4.95 / (fat + 4.50);
 }
 
-/// Air in the lungs at rest, m³ (functional residual capacity at 25 years; Quanjer et al. 1993); of who is heavier than
-/// usual less, by 2.9 % for each kg/m² up to 30 (Jones & Nzekwu 2006: three quarters at 30 of what it is at 20).
+/// Returns the air in the lungs at rest, m³ (functional residual capacity at 25 years; Quanjer et al. 1993). Above the
+/// usual index it falls by 2.9 % for each kg/m² up to 30 (Jones & Nzekwu 2006: three quarters of that at 20).
 double lung_volume(const Body& body) {
   constexpr double age = 25, usual_index = 24, last_index = 30, by_index = 0.0288;
   const auto height = static_cast<double>(body.request.height_m),
@@ -202,7 +202,7 @@ const SkinMesh& skin_mesh(Sex sex, SkinDetail detail) {
 TrunkFit fit_trunk(const Body& body) {
   const SkinMesh &light = skin_mesh(body.request.sex, SkinDetail::far),
                  &full = skin_mesh(body.request.sex, SkinDetail::hero);
-  // Fewer triangles cut corners.
+  // Coarser meshes cut corners.
   const double rounder = enclosed_volume(full.triangle, full.place) / enclosed_volume(light.triangle, light.place);
   const double wanted = static_cast<double>(body.request.mass_kg) / density(body) + lung_volume(body);
   const auto volume = [&](double over, TrunkFit& fit) {
@@ -210,8 +210,8 @@ TrunkFit fit_trunk(const Body& body) {
     return rounder *
            enclosed_volume(light.triangle, skin_at_rest(BodyForm(body, fit), drawn_onto(light, body, fit, false)));
   };
-  // Means of a survey are no one body: girths and volume may each be a little off, and what is left lies between the
-  // places where girths are measured. Volume is near enough linear in so little.
+  // Means of a survey do not describe one body, so girths and volume can each be slightly off. The places between those
+  // where girths are measured take up the rest. Volume is nearly linear in such small changes.
   constexpr double may = 0.015, trial = 1.05;
   TrunkFit fit;
   const double usual = volume(1, fit), sense = wanted > usual ? 1 : -1, need = sense * (wanted - usual);

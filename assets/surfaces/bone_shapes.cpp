@@ -20,7 +20,7 @@ Proportions proportions(const Body& body) {
     const std::size_t parent = index(segment_parent[s]);
     p.world[s] = s == parent ? p.joint[s] : p.world[parent] + p.joint[s];
   }
-  // Chests are drawn where the measured man has his, however long the legs under them are.
+  // The chest is drawn at the measured man's height, whatever the length of the legs.
   const auto usual_m = static_cast<float>(fraction::hip_height * static_cast<double>(body.request.height_m));
   for (Vec& at : p.world) at.y -= mm * static_cast<double>(body.hip_height_m - usual_m);
   p.leg = leg_frame(body);

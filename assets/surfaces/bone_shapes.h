@@ -1,6 +1,6 @@
 #pragma once
-// What the bones of the skeleton are drawn with: in mm of a man of reference_height_mm, in the frame of their segment,
-// right side.
+// Helpers that draw the skeleton's bones, in mm of a man of reference_height_mm, in the frame of their segment, right
+// side.
 
 #include <array>
 #include <initializer_list>

@@ -13,7 +13,7 @@ namespace {
 
 using namespace geometry;
 
-/// The lofted shaft in the frame whose origin lies at `level`.
+/// Returns the lofted shaft in the frame whose origin is at `level`.
 SurfaceMesh shaft(const LegFrame& leg, std::span<const LegSection> sections, double level, int rings, int segments) {
   LegFrame moved = leg;
   moved.hip = Vec{0, 0, 0} - leg_point(leg, level, 0, 0);
@@ -22,7 +22,7 @@ SurfaceMesh shaft(const LegFrame& leg, std::span<const LegSection> sections, dou
   return loft(line, {.reference = forward, .normal = down, .rings = rings, .segments = segments, .cap = 0.35});
 }
 
-/// A bone of the foot or toes: from its near end to its far end, thickest there.
+/// Adds a bone of the foot or toes between its two ends, where it is thickest.
 void add_bone_of_foot(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle,
                       double r_far) {
   const Vec middle = 0.5 * (near + far) + Vec{0, 0.06 * length(far - near), 0};
@@ -33,7 +33,7 @@ void add_bone_of_foot(SurfaceMesh& mesh, const Vec& near, const Vec& far, double
   append(mesh, loft(line, {.reference = up, .rings = 5, .segments = 7, .cap = 0.7}));
 }
 
-/// The measured foot is drawn in mm from the ankle; lengthwise it follows the body's, forward of the ankle.
+/// Scale of the measured foot, in mm from the ankle. Forward of the ankle its length follows the body's.
 struct FootScale {
   double forward_factor;
 
@@ -46,7 +46,7 @@ FootScale foot_scale(const Proportions& p) {
 }
 
 struct Ray {
-  Vec base, head, tip;  // metatarsal's ends, and the toe's
+  Vec base, head, tip;  // ends of the metatarsal, and of the toe
   double base_r, shaft_r, head_r;
 };
 constexpr std::array<Ray, 5> rays = {{{{9, -25, 66}, {4, -50, 121}, {-6, -58, 177}, 10.5, 7, 10},

@@ -11,8 +11,8 @@ namespace {
 
 using namespace geometry;
 
-/// Half-widths and processes of a vertebra, mm; T1–T12 also the ribs: half-width of the lattice, drop to the end of the
-/// bony rib, and where its cartilage ends (beside the middle, over the ground, forward).
+/// Half-widths and processes of a vertebra, mm. T1–T12 also have ribs: half-width of the rib cage, drop to the end of
+/// the bony rib, and end of its cartilage (to the side of the middle, above the ground, forward).
 struct VertebraSize {
   double half_width, half_depth;
   double spine_length, spine_drop, spine_height;
@@ -22,7 +22,7 @@ struct RibSize {
   double half_width, drop, end_x, end_y, end_z;
 };
 
-constexpr double sternum_top = 1376, sternum_bottom = 1240;  // over the ground, mm
+constexpr double sternum_top = 1376, sternum_bottom = 1240;  // above the ground, mm
 
 VertebraSize vertebra_size(Segment segment) {
   const auto s = static_cast<double>(index(segment));

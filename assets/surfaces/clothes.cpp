@@ -10,10 +10,10 @@ namespace {
 using namespace geometry;
 using form::BodyForm;
 
-/// Where a place lies, as far as clothes go by it; m of a body of 1.75 m.
+/// A point in the coordinates that clothes use; m of a body of 1.75 m.
 struct Where {
   Vec p;            // right-hand side, x ≥ 0 outwards
-  double down_arm;  // from the shoulder; far above it away from the arm
+  double down_arm;  // from the shoulder; −1 off the arm
   double down_leg;  // s of the leg
   Sex sex;
 };
@@ -32,7 +32,7 @@ Where where(const BodyForm& form, const Vec& p) {
 
 constexpr double hem_m = 0.925, sleeve_m = 0.19, shorts_s = 0.80, shoe_m = 0.082;
 
-/// How far outside each part's border, m; negative within.
+/// Returns the distance outside a part's border, m; negative within.
 double outside(SkinPart part, const Where& at) {
   const Vec& p = at.p;
   switch (part) {
@@ -45,7 +45,7 @@ double outside(SkinPart part, const Where& at) {
     case SkinPart::shoes:
       return p.y - shoe_m - 0.10 * std::max(0.0, -p.z);
     case SkinPart::hair: {
-      // The hairline: high over the forehead, in front of the ears and behind them down to the nape.
+      // The hairline runs high over the forehead, in front of the ears and behind them down to the nape.
       const bool woman = at.sex == Sex::woman;
       const double front = smoothstep(-0.02, 0.085, p.z),
                    line = (woman ? 1.530 : 1.578) + (woman ? 0.170 : 0.125) * front;
@@ -73,8 +73,8 @@ bool is_cloth(SkinPart part) {
   return part == SkinPart::shirt || part == SkinPart::shorts || part == SkinPart::shoes;
 }
 
-/// Divides triangles where a field changes its sign between two corners. Corners that are nearer to the border than
-/// `snap` of an edge are moved onto it.
+/// Divides triangles where a field changes its sign between two corners. Corners nearer to the border than `snap` of an
+/// edge are moved onto it.
 void cut(std::vector<double>& field, double snap, SurfaceMesh& mesh, std::vector<SkinPart>& part) {
   for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -116,7 +116,7 @@ void cut(std::vector<double>& field, double snap, SurfaceMesh& mesh, std::vector
       const std::uint32_t a = mesh.triangle[t + k], b = mesh.triangle[t + (k + 1) % 3];
       if (field[a] * field[b] >= 0) continue;
       split(t, k);
-      k = 2;  // this one again, and its new half later
+      k = 2;  // repeats this triangle; its new half follows later
       t -= 3;
     }
   }
@@ -156,7 +156,7 @@ std::vector<double> cloth_thickness(const BodyForm& form, const std::vector<Vec>
     const Where at = where(form, p);
     const double shirt = -outside(SkinPart::shirt, at), shorts = -outside(SkinPart::shorts, at),
                  shoes = -outside(SkinPart::shoes, at), hair = -outside(SkinPart::hair, at);
-    // Cloth begins at once at its hem, and hangs away from the body there.
+    // Cloth reaches its full offset within the hem's width and is farthest from the body there.
     double off = 0;
     off = std::max(off, (0.005 + 0.007 * (1 - smoothstep(0, 0.12, shirt))) * smoothstep(-hem_width_m, 0, shirt));
     const double up_leg = 0.43 * (shorts_s - at.down_leg);  // from the hem

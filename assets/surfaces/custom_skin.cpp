@@ -16,7 +16,7 @@ namespace {
 using namespace geometry;
 
 constexpr double seam_m = 0.06, furthest_m = 0.08, cap_m = 0.002;
-/// How far out skin may be under shorts, and how far up under them it is drawn.
+/// Maximum offset of skin under shorts, and height above their hem up to which it is drawn.
 constexpr float under_cloth_m = 0.004F, over_hem_m = 0.04F;
 
 Vec unit(const Vec& v) {
@@ -24,7 +24,7 @@ Vec unit(const Vec& v) {
   return size > 0 ? 1 / size * v : Vec{0, 1, 0};
 }
 
-/// Along an edge, across it and out of the skin.
+/// Axes along an edge, across it and out of the skin.
 struct SkinAxes {
   Vec along, across, out;
 };
@@ -36,7 +36,7 @@ Vec in_axes(const SkinAxes& axes, const Vec& v) {
   return {dot(v, axes.along), dot(v, axes.across), dot(v, axes.out)};
 }
 
-/// Of each corner the weight of the point of a triangle that is nearest to `p` (Ericson, Real-Time Collision Detection,
+/// Returns the weight of each corner in the point of a triangle nearest to `p` (Ericson, Real-Time Collision Detection,
 /// 5.1.5).
 Vec nearest_weights(const Vec& p, const std::array<Vec, 3>& at) {
   const Vec ab = at[1] - at[0], ac = at[2] - at[0], ap = p - at[0];
@@ -61,7 +61,7 @@ Vec nearest_weights(const Vec& p, const std::array<Vec, 3>& at) {
   return {va / sum, vb / sum, vc / sum};
 }
 
-/// The triangles of one leg's skin, by cells of space.
+/// Triangles of one leg's skin, by cells of space.
 class LegSkin {
  public:
   LegSkin(const BodySkin& skin, std::span<const Vec3<float>> position, std::span<const Vec3<float>> normal,
@@ -87,12 +87,12 @@ class LegSkin {
     return out > -over_the_middle_m && is_leg(frame.from) && is_leg(frame.to);
   }
 
-  /// Whether what is nearest to it is of shorts.
+  /// True if the nearest triangle is of shorts.
   bool is_under_shorts(const SkinFollower& one) const {
     const auto is_in = [&](std::uint32_t v) { return shorts_[v]; };
     return std::all_of(one.corner, one.corner + 3, is_in);
   }
-  /// The lowest place of shorts, m.
+  /// Returns the lowest height of the shorts, m.
   float hem() const {
     float lowest = std::numeric_limits<float>::infinity();
     for (std::size_t v = 0; v < shorts_.size(); ++v)
@@ -100,7 +100,7 @@ class LegSkin {
     return lowest;
   }
 
-  /// Of a vertex and its normal.
+  /// Binds a vertex with its normal.
   SkinFollower follower(const Vec& p, const Vec& normal, double beside_part) const {
     SkinFollower follower{};
     const std::uint32_t t = nearest(p, normal);
@@ -144,7 +144,7 @@ class LegSkin {
     cells_.add(t, at);
   }
 
-  /// The nearest triangle that faces about the same way; of all of them where none near does.
+  /// Returns the nearest triangle that faces about the same way, or of all triangles if none nearby does.
   std::uint32_t nearest(const Vec& p, const Vec& normal) const {
     constexpr std::int32_t furthest = 5;  // cells
     constexpr double same_way = 0.3;
@@ -170,12 +170,12 @@ class LegSkin {
 
   const SkinMesh& mesh_;
   std::span<const Vec3<float>> position_, normal_;
-  std::vector<bool> shorts_;  // which vertices
+  std::vector<bool> shorts_;  // per vertex
   double largest_m_ = 0;      // from a triangle's middle to a corner
   SpaceCells cells_{0.02};
 };
 
-/// The mean of a vertex' triangles' normals, weighted by their areas.
+/// Returns each vertex' mean of its triangles' normals, weighted by their areas.
 std::vector<Vec> normals_of(const SurfaceMesh& mesh) {
   std::vector<Vec> normal(mesh.position.size(), Vec{0, 0, 0});
   for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
@@ -194,7 +194,7 @@ float top_of(const SurfaceMesh& mesh) {
   return std::ranges::max_element(mesh.position, {}, &Vec3<float>::y)->y;
 }
 
-/// `top`: of the leg, of which `whole` is a piece, m.
+/// Adds `whole`, one piece of a leg. `top` is the top of that leg, m.
 void add_leg(const SurfaceMesh& whole, double top, const LegSkin& skin, bool shorts_stay, CustomSkin& own) {
   const float covered = skin.hem() + over_hem_m;
   SurfaceMesh mesh{whole.name, whole.position, {}};

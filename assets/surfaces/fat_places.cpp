@@ -11,7 +11,7 @@ namespace {
 
 using namespace geometry;
 
-/// 0 outside of first and last, 1 between the two in the middle.
+/// Returns 0 outside first and last, 1 between the two in the middle.
 double within(double first, double full, double full_to, double last, double x) {
   return smoothstep(first, full, x) * (1 - smoothstep(full_to, last, x));
 }

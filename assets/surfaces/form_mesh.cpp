@@ -22,7 +22,7 @@ using form::BodyForm;
 constexpr double coarse_m = 0.012;
 constexpr int finest = 2;  // levels; a cell of level n is coarse_m / 2ⁿ wide
 
-/// A place on the grid of the finest cells, each axis from −2²⁰ to 2²⁰.
+/// A point of the grid of the finest cells, each axis from −2²⁰ to 2²⁰.
 struct Place {
   int x, y, z;
   bool operator==(const Place&) const = default;
@@ -76,7 +76,7 @@ class Mesher {
     return {cell_m_ * (cell.corner.x + half), cell_m_ * (cell.corner.y + half), cell_m_ * (cell.corner.z + half)};
   }
 
-  /// How fine cells are about a place.
+  /// Returns the level of the cells about a point.
   int level(const Vec& p) const {
     const Vec q = (1 / body_.size()) * p;
     if (q.y > 1.50) return q.z > 0.045 || (std::abs(q.x) > 0.066 && q.y > 1.58 && q.z > -0.05) ? 2 : 1;
@@ -87,7 +87,7 @@ class Mesher {
     return down > 0.645 ? 2 : down > 0.55 ? 1 : 0;
   }
 
-  /// The leaf that holds a place, given in halves of the finest cells.
+  /// Returns the leaf that contains a point, given in halves of the finest cells.
   Cell leaf(const Place& halves) const {
     Cell cell;
     for (cell.level = 0;; ++cell.level) {
@@ -156,7 +156,7 @@ class Mesher {
   }
   bool is_cut(const Edge& edge) { return (value(edge.from) < 0) != (value(end(edge)) < 0); }
 
-  /// The four leaves about an edge, in turn about its axis.
+  /// Returns the four leaves about an edge, in turn about its axis.
   std::array<Cell, 4> around(const Edge& edge) const {
     std::array<Cell, 4> cells;
     Place middle{2 * edge.from.x, 2 * edge.from.y, 2 * edge.from.z};
@@ -170,7 +170,7 @@ class Mesher {
     }
     return cells;
   }
-  /// Whether finer cells lie about it, whose own edges count.
+  /// True if finer cells are adjacent to the edge. Their own edges count then.
   bool is_divided(const Edge& edge) const {
     return std::ranges::any_of(around(edge), [&](const Cell& cell) { return cell.level > edge.level; });
   }
@@ -214,7 +214,7 @@ class Mesher {
   SurfaceMesh mesh_;
 };
 
-/// Moves vertices to the middle of their neighbours, and back onto the surface.
+/// Moves vertices to the mean of their neighbours, and back onto the surface.
 void relax(const BodyForm& body, SurfaceMesh& mesh) {
   constexpr int rounds = 5;
   std::vector<Vec> place;
@@ -286,7 +286,7 @@ void split_long_edges(const BodyForm& body, SurfaceMesh& mesh, double longest_m)
           if (split == 3) split = corner.size() - 1;
         }
       }
-      // A fan about the first middle; about a corner where there is none.
+      // A fan about the first middle, or about a corner if no edge is split.
       const std::size_t n = corner.size(), first = n == 3 ? 0 : split;
       for (std::size_t k = 1; k + 1 < n; ++k)
         finer.insert(finer.end(), {corner[first], corner[(first + k) % n], corner[(first + k + 1) % n]});

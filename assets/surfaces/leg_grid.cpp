@@ -13,8 +13,8 @@ using namespace geometry;
 using form::tau;
 constexpr double step_s = (last_leg_s - first_leg_s) / (leg_stations - 1);
 
-/// How far the skin is from the leg's line: of the thigh and the shank as the profile says; above and below it as far
-/// as the form reaches, on the inner side at most to the body's middle.
+/// Returns the distance of the skin from the leg's line: the profile's on thigh and shank; above and below, the form's,
+/// on the inner side at most to the body's middle.
 double skin_radius(const form::BodyForm& form, double s, double turn) {
   const form::LegForm& leg = form.leg();
   constexpr double thigh_s = 0.20, longest_m = 0.20;

@@ -1,12 +1,12 @@
 #pragma once
-// The leg's measured sections as stations of tubes.
+// Conversion of the leg's measured sections to stations of tubes.
 
 #include <mobil/assets/muscles/leg_sections.h>
 #include "assets/surfaces/tube.h"
 
 namespace mobil::inline v0_3 {
 
-/// Stations for `loft`, whose reference direction must be forward (+z) and normal down: metres, world axes.
+/// Returns a station for `loft`, whose reference direction must be forward (+z) and normal down: metres, world axes.
 TubeStation leg_station(const LegFrame& leg, const LegSection& section);
 
 }  // namespace mobil::inline v0_3

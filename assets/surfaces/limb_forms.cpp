@@ -27,7 +27,7 @@ LegForm::LegForm(const Body& body, const BodyMeasures& m, bool shod, double hip_
       shod_(shod),
       hip_part_(hip_part) {
   const double high = joint(body, Segment::foot_right).y / (0.039 * 1.75);
-  // From the heel to the ball: how far ahead of the ankle, half breadth, lowest and highest point, how far inward; mm.
+  // From the heel to the ball: forward from the ankle, half breadth, lowest and highest point, inward; mm.
   constexpr std::array<std::array<double, 5>, 9> sections = {{{-46, 27, 2, 76, 0},
                                                               {-34, 31, 0, 86, 0},
                                                               {8, 35, 0, 98, 0},
@@ -44,7 +44,7 @@ LegForm::LegForm(const Body& body, const BodyMeasures& m, bool shod, double hip_
 
 double LegForm::foot(const Vec& q) const {
   double d = tube(foot_, q.z, q.x, q.y);
-  // The heel, a ball of its own.
+  // The heel, a separate ball.
   d = smooth_union(d, ellipsoid(q, {0, 0.030 * long_, -0.030 * long_}, {0.031 * wide_, 0.030 * long_, 0.035 * long_}),
                    0.02);
   if (q.z < 0.08 * long_ || d > 0.08) return d;
@@ -85,7 +85,7 @@ double LegForm::distance(const Vec& p) const {
   }
   constexpr double into_foot_m = 0.06;
   if (const double below = y(LegProfile::last_s) - p.y; below > 0) {
-    // But for where tendons go straight on, to the heel and to the instep.
+    // Except for the tendons to the heel and to the instep, which run straight.
     const double behind = smoothstep(0.6, 0.95, -std::cos(turn)), before = smoothstep(0.6, 0.95, std::cos(turn));
     const double narrower = 0.3 - 0.5 * behind - 0.4 * before;
     d = from_line - r * (1 - narrower * std::min(below / into_foot_m, 1.0));
@@ -107,7 +107,7 @@ ArmForm::ArmForm(const Body& body, const BodyMeasures& m)
   const double fore = length_m_ - elbow, biceps = m.biceps_girth / tau, forearm = m.forearm_girth / tau,
                wrist = m.wrist_girth / tau;
   const double deltoid = 1.10 * biceps;
-  // Toward the trunk it reaches as far as it is thick, outward as far as the shoulders are broad.
+  // Towards the trunk it is as wide as it is thick, outward it extends to the breadth of the shoulders.
   const double inward = deltoid - 0.006, outward = 0.5 * m.shoulder_breadth + shoulder_.x - 0.004;
   const double across = 0.5 * (inward + outward), middle = 0.5 * (inward - outward);
   ring_ = {{-0.022, 0.46 * across, 0.52 * deltoid, 0.006 + 0.5 * middle, 0},
@@ -125,7 +125,7 @@ ArmForm::ArmForm(const Body& body, const BodyMeasures& m)
            {elbow + fore + 0.010, 1.08 * wrist, 0.80 * wrist, 0, 0.001}};
 }
 
-/// q: towards the fingertips (y), to the thumb (x), out of the palm (z); from the wrist.
+/// Returns the distance to the hand. q is from the wrist, to the fingertips (y), to the thumb (x), out of the palm (z).
 double ArmForm::hand(const Vec& q) const {
   const double l = hand_m_ / 0.189, w = wide_;
   const std::array<Ring, 6> palm = {{{-0.010 * l, 0.027 * w, 0.019 * w, 0.000, 0.000},

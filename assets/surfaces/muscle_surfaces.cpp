@@ -30,9 +30,9 @@ constexpr TubeShape muscle_shape{
 
 constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 
-/// A member as it is drawn on the right leg, from its origin (first section) to its insertion (last); or the calcaneal
-/// tendon. `lies_on`: the shape that it covers and `cut_back_to`, the one that it ends at. `ends_in`: the tendon that
-/// it goes on in.
+/// A member as drawn on the right leg, from its origin (first section) to its insertion (last), or the calcaneal
+/// tendon. It covers the shape `lies_on` and ends at the shape `cut_back_to`. `ends_in` is the tendon that continues
+/// it.
 struct MuscleShape {
   std::string_view name;
   Muscle group;
@@ -41,7 +41,7 @@ struct MuscleShape {
   std::size_t lies_on = no_muscle, cut_back_to = no_muscle, ends_in = no_muscle;
 };
 
-/// The members in the order of member_muscles(), then the calcaneal tendon.
+/// Returns the members in the order of member_muscles(), then the calcaneal tendon.
 std::vector<MuscleShape> muscle_shapes() {
   const auto members = member_muscles();
   std::vector<MuscleShape> all;
@@ -69,10 +69,10 @@ std::vector<MuscleShape> muscle_shapes() {
   return all;
 }
 
-/// Where the measured man's kneecap stands: its upper edge's level, its centre in mm from the knee's.
+/// Kneecap of the measured man: level of its upper edge, and its centre in mm from the knee's.
 constexpr double measured_patella_top = 0.992, measured_patella_lateral = 12, measured_patella_anterior = 40;
 
-/// What a muscle must stay out of: the femur with its condyles, the tibia and the fibula.
+/// A bone that muscles must not enter: the femur with its condyles, the tibia or the fibula.
 struct Bone {
   std::vector<LegSection> sections;
 };
@@ -87,7 +87,7 @@ std::array<Bone, 3> hard_bones() {
   return bones;
 }
 
-/// (lateral, anterior) in mm.
+/// A point of a section, mm.
 struct Point {
   double l, a;
 };
@@ -103,12 +103,12 @@ double area(const LegSection& s) {
   return static_cast<double>(s.semi_1) * static_cast<double>(s.semi_2);
 }
 
-/// How much of the belly a section is: 0 in the tendon, 1 where it is thick.
+/// Returns the belly's share of a section: 0 in the tendon, 1 where it is thick.
 double belly(const LegSection& s, double largest_area) {
   return smoothstep(0.08, 0.45, area(s) / largest_area);
 }
 
-/// The area of a muscle's section at a level over that of its largest; where the sections lie is told by `placed`.
+/// Returns the area of a muscle's section at a level over that of its largest; `placed` has the sections' levels.
 double relative_area(std::span<const LegSection> sections, std::span<const LegSection> placed, double level) {
   double largest = 0;
   for (const LegSection& s : sections) largest = std::max(largest, area(s));
@@ -117,7 +117,7 @@ double relative_area(std::span<const LegSection> sections, std::span<const LegSe
   return ((1 - w) * area(sections[i]) + w * area(sections[i + 1])) / largest;
 }
 
-/// The bone that a muscle grows away from at a level.
+/// Returns the centre of the bone from which a muscle grows away at a level.
 Point bone_centre(const std::array<Bone, 3>& bones, double level) {
   const auto& sections = bones[level < 1.06 ? 0 : 1].sections;
   const double low = static_cast<double>(sections.front().level), high = static_cast<double>(sections.back().level);
@@ -125,17 +125,17 @@ Point bone_centre(const std::array<Bone, 3>& bones, double level) {
   return {e.lateral, e.anterior};
 }
 
-/// A muscle's sections on this body, in mm of the measured man: girth times `girth` in the belly, moved out of the way
-/// of the muscle beneath, the quadriceps led to where this body's kneecap is. Published volumes are larger than the
-/// measured man's, so sections grow; what then is in the bone, in the muscle beneath or outside of the skin is cut off,
-/// and the rest grows until the volume is met.
+/// Fits a muscle's sections to this body, in mm of the measured man. Multiplies the girth of the belly, moves it out of
+/// the way of the muscle beneath, and leads the quadriceps to this body's kneecap. Published volumes are larger than
+/// the measured man's, so sections grow. The parts in the bone, in the muscle beneath or outside of the skin are cut
+/// off, and the rest grows until the volume is met.
 struct Fitting {
   const LegFrame& leg;
-  const LegProfile* skin;  // nothing of a muscle lies outside of it, made so much wider; null: each for itself
+  const LegProfile* skin;  // muscles stay inside it, widened by `wider`; null: each alone
   double wider;
   const std::array<Bone, 3>& bones;
-  Point patella;         // where the kneecap's centre is, mm
-  double patella_shift;  // of its upper edge's level against the measured man's
+  Point patella;         // the kneecap's centre, mm
+  double patella_shift;  // of its upper edge's level from the measured man's
 };
 
 double growth(const MuscleShape& shape, double girth, double level, Point direction) {
@@ -150,7 +150,7 @@ double growth(const MuscleShape& shape, double girth, double level, Point direct
   return (1 - w) * at(a) + w * at(b);
 }
 
-/// `beneath`: the muscle that it lies on, or null.
+/// `beneath` is the muscle under it, or null.
 std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, double girth, const MuscleShape* beneath,
                                double girth_beneath) {
   double largest = 0;
@@ -181,8 +181,8 @@ std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, doubl
   return out;
 }
 
-/// Cuts a ring of vertices back to what lies beneath, a bone or a muscle: each along its ray from the ring's middle,
-/// which is moved out first where it lies within.
+/// Cuts a ring of vertices back to the bone or muscle beneath, each along its ray from the ring's middle. The middle is
+/// moved out first if it is within.
 void keep_out(const Fitting& f, std::span<const LegSection> beneath, std::span<Vec3<float>> ring) {
   constexpr double skin_mm = 1.5, middle_outside = 1.12;
   const double level = leg_level(f.leg, static_cast<double>(ring[0].y));
@@ -190,7 +190,7 @@ void keep_out(const Fitting& f, std::span<const LegSection> beneath, std::span<V
   if (!e) return;
   const double aa = e->aa + skin_mm, ll = e->ll + skin_mm, al = e->al, det = aa * ll - al * al;
   const Vec axis = leg_point(f.leg, level, 0, 0);
-  // to the circle that the section beneath is the image of, and back
+  // to the circle whose image is the section beneath, and back
   const auto inward = [&](double l, double a) { return Point{(aa * l - al * a) / det, (ll * a - al * l) / det}; };
   const auto outward = [&](Point p) { return Point{al * p.a + ll * p.l, aa * p.a + al * p.l}; };
   const auto local = [&](const Vec3<float>& p) {
@@ -222,8 +222,8 @@ void keep_out(const Fitting& f, std::span<const LegSection> beneath, std::span<V
   }
 }
 
-/// Cuts a ring of vertices back to the inside of the leg's skin, each along its ray from the ring's middle, which is
-/// moved in first where it lies outside.
+/// Cuts a ring of vertices back to the inside of the leg's skin, each along its ray from the ring's middle. The middle
+/// is moved in first if it is outside.
 void keep_in(const Fitting& f, std::span<Vec3<float>> ring) {
   constexpr double cover_mm = 2, middle_inside = 0.9;
   const double level = leg_level(f.leg, static_cast<double>(ring[0].y));
@@ -260,7 +260,7 @@ void keep_in(const Fitting& f, std::span<Vec3<float>> ring) {
   }
 }
 
-/// `beneath`: sections of the muscle that it lies on; none: empty.
+/// Builds a muscle's mesh. `beneath` has the sections of the muscle under it, if any.
 SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections, std::span<const LegSection> beneath) {
   std::vector<TubeStation> stations;
   for (const auto& s : sections) stations.push_back(leg_station(f.leg, s));
@@ -269,7 +269,7 @@ SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections, std::s
   for (std::size_t r = 0; r < ring_count; ++r) {
     const auto ring = std::span(mesh.position).subspan(1 + r * muscle_segments, muscle_segments);
     keep_in(f, ring);
-    // Tendons go on to where the muscle beneath ends, too.
+    // Tendons are not cut: they continue to the end of the muscle beneath.
     const double thick =
         smoothstep(0.3, 0.7, relative_area(sections, sections, leg_level(f.leg, static_cast<double>(ring[0].y))));
     const std::vector<Vec3<float>> uncut(ring.begin(), ring.end());
@@ -284,7 +284,7 @@ SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections, std::s
   return mesh;
 }
 
-/// 0 in the belly, 1 in the tendons, by the area of the measured section at each vertex's level.
+/// Returns 0 in the belly and 1 in the tendons, by the area of the measured section at each vertex's level.
 std::vector<float> tendon_shares(const LegFrame& leg, std::span<const LegSection> fitted_sections,
                                  std::span<const LegSection> measured, const SurfaceMesh& mesh) {
   std::vector<float> share;
@@ -295,9 +295,9 @@ std::vector<float> tendon_shares(const LegFrame& leg, std::span<const LegSection
   return share;
 }
 
-/// How much wider the skin is than its measures have it where muscles of `volume_m3` are more than usual in a leg.
+/// Returns the factor that widens the skin if muscles of `volume_m3` are more than usual in a leg.
 double given_way(const LegFrame& leg, const LegProfile& skin, double volume_m3) {
-  constexpr double usual_share = 0.38, step = 0.01;  // of what the skin encloses
+  constexpr double usual_share = 0.38, step = 0.01;  // share of the volume within the skin
   double enclosed_m3 = 0;
   for (double s = LegProfile::first_s; s < LegProfile::last_s; s += step) {
     const double girth = skin.girth(s);

@@ -17,7 +17,7 @@ namespace {
 using namespace geometry;
 
 constexpr double thinnest_end = 0.35;
-/// A block of two cells across comes within 0.962 of its ellipse.
+/// A block of two cells across extends to 0.962 of its ellipse.
 constexpr double margin = 1.05;
 constexpr std::size_t last_station = lattice_station_count - 1;
 
@@ -26,7 +26,7 @@ struct Station {
   double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
 
-/// 1 on the ellipse, less inside.
+/// Returns 1 on the ellipse, less inside.
 double reach(const Station& s, double x, double y) {
   const double det = s.xx * s.yy - s.xy * s.xy, dx = x - s.x, dy = y - s.y;
   return std::hypot(s.yy * dx - s.xy * dy, s.xx * dy - s.xy * dx) / det;
@@ -37,7 +37,7 @@ Station mix(const Station& a, const Station& b, double w) {
   return {m(a.x, b.x), m(a.y, b.y), m(a.xx, b.xx), m(a.xy, b.xy), m(a.yy, b.yy)};
 }
 
-/// The smallest ellipse round some points, nearly (Khachiyan 1996; Todd & Yildirim, Discrete Appl. Math. 155, 2007).
+/// Returns nearly the smallest ellipse round points (Khachiyan 1996; Todd & Yildirim, Discrete Appl. Math. 155, 2007).
 Station enclose(const std::vector<Vec>& points) {
   constexpr int rounds = 200;
   const std::size_t n = points.size();
@@ -71,7 +71,7 @@ Station enclose(const std::vector<Vec>& points) {
   return s;
 }
 
-/// Neither semi-axis less than `least`.
+/// Widens both semi-axes to at least `least`.
 void widen(Station& s, double least) {
   const double mean = (s.xx + s.yy) / 2, half = std::hypot((s.xx - s.yy) / 2, s.xy);
   const double longer = std::max(mean + half, least), shorter = std::max(mean - half, least);
@@ -89,7 +89,7 @@ const Body& reference_body() {
   return body;
 }
 
-/// The surfaces' vertices, in the muscle's frame.
+/// Returns the surfaces' vertices, in the muscle's frame.
 std::vector<Vec> outline(const MusclePlan& plan) {
   static const std::vector<GroupSurface> surfaces = make_muscle_surfaces(reference_body(), MuscleRoom::alone);
   std::vector<Vec> points;
@@ -104,7 +104,7 @@ std::vector<Vec> outline(const MusclePlan& plan) {
 
 using Stations = std::array<Station, lattice_station_count>;
 
-/// Each a quarter of its neighbours'.
+/// Returns stations smoothed with weights of a half for themselves and a quarter for each neighbour.
 Stations softened(const Stations& s) {
   Stations out;
   for (std::size_t i = 0; i <= last_station; ++i) {
@@ -113,7 +113,7 @@ Stations softened(const Stations& s) {
   return out;
 }
 
-/// Ellipses round the outline near each station, smoothed, and no thinner than they may be.
+/// Returns ellipses round the outline near each station, smoothed and at least as thick as required.
 Stations follow(const std::vector<Vec>& points, double spacing) {
   Stations tight, smooth;
   double middle = 0;
@@ -128,7 +128,7 @@ Stations follow(const std::vector<Vec>& points, double spacing) {
     tight[i] = enclose(near);
   }
   smooth = softened(softened(tight));
-  // Centres further: elements shear where they bend.
+  // Centres are smoothed further, because elements shear where they bend.
   const Stations centres = softened(softened(smooth));
   for (std::size_t i = 0; i <= last_station; ++i) smooth[i].x = centres[i].x, smooth[i].y = centres[i].y;
   for (const Station& s : smooth) {
@@ -138,7 +138,7 @@ Stations follow(const std::vector<Vec>& points, double spacing) {
   return smooth;
 }
 
-/// Widens each station until the outline round it lies inside with its margin.
+/// Widens each station until the outline round it is inside with its margin.
 void surround(const std::vector<Vec>& points, double spacing, Stations& stations) {
   std::array<double, lattice_station_count> most{};
   for (const Vec& p : points) {
@@ -155,7 +155,7 @@ void surround(const std::vector<Vec>& points, double spacing, Stations& stations
   }
 }
 
-/// The block's own axes are turned to where the sections reach farthest and least, as much as by half a right angle.
+/// Returns the turn of the block's axes to the directions of the sections' longest and shortest reach, at most 45°.
 double roll(const Stations& stations) {
   Station sum;
   for (const Station& s : stations) sum.xx += s.xx, sum.xy += s.xy, sum.yy += s.yy;
@@ -168,7 +168,7 @@ LatticeStations stations_of(const Stations& ellipses) {
   LatticeStations lattice{};
   for (std::size_t i = 0; i <= last_station; ++i) {
     const Station& s = ellipses[i];
-    // To 1/128 mm: what two machines' sines differ by is gone, and all have the same mesh.
+    // Rounding to 1/128 mm removes differences between machines' sines, so all have the same mesh.
     const auto f = [](double metres) { return static_cast<float>(std::round(metres * 128e3) / 128e3); };
     lattice[i] = {static_cast<float>(i) / static_cast<float>(last_station),
                   f(s.x),
@@ -181,7 +181,7 @@ LatticeStations stations_of(const Stations& ellipses) {
   return lattice;
 }
 
-/// The same sections, all as much larger or smaller as gives the block that volume, m³.
+/// Scales all sections so that the block has that volume, m³.
 void fill(double volume_m3, double length_m, Stations& stations) {
   const double now = volume(bend_block({2, 2, 2 * last_station}, stations_of(stations), length_m).value());
   const double factor = std::sqrt(volume_m3 / now);

@@ -16,7 +16,7 @@ using namespace geometry;
 using form::BodyForm;
 using std::numbers::pi;
 
-/// What is cut apart: of a segment's skin, of either side.
+/// Regions of skin that are cut apart, by segment, the same on either side.
 enum class Region : std::uint8_t { trunk, head, arm, hand, leg, foot };
 constexpr std::size_t regions = 6;
 
@@ -35,29 +35,29 @@ Region region_of(std::size_t segment) {
   return segment >= index(Segment::C7) && segment <= index(Segment::head) ? Region::head : Region::trunk;
 }
 
-/// Round an upright axis from `low` to `high`, m: to the right the angle from the front, down the way along. Beyond the
-/// ends the way goes on as over a ball.
+/// Unrolls round an upright axis from `low` to `high`, m: the angle from the front to the right, the distance along the
+/// axis down. Beyond the ends it continues as over a ball.
 struct Barrel {
   double x, z, low, high, radius;
 };
-// Of a body of 1.75 m. Arm, leg and foot are the right ones in the anatomical position; the foot stands on its toes,
-// its upper side to the front.
+// Barrels of a body of 1.75 m. Arm, leg and foot are the right ones in the anatomical position; the foot stands on its
+// toes, its upper side to the front.
 constexpr Barrel round_trunk = {0, -0.03, 0.98, 1.28, 0.155}, round_head = {0, 0.02, 1.53, 1.655, 0.095};
 constexpr Barrel round_arm = {-0.175, -0.021, 0.86, 1.40, 0.046}, round_leg = {-0.080, 0, 0.10, 0.88, 0.075};
 constexpr Barrel round_foot = {-0.085, 0.040, -0.15, 0.02, 0.045};
-/// Triangles that reach over the seam at the back lie beyond it, by no more than that.
+/// Triangles across the seam at the back extend beyond it by at most this.
 constexpr double over_seam_rad = 0.5;
 
-/// How a chart is laid flat: round a barrel, or seen along an axis. Where it lies in the square and how broad and high
-/// it is, m; how much larger than the others; what of it comes to its upper left corner.
+/// Layout of a chart: unrolled round a barrel, or seen along an axis. It has the chart's place in the square, breadth
+/// and height, m, its scale relative to the others, and the point in its upper left corner.
 struct ChartForm {
-  Barrel barrel;    // of radius 0: flat
-  Vec right, down;  // of what is flat
+  Barrel barrel;    // radius 0: flat
+  Vec right, down;  // axes of a flat chart
   double left_m, top_m, broad_m, high_m, scale, first_right_m, first_down_m;
 
   bool is_flat() const { return barrel.radius <= 0; }
   double angle(const Vec& p) const { return is_flat() ? 0 : std::atan2(p.x - barrel.x, p.z - barrel.z); }
-  /// m. `angle_rad`: as `angle`, or once round from there.
+  /// Returns the place in the chart, m. `angle_rad` is `angle`, or that plus a full turn.
   std::array<double, 2> laid(const Vec& p, double angle_rad) const {
     if (is_flat()) return {dot(p, right), dot(p, down)};
     const double end = std::clamp(p.y, barrel.low, barrel.high), across = std::hypot(p.x - barrel.x, p.z - barrel.z);
@@ -78,14 +78,14 @@ constexpr ChartForm round(const Barrel& b, double left_m, double top_m, double a
           -(b.high + above_m)};
 }
 
-/// The square's side and what is free between charts, m.
+/// Side of the square and gap between charts, m.
 constexpr double side_m = 2.02, gap_m = 0.014;
 
 constexpr bool is_left(SkinChart chart) {
   return chart > SkinChart::head && static_cast<int>(chart) % 2 == 1;
 }
 
-/// Legs and arms stand in a row, hands below the arms; feet and soles at the right; trunk and head in the second row.
+/// Legs and arms are in one row, hands below the arms, feet and soles at the right, trunk and head in the second row.
 constexpr ChartForm form_of(SkinChart chart) {
   constexpr double a_leg = (2 * pi + over_seam_rad) * round_leg.radius + gap_m;
   constexpr double an_arm = (2 * pi + over_seam_rad) * round_arm.radius + gap_m, arms = 2 * a_leg;
@@ -126,10 +126,10 @@ SkinChart on_its_side(SkinChart right, bool left) {
   return static_cast<SkinChart>(static_cast<int>(right) + (left ? 1 : 0));
 }
 
-/// The chart of a triangle with these corners and normal, in the pose that is meshed.
+/// Returns the chart of a triangle with this middle and normal, in the meshing pose.
 SkinChart chart_of(Region region, const Vec& middle, const Vec& normal) {
   const bool left = middle.x > 0;
-  constexpr double below = 0.6;  // of the sole's normal
+  constexpr double below = 0.6;  // a sole's normal points down by at least this
   switch (region) {
     case Region::trunk:
       return SkinChart::trunk;
@@ -147,8 +147,8 @@ SkinChart chart_of(Region region, const Vec& middle, const Vec& normal) {
   return SkinChart::trunk;
 }
 
-/// As a chart sees a place of the pose that is meshed: of the right side in the anatomical position; a foot on its
-/// toes.
+/// Returns a point of the meshing pose as the chart sees it: on the right side in the anatomical position, a foot
+/// standing on its toes.
 Vec as_seen(const BodyForm& form, SkinChart chart, const Vec& p) {
   if (chart <= SkinChart::head) return p;
   const Vec right = {is_left(chart) ? -p.x : p.x, p.y, p.z};
@@ -168,7 +168,7 @@ AtlasPlace in_square(SkinChart chart, const Vec& seen, double angle_rad) {
           static_cast<float>((form.top_m + form.scale * down) / side_m)};
 }
 
-/// The region whose segments move a triangle's corners most.
+/// Returns the region whose segments move a triangle's corners most.
 Region region_of(const SkinMesh& mesh, const std::uint32_t* corner) {
   std::array<float, regions> share{};
   for (int k = 0; k < 3; ++k) {
@@ -237,7 +237,7 @@ std::vector<std::array<float, 4>> skin_tangents(const BodySkin& skin) {
     const double r1 = step(1, &AtlasPlace::right), r2 = step(2, &AtlasPlace::right);
     const double d1 = step(1, &AtlasPlace::down), d2 = step(2, &AtlasPlace::down), twice = r1 * d2 - r2 * d1;
     if (twice == 0) continue;
-    // Both weigh as their triangle's part of the texture.
+    // Both are weighted by their triangle's area in the texture.
     const double way = twice < 0 ? -1 : 1;
     const Vec along_right = way * (d2 * edge(1) - d1 * edge(2)), along_up = way * (r2 * edge(1) - r1 * edge(2));
     for (std::size_t k = 0; k < 3; ++k) {

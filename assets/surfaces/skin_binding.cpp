@@ -14,7 +14,7 @@ namespace {
 using namespace geometry;
 using enum Segment;
 
-/// How much of a place the arm carries, and each leg.
+/// Shares of a point that the arm and each leg carry.
 struct Share {
   double arm;    // 0 trunk, 1 arm
   double left;   // of the legs' part: 0 the right leg's, 1 the left leg's
@@ -40,12 +40,12 @@ Share share_of(const form::BodyForm& form, const Vec& p) {
 
 Vec at_rest(const form::BodyForm& form, const Vec& p, const Share& share) {
   const double side = p.x > 0 ? -1 : 1;
-  const Vec right{side * p.x, p.y, p.z};  // as if it were on the right
+  const Vec right{side * p.x, p.y, p.z};  // mirrored to the right
   if (share.arm > 0) {
     const Vec r = form.in_arm(right, share.arm);
     return {side * r.x, r.y, r.z};
   }
-  // The leg of the other side carries a part of what lies near the middle.
+  // The leg of the other side carries a part of points near the middle.
   const Vec own = form.in_leg(right, share.thigh);
   const Vec other = form.in_leg({-right.x, right.y, right.z}, share.thigh);
   const double far = side > 0 ? share.left : 1 - share.left;
@@ -69,7 +69,7 @@ class Binder {
   void add(double weight, std::size_t from, std::size_t to, double turn) {
     if (weight < 1e-4) return;
     turn = std::round(turns_ * turn) / turns_;
-    // What does not turn from the one, or wholly with the other, is rigid.
+    // A vertex that turns fully with one segment is rigid.
     if (turn == 0) to = from;
     if (turn == 1) from = to;
     if (from == to) turn = 0;
@@ -80,7 +80,7 @@ class Binder {
           {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to), static_cast<float>(turn)});
     taken_.push_back({weight, found->second});
   }
-  /// A joint's frame: how far `at` lies beyond the joint, which bends between −before and +after.
+  /// Returns a joint's turn `at` a distance beyond it; the joint bends between −before and +after.
   double bent(double at, double before, double after) const {
     return smoothstep(-before * form_.size(), after * form_.size(), at);
   }
@@ -90,7 +90,7 @@ class Binder {
     const Share share = share_of(form_, p);
     const Vec r = at_rest(form_, p, share);
     const std::size_t side = p.x > 0 ? 1 : 0;
-    // What hangs on the shoulder alone, and what goes with the trunk as well.
+    // Skin on the shoulder alone, and skin that also follows the trunk.
     const double arm = smoothstep(0, 0.2, share.arm);
     if (arm > 0) add_arm(arm, share.arm, r, side);
     const double above = r.y - form_.leg().hip().y;
@@ -114,7 +114,7 @@ class Binder {
     const double twist = smoothstep(0.05 * size, 0.22 * size, elbow), flat = bent(wrist, 0.03, 0.03);
     if (flat <= 0) return add(weight, untwisted, fore, twist);
     if (flat < 1) return add(weight, fore, hand, flat);
-    // The thumb: what lies further out than the palm, below its root.
+    // The thumb is farther out than the palm, below its root.
     const double off_palm = out * (r.x - knuckles.x) - (0.036 + 0.10 * std::max(0.0, knuckles.y - r.y)) * size;
     const bool is_thumb = off_palm > 0 && r.y < thumb.y;
     const double of_thumb = is_thumb ? smoothstep(0, 0.012 * size, off_palm) * bent(thumb.y - r.y, -0.010, 0.040) : 0;
@@ -129,7 +129,7 @@ class Binder {
     add(weight * up, last, last, 0);
     weight *= 1 - up;
     if (r.y <= lowest) return add(weight, index(pelvis), index(pelvis), 0);
-    // Vertebrae turn into each other from the middle of the one to the middle of the next.
+    // Vertebrae turn into each other from the middle of one to the middle of the next.
     const auto joint = [&](std::size_t k) { return rest_.position_m[k].y; };
     std::size_t k = 0;  // between the joints of k and of the one above
     while (k + 1 < last && static_cast<double>(joint(k + 1)) < r.y) ++k;
@@ -143,7 +143,7 @@ class Binder {
   void add_leg(double weight, double thigh, const Vec& r, std::size_t side) {
     const std::size_t upper = index(on_side(thigh_right, side)), lower = index(on_side(shank_right, side)),
                       foot = index(on_side(foot_right, side)), toes = index(on_side(toes_right, side));
-    // Behind the ankle skin bends lower than in front: it lies over the tendon, which stays straight as the heel rises.
+    // Behind the ankle skin bends lower than in front: it covers the tendon, which stays straight as the heel rises.
     const double behind = smoothstep(0, 0.035 * form_.size(), origin(foot_right).z - r.z);
     const double knee = bent(origin(shank_right).y - r.y, knee_bend.above_m, knee_bend.below_m),
                  ankle = bent(origin(foot_right).y - r.y, ankle_bend.above_m - 0.06 * behind,

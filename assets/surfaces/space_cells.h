@@ -1,5 +1,5 @@
 #pragma once
-// Numbers (of vertices, of triangles) by the cells of space that they lie in, to find those near a place.
+// Numbers (of vertices, of triangles) sorted by their cell of space, to find those near a point.
 
 #include <algorithm>
 #include <array>
@@ -17,13 +17,13 @@ namespace mobil::inline v0_3 {
 
 class SpaceCells {
  public:
-  /// Cubes with edges of that length.
+  /// Creates cubes with edges of that length.
   explicit SpaceCells(double cell_m) : cell_m_(cell_m) {}
 
   double cell_m() const { return cell_m_; }
   void add(std::uint32_t number, const Vec3<double>& at) { cells_[cell(at)].push_back(number); }
-  /// `f(number)` for all in the cells from `first` to `last` cells away from that of `at`, by the greatest of x, y and
-  /// z.
+  /// Calls `f(number)` for all in the cells from `first` to `last` cells away from that of `at`, by the maximum of x, y
+  /// and z.
   template <class F>
   void near(const Vec3<double>& at, std::int32_t first, std::int32_t last, const F& f) const {
     const Cell c = cell(at);
@@ -36,7 +36,7 @@ class SpaceCells {
           for (const std::uint32_t number : found->second) f(number);
         }
   }
-  /// `f(number)` for all.
+  /// Calls `f(number)` for all.
   template <class F>
   void each(const F& f) const {
     for (const auto& [where, numbers] : cells_)

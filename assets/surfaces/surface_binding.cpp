@@ -23,7 +23,7 @@ struct Position {
   std::array<double, 3> local;  // 0–1 in the element
 };
 
-/// The element that holds the parameters (each 0 to the number of cells), and where in it they lie.
+/// Returns the element of the parameters (each 0 to the number of cells), and their place in it.
 Position split(const Cells& cells, const std::array<double, 3>& parameter) {
   std::array<std::uint32_t, 3> cell{};
   Position p{};
@@ -48,7 +48,7 @@ std::array<double, 8> weights(const std::array<double, 3>& t) {
   return w;
 }
 
-/// The map at a position and its three derivatives by the parameters.
+/// Returns the map at a position and its three derivatives with respect to the parameters.
 std::array<Vec, 4> map(const HexahedralMesh& lattice, const Position& p) {
   const Hexahedron nodes = element_nodes(lattice.cells, p.element);
   const auto w = weights(p.local);
@@ -67,7 +67,7 @@ std::array<Vec, 4> map(const HexahedralMesh& lattice, const Position& p) {
   return r;
 }
 
-/// Looks points up in one lattice whose planes' heights are known.
+/// Finds points in one lattice, with precomputed heights of its planes.
 struct LatticeSearch {
   const HexahedralMesh& lattice;
   std::vector<double> height;
@@ -95,20 +95,20 @@ LatticePlace LatticeSearch::place(const Vec& point) const {
                                         dot(r[1], cross(r[2], off)) / det};
     double moved = 0;
     for (std::size_t d = 0; d < 3; ++d) {
-      // at most a cell at a time: the neighbour's map is another one
+      // at most one cell at a time, because the neighbour has another map
       const double next = std::clamp(parameter[d] + stride * std::clamp(step[d], -1.0, 1.0), 0.0, 1.0 * cells[d]);
       moved = std::max(moved, std::abs(next - parameter[d]));
       parameter[d] = next;
     }
     if (moved < 1e-12) break;
-    if (iteration > 20) stride = 0.5;  // out of a cycle between two cells
+    if (iteration > 20) stride = 0.5;  // breaks a cycle between two cells
   }
   const Position p = split(cells, parameter);
   return {element_nodes(cells, p.element), weights(p.local)};
 }
 
-/// Half the thickness of a surface between two heights: the farthest that its points lie from the middle of their
-/// slice.
+/// Returns half the thickness of a surface between two heights: the largest distance of its points from the middle of
+/// their slice.
 double radius(const std::vector<Vec>& place, double from, double to) {
   constexpr int slices = 8;
   struct Slice {

@@ -47,7 +47,7 @@ SurfaceMesh mirror_image(const SurfaceMesh& mesh) {
 
 double enclosed_volume(const SurfaceMesh& mesh) {
   if (mesh.position.empty()) return 0;
-  const Vec near = to_double(mesh.position.front());  // far from the origin, digits would cancel
+  const Vec near = to_double(mesh.position.front());  // avoids cancellation far from the origin
   double sum = 0;
   for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
     const auto at = [&](std::size_t k) { return to_double(mesh.position[mesh.triangle[t + k]]) - near; };

@@ -1,5 +1,5 @@
 #pragma once
-// What is done to any surface of triangles, generated or read.
+// Operations on surfaces of triangles, generated or read.
 
 #include <cstdint>
 #include <vector>
@@ -8,23 +8,23 @@
 
 namespace mobil::inline v0_3 {
 
-/// Puts `part` beside what `mesh` holds already.
+/// Appends `part` to the content of `mesh`.
 void append(SurfaceMesh& mesh, const SurfaceMesh& part);
 
-/// Without the vertices that no triangle has; the others keep their order.
+/// Removes the vertices that no triangle uses; the others keep their order.
 void drop_unused(SurfaceMesh& mesh);
 
-/// Every position times `factor` (positive).
+/// Multiplies every position by `factor` (positive).
 void scale(SurfaceMesh& mesh, double factor);
 
-/// Winds every triangle (three indices each) the other way round.
+/// Reverses the winding of every triangle (three indices each).
 void turn_over(std::vector<std::uint32_t>& triangle);
 
-/// Reflected in the plane x = 0, the triangles turned so that they stay wound outwards.
+/// Returns the mesh reflected in the plane x = 0, with its triangles turned so that they stay wound outwards.
 SurfaceMesh mirror_image(const SurfaceMesh& mesh);
 
-/// Volume enclosed by a closed surface, in the cube of the mesh's unit: negative where it is wound inwards. Overlapping
-/// parts count twice.
+/// Returns the volume enclosed by a closed surface, in the cube of the mesh's unit; negative if it is wound inwards.
+/// Overlapping parts count twice.
 double enclosed_volume(const SurfaceMesh& mesh);
 
 }  // namespace mobil::inline v0_3

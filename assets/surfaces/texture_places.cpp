@@ -19,7 +19,7 @@ using Vec = Vec3<double>;
 
 constexpr std::size_t steps = 24;
 
-/// A line from point to point, and how far along it each of them is, m.
+/// A polyline, with the distance of each point along it, m.
 struct MiddleLine {
   std::vector<Vec> middle;
   std::vector<double> at;
@@ -28,7 +28,7 @@ struct MiddleLine {
     for (std::size_t i = 1; i < middle.size(); ++i) at.push_back(at.back() + length(middle[i] - middle[i - 1]));
   }
 
-  /// How far along a point is, out from where, and which way the line goes there; its ends go on straight.
+  /// The line's nearest point: distance along it, offset to the point and direction there. The ends extend straight.
   struct Foot {
     double at;
     Vec out, way;
@@ -51,7 +51,7 @@ struct MiddleLine {
   }
 };
 
-/// The cubic that lies nearest to all of the places, by how far along they are (0–1), at equal steps.
+/// Returns the cubic nearest to all points, by their positions along it (0–1), at equal steps.
 std::vector<Vec> middle_of(std::span<const Vec3<float>> position, const std::vector<double>& along) {
   const auto powers = [](double t) { return Eigen::RowVector4d(1, t, t * t, t * t * t); };
   const auto rows = static_cast<Eigen::Index>(position.size());
@@ -86,7 +86,7 @@ std::vector<TexturePlace> texture_places(std::span<const Vec3<float>> position, 
   std::vector<double> along;
   for (const Vec3<float>& p : position) along.push_back(dot(to_double(p), to_double(axis)));
   normalise(along);
-  // The line bends as the surface does: a second look counts along the line of the first.
+  // The line bends as the surface does, so each look measures along the line of the previous one.
   constexpr int looks = 4;
   for (int look = 0; look < looks; ++look) {
     const MiddleLine line(middle_of(position, along));
@@ -123,7 +123,7 @@ std::vector<TexturePlace> folded_places(std::span<const Vec3<float>> position) {
 
 std::vector<AlongStencil> along_stencils(std::span<const std::uint32_t> triangle, std::span<const TexturePlace> place) {
   struct Best {
-    double score = -1e300;  // how well the triangle holds the direction: negative where it lies beside it
+    double score = -1e300;  // how well the triangle contains the direction: negative outside it
     std::uint32_t first = 0, second = 0;
     double of_first = 0, of_second = 0;
   };
@@ -141,7 +141,7 @@ std::vector<AlongStencil> along_stencils(std::span<const std::uint32_t> triangle
       const double area = b_along * c_around - b_around * c_along;
       turn[v] += area;
       if (std::abs(area) < 1e-12) continue;
-      const double of_b = c_around / area, of_c = -b_around / area;  // one along, none around
+      const double of_b = c_around / area, of_c = -b_around / area;  // solves for one unit along, none around
       const double size = std::abs(of_b) + std::abs(of_c);
       for (const std::size_t way : {std::size_t{0}, std::size_t{1}}) {
         const double sign = way == 0 ? 1 : -1;

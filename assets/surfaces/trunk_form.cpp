@@ -12,7 +12,7 @@ namespace {
 
 using namespace geometry;
 
-/// Length round an oval.
+/// Returns the length round an oval.
 double girth(double half, double deep, double exponent) {
   constexpr int steps = 64;
   double sum = 0, x = half, z = 0;
@@ -27,7 +27,7 @@ double girth(double half, double deep, double exponent) {
   return 4 * sum;
 }
 
-/// The exponent of an oval of that length; 3.2 at most, which looks like a body still.
+/// Returns the exponent of an oval of that length, at most 3.2, which still looks like a body.
 double exponent_of(double half, double deep, double length_m) {
   double low = 1.6, high = 3.2;
   for (int i = 0; i < 30; ++i) {
@@ -46,19 +46,19 @@ TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, const TrunkFit& fi
   const double hip = 0.5 * fit.hips * m.hip_breadth, waist = 0.5 * fit.waist * m.waist_breadth,
                chest = 0.5 * fit.chest * m.chest_breadth;
   const double wide = 1.08 * chest, neck = fit.neck * m.neck_girth / (2 * std::numbers::pi);
-  // The chest below the shoulders is as broad as those are.
+  // The chest below the shoulders is as broad as they are.
   const double broad = 0.5 * (woman_ ? 0.598 : 0.572) * m.shoulder_breadth;
-  // Women's chests are measured over the bust: 0.86 of it is taken for the girth below, and a part of the depth.
+  // Women's chests are measured over the bust: below it, 0.92 of the girth and a smaller depth are used.
   const double bust = 0.16 * m.chest_depth;
-  // How much deeper than a man of 1.75 m and 75 kg.
+  // Depth beyond that of a man of 1.75 m and 75 kg.
   const double buttock = 0.5 * (fit.hips * m.buttock_depth - 0.2267), belly = fit.waist * m.waist_depth - 0.2119,
                breast = fit.chest * (m.chest_depth - (woman_ ? bust : 0)) - 0.2346;
-  // Over the breadth at the navel; a belly leaves less of it.
+  // Relative to the breadth at the navel; a belly makes the waist less pronounced.
   const double natural_waist = (woman_ ? 0.93 : 0.985) + 0.04 * std::clamp(belly / 0.07, 0.0, 1.0);
   const double at_waist = exponent_of(waist, 0.5 * fit.waist * m.waist_depth, fit.waist * m.waist_girth);
   const double at_chest = exponent_of(wide, 0.5 * fit.chest * (m.chest_depth - (woman_ ? bust : 0)),
                                       fit.chest * m.chest_girth * (woman_ ? 0.92 : 1));
-  // The back lies behind the spines of the vertebrae.
+  // The back is behind the spines of the vertebrae.
   section_ = {
       {0.835, 0.045, -0.050, 0.020, 2},
       {0.865, 0.100, -0.090, 0.065, 2.2},
@@ -98,7 +98,7 @@ TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, const TrunkFit& fi
   round_ = (fit.hips * m.buttock_depth) / 0.2267;
   chest_wide_ = chest / 0.1398;
   buttock_ = buttock;
-  if (woman_) breast_m_ = bust / 0.040;  // over the usual size
+  if (woman_) breast_m_ = bust / 0.040;  // relative to the usual size
 }
 
 double TrunkForm::sections(const Vec& p) const {
@@ -125,7 +125,7 @@ double TrunkForm::distance(const Vec& p) const {
                    0.035);
   d = smooth_union(d, capsule(q, size_ * Vec{-0.050, 1.446, -0.030}, shoulder_ + Vec{0.004, -0.022, 0}, 0.038, 0.046),
                    0.03);
-  // What bones carry in the thin: rib lattice, spines of the shoulder blades, crests of the pelvis, collar bones.
+  // Bones that show in thin people: rib cage, spines of the shoulder blades, crests of the pelvis, collar bones.
   d = smooth_union(d, ellipsoid(p, size_ * Vec{0, 1.262, -0.031}, size_ * Vec{0.137, 0.175, 0.1075}), 0.02);
   d = smooth_union(d, capsule(q, size_ * Vec{-0.075, 1.432, -0.110}, size_ * Vec{-0.155, 1.454, -0.070}, 0.022, 0.020),
                    0.03);

@@ -27,7 +27,7 @@ Channels channels(const TubeStation& s) {
           s.bow};
 }
 
-/// Slope at the middle of three values (Fritsch and Butland's harmonic mean where `monotone`).
+/// Returns the slope at the middle of three values (Fritsch and Butland's harmonic mean if `monotone`).
 double slope(double before, double after, double h_before, double h_after, bool monotone) {
   if (!monotone) return (before * h_after + after * h_before) / (h_before + h_after);
   if (before * after <= 0) return 0;
@@ -53,7 +53,7 @@ void add_ring(SurfaceMesh& mesh, const TubeSection& s, const Frame& f, const Vec
   }
 }
 
-/// Triangles between consecutive rings of `segments` vertices, and fans to the poles: vertex 0 and the last one.
+/// Adds triangles between consecutive rings of `segments` vertices, and fans to the poles: vertex 0 and the last one.
 void connect(SurfaceMesh& mesh, int rings, int segments) {
   const auto n = static_cast<std::uint32_t>(segments);
   const auto vertex = [&](int ring, int j) {
@@ -109,7 +109,7 @@ TubeSection tube_section(std::span<const TubeStation> stations, double t) {
                       value[5],
                       value[6],
                       value[7]};
-  // A blend of entries with different slopes may leave the cone of ellipses; the straight one cannot.
+  // A blend of entries with different slopes can leave the cone of ellipses, linear interpolation cannot.
   if (section.uu * section.vv <= 1.0001 * section.uv * section.uv || section.uu <= 0) {
     section.uu = here[3] + x * (next[3] - here[3]);
     section.uv = here[4] + x * (next[4] - here[4]);
@@ -137,7 +137,7 @@ SurfaceMesh loft(std::span<const TubeStation> stations, const TubeShape& shape) 
   const auto cap = [&](const TubeSection& s, double outward) {
     const Frame f = frame(s);
     const Vec reach = (outward * shape.cap * smaller_semi_axis(s)) * f.normal;
-    // a bowed end's pole sits where the section's middle is
+    // a bowed end's pole is at the section's middle
     const Vec middle = s.bow * (std::cos(s.angle) * f.v - std::sin(s.angle) * f.u);
     const Vec pole = s.centre + reach + middle;
     if (outward < 0) mesh.position.push_back(to_float(pole));

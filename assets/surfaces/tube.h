@@ -19,8 +19,8 @@ struct TubeStation {
   double bow = 0;
 };
 
-/// How a tube is built on its stations. Sections are orthogonal to the centre line, or to `normal` where it is given
-/// (either sense; parallel sections never cut each other). `reference` is made orthogonal to the normal.
+/// Shape of a tube on its stations. Sections are orthogonal to the centre line, or to `normal` if set (either sense;
+/// parallel sections never cut each other). `reference` is made orthogonal to the normal.
 struct TubeShape {
   Vec3<double> reference{0, 0, 1};
   std::optional<Vec3<double>> normal = std::nullopt;
@@ -29,23 +29,23 @@ struct TubeShape {
   double cap = 0.6;   // length of the rounded ends over the end section's smaller semi-axis
 };
 
-/// One point along a tube between its stations, as `loft` interpolates it: centre, and the symmetric matrix that
-/// carries the unit circle onto the section in (u, v).
+/// One point along a tube between its stations, as `loft` interpolates it: centre, and the symmetric matrix that maps
+/// the unit circle to the section in (u, v).
 struct TubeSection {
   Vec3<double> centre, tangent;
   double uu, uv, vv;
   double angle, bow;
 };
 
-/// The section at the fraction `t` (0–1) of the polyline's length through the centres. Centres follow a Catmull–Rom
-/// curve on chord lengths, sections a monotone cubic of the matrix's entries. LodRequest at least two stations whose
-/// neighbours differ, with positive semi-axes.
+/// Returns the section at the fraction `t` (0–1) of the polyline's length through the centres. Centres follow a
+/// Catmull–Rom curve on chord lengths, sections a monotone cubic of the matrix's entries. Requires at least two
+/// stations whose neighbours differ, with positive semi-axes.
 TubeSection tube_section(std::span<const TubeStation> stations, double t);
 
-/// A closed surface through the stations, wound outwards. LodRequest what tube_section needs.
+/// Returns a closed surface through the stations, wound outwards. Requires the same as tube_section.
 SurfaceMesh loft(std::span<const TubeStation> stations, const TubeShape& shape = {});
 
-/// A closed ellipsoid with its axes along x, y and z.
+/// Returns a closed ellipsoid with its axes along x, y and z.
 SurfaceMesh ellipsoid(const Vec3<double>& centre, const Vec3<double>& semi, int rings = 8, int segments = 10);
 
 }  // namespace mobil::inline v0_3

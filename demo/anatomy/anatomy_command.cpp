@@ -1,4 +1,4 @@
-// `mobil anatomy`: what a folder of meshes holds, what was mended in it, and every fault.
+// `mobil anatomy`: lists the meshes of a folder, the repairs made to them, and every fault.
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ std::string_view kind_of(const AnatomyPart& part) {
   return kind_name[static_cast<std::size_t>(part.kind)];
 }
 
-/// The muscle that a mesh is, or else its group.
+/// Returns the name of the mesh's muscle, of its group if the muscle is unknown, or "-".
 std::string_view muscle_of(const AnatomyPart& part) {
   if (part.muscle) return muscle_name(*part.muscle);
   return part.group ? muscle_name(*part.group) : std::string_view("-");
@@ -45,19 +45,19 @@ std::string all_of(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// Faults of any kind.
+/// Returns the number of unusable meshes and other faults.
 std::size_t fault_count(const AnatomySurvey& survey) {
   const auto bad = std::ranges::count_if(survey.mesh, [](const SurveyedMesh& mesh) { return mesh.fault.has_value(); });
   return survey.faults.size() + static_cast<std::size_t>(bad);
 }
 
-/// A line a mesh with what it is and what was mended, then one line a fault.
+/// Formats one line per mesh with its kind, measures and repairs, then one line per note and fault.
 std::string anatomy_table(const AnatomySurvey& survey) {
   std::size_t widest = 4;
   for (const auto& mesh : survey.mesh) widest = std::max(widest, std::min<std::size_t>(mesh.file.size(), 60));
   std::string text = fmt::format("{:{}} {:6} {:26} {:>9} {:>6} {:>6} {:>6} {:>6} {:>10} {:>10}  {}\n", "file", widest,
                                  "kind", "muscle", "triangles", "open", "over", "pieces", "cuts", "volume_cm3",
-                                 "area_cm2", "what was mended or is remarkable");
+                                 "area_cm2", "repairs and remarks");
   for (const auto& mesh : survey.mesh) {
     const SurfaceReport& report = mesh.part.report;
     text += fmt::format("{:{}} {:6} {:26} {:>9} {:>6} {:>6} {:>6} {:>6} {:>10.2f} {:>10.1f}  {}{}\n",
@@ -73,7 +73,7 @@ std::string anatomy_table(const AnatomySurvey& survey) {
   return text;
 }
 
-/// The survey as one JSON object with the members folder, unit_m, said, meshes and faults.
+/// Formats the survey as one JSON object with the members folder, unit_m, said, meshes and faults.
 std::string anatomy_json(const std::string& folder, const AnatomySurvey& survey) {
   Json meshes = Json::array(), faults = Json(survey.faults);
   for (const auto& mesh : survey.mesh) {
@@ -107,7 +107,7 @@ using namespace geometry;
 
 constexpr int panel_width = 560, panel_height = 1080;
 constexpr Colour other_rose{0.66F, 0.42F, 0.38F}, sinew_cream{0.81F, 0.75F, 0.67F};
-constexpr float narrow_view_deg = 12;  // nearly without perspective, as in an atlas
+constexpr float narrow_view_deg = 12;  // little perspective, as in an atlas
 
 Colour colour_of(const AnatomyPart& part) {
   if (part.kind == AnatomyKind::bone) return bone_ivory;
@@ -115,8 +115,8 @@ Colour colour_of(const AnatomyPart& part) {
   return part.group ? muscle_red : other_rose;
 }
 
-/// From the front and from the right, 1120 × 1080. Skins are left out; so are meshes with a fault. Errors: no usable
-/// mesh, those of the renderer.
+/// Draws the meshes from the front and from the right, 1120 × 1080 pixels. Skins and meshes with a fault are left out.
+/// Errors: no usable mesh, those of the renderer.
 Result<Image> anatomy_picture(const AnatomySurvey& survey) {
   std::vector<DrawMesh> meshes;
   for (const auto& mesh : survey.mesh) {
@@ -126,7 +126,7 @@ Result<Image> anatomy_picture(const AnatomySurvey& survey) {
                       .colour = colour_of(mesh.part),
                       .wetness = mesh.part.kind == AnatomyKind::bone ? 0.0F : 0.5F});
   }
-  if (meshes.empty()) return fail("no usable mesh to draw; mend the faults first");
+  if (meshes.empty()) return fail("no usable mesh to draw; fix the faults first");
   auto renderer = Renderer::create(panel_width, panel_height);
   if (!renderer) return tl::unexpected(renderer.error());
   capture_math::Box box;
@@ -175,7 +175,7 @@ Result<void> run_anatomy(const AnatomyText& text) {
   if (faults == 0) return {};
   return fail(
       fmt::format("{}: {} of its meshes and rows cannot be used; the lines that begin with 'fault' (--json: "
-                  "faults) say why: mend them, or take their rows out of manifest.csv",
+                  "faults) give the reasons; fix them, or remove their rows from manifest.csv",
                   text.folder[0], faults));
 }
 
@@ -185,17 +185,17 @@ Subcommand anatomy_command() {
   auto text = std::make_shared<AnatomyText>();
   Subcommand command{.name = "anatomy"};
   command.footer =
-      "A folder as `mobil walk --anatomy` takes it: manifest.csv, landmarks.csv and meshes (.obj, .stl, .ply, .gltf,\n"
-      ".glb). Every row of the right side and the middle is read. Columns: triangles, open edges and edges of more "
-      "than\n"
-      "two triangles as the file has them; pieces, pairs of triangles that cut each other, volume and area as mended.\n"
-      "Exit status 2 if a mesh or a row cannot be used.\n"
+      "The folder has the format of `mobil walk --anatomy`: manifest.csv, landmarks.csv and meshes\n"
+      "(.obj, .stl, .ply, .gltf, .glb). All rows of the right side and the midline are read. Columns:\n"
+      "triangles, open edges and edges shared by more than two triangles count the file's mesh; pieces,\n"
+      "pairs of intersecting triangles, volume and area describe the repaired mesh. The exit status is 2\n"
+      "if a mesh or a row cannot be used.\n"
       "\nExamples: mobil anatomy leg\n"
       "          mobil anatomy leg --out leg.png\n"
       "          mobil anatomy leg --json | jq .faults";
   command.options = {{"folder", &text->folder, "The folder"},
                      {"--json", &text->json, "Print JSON instead of the table"},
-                     {"--out", &text->out, "A picture of the meshes from the front and from the right (PNG)"}};
+                     {"--out", &text->out, "Picture of the meshes from the front and from the right, FILE.png"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("anatomy", run_anatomy(*text)); };
   return command;

@@ -10,7 +10,7 @@
 namespace mobil {
 namespace {
 
-/// Binds a surface, and what there is of it beyond the kneecap, to the mesh of the muscle that drives it.
+/// Binds a muscle's surface, and its part beyond the kneecap if any, to the mesh of the muscle that deforms it.
 Result<void> bind(const Person& person, const SurfaceChoice& choice, FittedMuscle& muscle, DrawnSurfaces& drawn) {
   const auto driver = driving_muscle(choice.simulated, muscle.group, muscle.muscle);
   if (!driver) return {};

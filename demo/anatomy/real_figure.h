@@ -5,8 +5,8 @@
 
 namespace mobil {
 
-/// Fits the folder's bones, muscles and skin to the person's body; the folder's lacking bones are generated. `contact`:
-/// muscles are kept out of each other and of bones. Errors: those of reading and fitting the meshes.
+/// Fits the folder's bones, muscles and skin to the person's body and generates missing bones. `contact` keeps muscles
+/// from penetrating each other and bones. Errors: those of reading and fitting the meshes.
 Result<Figure> real_figure(const Person& person, const std::filesystem::path& folder, bool contact);
 
 }  // namespace mobil

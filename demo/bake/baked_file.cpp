@@ -21,7 +21,7 @@
 namespace mobil {
 namespace {
 
-/// Empty where there is no place for it.
+/// Returns the baked file in the user's cache; empty if neither cache nor home folder is set.
 std::filesystem::path kept_file() {
   const char *const cache = std::getenv("XDG_CACHE_HOME"), *const home = std::getenv("HOME");
   const std::filesystem::path folder = cache != nullptr && *cache == '/' ? std::filesystem::path(cache)
@@ -37,7 +37,7 @@ struct BakeText {
 
 Result<void> bake(const BakeText& text) {
   const auto threads = parse_count(text.threads, 0, 256);
-  if (!threads) return fail(fmt::format("--threads {}: give a whole number of 0 to 256", text.threads));
+  if (!threads) return fail(fmt::format("--threads {}: give a whole number from 0 to 256", text.threads));
   const std::filesystem::path file = text.out;
   if (auto place = check_result_place("--out", file); !place) return place;
   const double start_s = wall_now_s();
@@ -48,7 +48,7 @@ Result<void> bake(const BakeText& text) {
   if (auto done = lod.set_options(options); !done) return done;
   LodScene all;
   all.muscles = text.muscles == "members" ? muscle_members() : muscle_groups();
-  all.camera = Viewpoint{};  // who walks towards it needs every method
+  all.camera = Viewpoint{};  // a person who approaches it needs every method
   if (auto done = lod.set_scene(all); !done) return done;
   const auto progress = [](std::size_t done, std::size_t of) { show_progress("baking", done, of); };
   auto done = lod.prepare({}, progress);
@@ -81,7 +81,7 @@ Result<void> write_baked(const std::filesystem::path& file, std::span<const std:
 Result<void> load_baked(Simulation& simulation, const std::filesystem::path& file) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
-  if (error) return fail(fmt::format("{}: cannot be read ({}); make it by mobil bake", file.string(), error.message()));
+  if (error) return fail(fmt::format("{}: cannot be read ({}); run mobil bake", file.string(), error.message()));
   std::vector<std::byte> bytes(size);
   std::ifstream in(file, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
@@ -122,19 +122,19 @@ Subcommand bake_command() {
   auto text = std::make_shared<BakeText>();
   Subcommand command{.name = "bake"};
   command.footer =
-      "Meshes, operators and bases of all methods among which a scene may choose, for bodies of usual build. A "
-      "program\n"
-      "loads them by MuscleLibrary::load and then waits for none of them. The file belongs to this version and to\n"
-      "processors that compute alike: others refuse it. What is lacking is still made when it is called for.\n"
+      "Writes meshes, operators and bases of all methods that level of detail can choose, for bodies of\n"
+      "usual build. A program loads them with MuscleLibrary::load, which avoids computing them at run\n"
+      "time. Other versions, and processors with different arithmetic, reject the file. Missing entries\n"
+      "are computed on first use.\n"
       "\nExamples: mobil bake\n"
       "          mobil bake --inertia --out game/assets/mobil.baked\n"
       "          mobil crowd --people 5000 --baked mobil.baked";
   add_options(
       command,
       {{"--out", &text->out, "FILE to write"},
-       {.name = "--muscles", .target = &text->muscles, .help = "Which muscles", .choices = {"groups", "members"}},
-       {"--inertia", &text->inertia, "For muscles that feel gravity and their frame's acceleration"},
-       {"--threads", &text->threads, "Threads that work, 1 to 256; 0: as many as the machine has"}});
+       {.name = "--muscles", .target = &text->muscles, .help = "Muscles to prepare", .choices = {"groups", "members"}},
+       {"--inertia", &text->inertia, "Prepare for gravity and the acceleration of the muscles' frames"},
+       {"--threads", &text->threads, "Number of threads, 1 to 256; 0: one per processor"}});
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("bake", bake(*text)); };
   return command;

@@ -22,9 +22,9 @@ constexpr std::size_t come_together = 1024;
 constexpr std::uint64_t camera_stream = 0x50000, inward_stream = 0x40000;
 constexpr float eye_height_m = 5, flies_m_s = 8, turns_rad_s = 0.35F, half_angle_rad = std::numbers::pi_v<float> / 6;
 constexpr float pixel_rad = 2 * half_angle_rad / 1920;
-/// Some half a second of flying: muscles that begin then are within some millimetres when they are seen.
+/// About 0.6 s of flight and walk, after which newly started muscles are accurate to a few millimetres.
 constexpr float asleep_beyond_m = 6;
-/// Muscles that show up in a picture of so many pixels.
+/// Maximum error of muscles in the picture, pixels.
 constexpr float tolerance_px = 2;
 
 Viewpoint first_view(const AliveRequest& request) {
@@ -33,7 +33,7 @@ Viewpoint first_view(const AliveRequest& request) {
   camera.half_angle_rad = half_angle_rad;
   camera.radians_per_pixel = pixel_rad;
   camera.near_m = 2;
-  // So far that the sector holds as many as are to be in view.
+  // The sector up to this distance contains `in_view` people.
   camera.reach_m = static_cast<float>(
       std::sqrt(static_cast<double>(request.in_view) * ground_m2_each / static_cast<double>(half_angle_rad)));
   return camera;
@@ -53,7 +53,7 @@ AliveScene::AliveScene(const AliveRequest& request) : request_(request), threads
   options.machine_factor = 1;
   options.switching_s = 0.0005;
   options.wakes = 4000;
-  (void)simulation_->lod().set_options(options);  // they are in range
+  (void)simulation_->lod().set_options(options);  // in range
   camera_ = first_view(request);
 }
 
@@ -86,7 +86,7 @@ Result<void> AliveScene::populate() {
   return {};
 }
 
-/// Asleep, at places of their own. Who cannot walk as drawn is drawn again.
+/// Spawns people asleep, at random places. A random person who cannot walk is drawn again.
 Result<void> AliveScene::come(std::size_t first, std::size_t count) {
   requests_.assign(count, {});
   entities_.resize(count);
@@ -127,7 +127,7 @@ std::size_t AliveScene::next_due(std::uint32_t slot) const {
   return (simulation_->ticks() + std::clamp<std::uint32_t>(ticks, 1, ring - 1)) % ring;
 }
 
-/// Who has left the square heads for a point of their own in its inner half instead of turning elsewhere.
+/// Returns a person's next change. People outside the square turn toward a point of their own in its inner half.
 WalkChange AliveScene::next_change(std::uint32_t slot) {
   Walker& walker = walkers_[slot];
   const CrowdChange change = crowd_change(request_.seed, walker.number, walker.changes++, walker.stopped);
@@ -239,8 +239,7 @@ Result<void> AliveScene::restore(std::span<const std::byte> saved) {
     }
   }
   reader.take(camera);
-  if (!reader.whole() || !sound || due_together != walkers.size())
-    return fail("a crowd's bytes do not agree with themselves");
+  if (!reader.whole() || !sound || due_together != walkers.size()) return fail("the bytes of a crowd are inconsistent");
   walkers_ = std::move(walkers);
   due_ = std::move(due);
   camera_ = camera;

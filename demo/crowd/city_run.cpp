@@ -24,9 +24,9 @@
 namespace mobil {
 namespace {
 
-/// Each rank finds who of its own is in the picture, and hands over their poses, bodies and, of the nearest, bones and
-/// muscles; the first rank, which alone has `pictures`, draws and writes the file. The picture is the same from any
-/// number of ranks. What fails stops all.
+/// Draws a picture of the people of all ranks. Each rank sends poses and bodies of its visible people and, for the
+/// nearest, bones and muscles. The first rank, the only one with `pictures`, draws and writes the file. The picture is
+/// the same for any number of ranks. Errors stop all ranks.
 void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::optional<CrowdCamera>& pictures,
                   const std::filesystem::path& file) {
   ranks.between_ticks();
@@ -86,14 +86,14 @@ void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::opt
 
 constexpr std::uint32_t city_hash_every = 60;  // ticks
 constexpr double city_live_every_s = 0.25;
-/// Pictures of a city, spread over the ticks of a run, each in a file with its number.
+/// Number of pictures of a city, spread over the ticks of a run, each in a numbered file.
 constexpr std::uint32_t city_pictures = 3;
 
 std::filesystem::path numbered(const std::filesystem::path& file, std::uint32_t number) {
   return file.parent_path() / fmt::format("{}_{}{}", file.stem().string(), number, file.extension().string());
 }
 
-/// What the first rank's host knows besides shards.
+/// State of the first rank's host, apart from the shards.
 struct Host {
   CrowdDirector director;
   std::uint32_t first_tick = unknown, spare = 0;  // the first that is measured
@@ -131,7 +131,7 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
     run.wall_s += wall_now_s() - start_s - (after.saving_s - before.saving_s);
     CrowdTick& tick = own.ticks.emplace_back();
     tick.wall_ms = 1e3 * (after.worked_s - before.worked_s);
-    // What saving took of the processor is not known apart.
+    // Processor time of saving is not measured separately, so a tick with a snapshot uses wall-clock time.
     tick.cpu_ms = after.snapshots == before.snapshots ? 1e3 * (process_cpu_now_s() - cpu_s) : tick.wall_ms;
     tick.host_ms = 1e3 * (counts.host_s - counted.host_s);
     tick.lod_ms = 1e3 * (counts.lod_s - counted.lod_s);
@@ -144,19 +144,18 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
       take_picture(ranks, cluster, picture_from(camera), pictures, numbered(options.capture, i + 1));
     }
     if (!ranks.first() || wall_now_s() < live_s) continue;
-    show(fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms, of the first of {} ranks",
-                     cluster.ticks() - run.first_tick, ticks, percentile_ms(own.ticks, 0.5),
-                     percentile_ms(own.ticks, 0.99), ranks.count()));
+    show(fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms  (first of {} ranks)", cluster.ticks() - run.first_tick,
+                     ticks, percentile_ms(own.ticks, 0.5), percentile_ms(own.ticks, 0.99), ranks.count()));
     live_s = wall_now_s() + city_live_every_s;
   }
   show("");
-  if (run.hashes.empty()) run.hashes.push_back(cluster.state_hash());  // a run that had come to its end before
+  if (run.hashes.empty()) run.hashes.push_back(cluster.state_hash());  // a resumed run that was already complete
   run.last_tick = cluster.ticks();
   if (!options.alive && !options.capture.empty())
     take_picture(ranks, cluster, crowd_camera(run.side_m), pictures, options.capture);
 }
 
-/// Sums over shards.
+/// Adds the state and system times of this rank's shards.
 void add_state(Cluster& cluster, CityRun& run, CityPart& own) {
   const auto ticks = static_cast<double>(std::max<std::size_t>(own.ticks.size(), 1));
   each_shard(cluster, [&](CityShard& shard) {
@@ -170,14 +169,14 @@ void add_state(Cluster& cluster, CityRun& run, CityPart& own) {
   });
 }
 
-/// Meshes and bases are made or read at the first rank, and handed to the others: these would all make the same.
+/// Computes or loads meshes and bases on the first rank and sends them to the others, which would compute the same.
 Result<void> prepare(const CrowdOptions& options, Ranks& ranks, Simulation& library, const Cluster::Make& make) {
   Result<void> own;
   if (ranks.first()) {
     show("preparing");
     own = load_baked_option(library, options.alive ? options.alive->baked : options.crowd.baked);
     if (own && ranks.count() > 1) {
-      const auto shard = make(0);  // which prepares for all
+      const auto shard = make(0);  // fills the library
       if (!shard) own = tl::unexpected(shard.error());
     }
   }
@@ -185,9 +184,9 @@ Result<void> prepare(const CrowdOptions& options, Ranks& ranks, Simulation& libr
   const auto baked = ranks.share(ranks.first() ? library.muscle_library().bake() : std::vector<std::byte>{});
   if (!ranks.first()) own = library.muscle_library().load(baked);
   if (!own)
-    own = fail(
-        fmt::format("rank {} cannot work with what the first rank has prepared ({}); run on processors of one kind",
-                    ranks.rank(), own.error().message));
+    own =
+        fail(fmt::format("rank {} cannot use the data that the first rank prepared ({}); run on processors of one kind",
+                         ranks.rank(), own.error().message));
   return ranks.agree(own);
 }
 
@@ -195,13 +194,13 @@ Result<void> prepare(const CrowdOptions& options, Ranks& ranks, Simulation& libr
 
 Result<void> run_city(const CrowdOptions& asked, Ranks& ranks) {
   CrowdOptions options = asked;
-  if (options.cluster.shards == 0) {  // as many as the run had that is gone on with
+  if (options.cluster.shards == 0) {  // as many as in the run that is resumed
     const auto saved = ranks.first() ? whole_snapshots(options.cluster.folder) : Result<std::vector<SavedRun>>{};
     auto found = ranks.agree(saved ? Result<void>() : tl::unexpected(saved.error()));
     if (!found) return found;
     options.cluster.shards = static_cast<std::uint32_t>(ranks.most(ranks.first() ? saved->front().shards : 0));
   }
-  Simulation library;  // of nobody: keeps what shards share, wherever they move
+  Simulation library;  // without people; owns the data shared by this rank's shards, including ones that move here
   CityCounts counts;
   const Cluster::Make make = city_shards(options, library, counts);
   if (auto done = prepare(options, ranks, library, make); !done) return done;

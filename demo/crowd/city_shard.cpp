@@ -18,7 +18,7 @@ int threads_of_rank(const CrowdOptions& options) {
   return Threads(options.alive ? options.alive->threads : options.crowd.threads).count();
 }
 
-/// Of a part, ms a tick.
+/// Return a rank's mean time per tick, working and waiting, ms.
 double worked_ms(const CityPart& part) {
   return part.ticks.empty() ? 0 : 1e3 * part.report.worked_s / static_cast<double>(part.ticks.size());
 }
@@ -36,7 +36,7 @@ Result<Orders> read_orders(std::span<const std::byte> commands) {
   if (commands.empty()) return orders;
   PlainReader reader(commands);
   reader.take(orders);
-  if (!reader.whole()) return fail("these are no orders to this crowd");
+  if (!reader.whole()) return fail("the commands are not orders for this crowd");
   return orders;
 }
 
@@ -142,7 +142,7 @@ class AliveShard : public CityShard {
  private:
   std::unique_ptr<AliveScene> scene_;
   CityCounts& counts_;
-  std::string refusal_;  // of the last tick
+  std::string refusal_;  // first error of a tick, returned by `apply`
 };
 
 }  // namespace
@@ -172,7 +172,7 @@ Result<CityPart> unpack_part(std::span<const std::byte> bytes) {
   part.ticks = reader.take_many<CrowdTick>(static_cast<std::size_t>(count));
   reader.take(count);
   part.system_ms = reader.take_many<double>(static_cast<std::size_t>(count));
-  if (!reader.whole()) return fail("a rank's report does not agree with itself");
+  if (!reader.whole()) return fail("the report of a rank is inconsistent");
   return part;
 }
 
@@ -213,25 +213,24 @@ std::string city_text(const CityRun& run, const CrowdOptions& options) {
                                  run.state.people, options.alive ? "people alive" : "people", run.side_m, run.side_m,
                                  ranks, ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", options.cluster.shards,
                                  options.alive ? options.alive->seed : options.crowd.seed);
-  text += ticks_line(run.ticks, run.tick_s, run.missed, ranks == 1 ? "" : ", of the slowest rank");
+  text += ticks_line(run.ticks, run.tick_s, run.missed, ranks == 1 ? "" : " (slowest rank)");
   text += processor_line(run.ticks, "ranks");
   text += parts_line(run.ticks, run.systems, 5e-3);
   if (!options.alive) {
     text += "\nmuscles:";
     for (const auto& [method, count] : by_method(run.state.muscles_by_level, options.crowd.effects.activation))
       text += fmt::format(" {} {}", count, method);
-    text +=
-        fmt::format("\n{} came, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.counts.spawned,
-                    run.counts.despawned, run.counts.turned, run.counts.changed_speed, 2 * run.counts.switched);
+    text += fmt::format("\n{} arrived, {} left; {} turned, {} changed speed, {} muscles changed method\n",
+                        run.counts.spawned, run.counts.despawned, run.counts.turned, run.counts.changed_speed,
+                        2 * run.counts.switched);
   } else {
     text += fmt::format(
-        "\n{} awake, {} of them seen, at the end; {} were asked for something, {} woke, {} fell asleep, {} got "
-        "muscles\n",
+        "\nat the end {} awake, {} of them seen; {} changes of gait, {} woke, {} fell asleep, {} got muscles\n",
         run.state.awake, run.state.seen, run.counts.asked, run.counts.woken, run.counts.slept, run.counts.begun);
   }
-  text += "worked, a tick of each rank:";
+  text += "per tick, rank by rank: work";
   for (const CityPart& part : run.parts) text += fmt::format(" {:.2f}", worked_ms(part));
-  text += " ms; waited:";
+  text += " ms; wait";
   for (const CityPart& part : run.parts) text += fmt::format(" {:.2f}", waited_ms(part));
   std::uint64_t peak = 0, moved = 0, saved = 0;
   double saving_s = 0;
@@ -241,12 +240,12 @@ std::string city_text(const CityRun& run, const CrowdOptions& options) {
     saved += part.report.bytes_saved;
     saving_s = std::max(saving_s, part.report.saving_s);
   }
-  text += fmt::format(" ms; all: {:.2f} ms a tick; sent: {:.0f} bytes a tick; {} shards moved\n", mean_wall_ms(run),
-                      run.sent_bytes_a_tick, moved);
+  text += fmt::format(" ms; total: {:.2f} ms per tick; sent: {:.0f} bytes per tick; {} shards moved\n",
+                      mean_wall_ms(run), run.sent_bytes_a_tick, moved);
   if (saved > 0)
     text += fmt::format("{} snapshots, {:.1f} MB in {:.0f} ms\n", run.parts.front().report.snapshots,
                         1e-6 * static_cast<double>(saved), 1e3 * saving_s);
-  text += fmt::format("memory: {} bytes a person; {:.0f} MB at most, of all ranks\n",
+  text += fmt::format("memory: {} bytes per person; peak of all ranks {:.0f} MB\n",
                       run.state.bytes / std::max<std::uint64_t>(run.state.people, 1), 1e-6 * static_cast<double>(peak));
   if (!run.hashes.empty()) text += fmt::format("state hash {:016x} at tick {}\n", run.hashes.back(), run.last_tick);
   return text;

@@ -1,4 +1,4 @@
-// `mobil crowd`: thousands of people who are all different, turn, stop, come and go; what a tick of them takes.
+// `mobil crowd` and `mobil city`: many different people who turn, stop, arrive and leave, and the time of a tick.
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ Result<void> write_report(const CrowdOptions& options, const std::string& json) 
   return write_result("--report", options.report, json);
 }
 
-/// Of the crowd as it is, and as it goes on.
+/// Takes one picture of the crowd, or a sequence while it walks on.
 Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
   if (options.capture.empty()) return {};
   std::optional<OutputFolder> results;
@@ -60,7 +60,7 @@ Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
   return {};
 }
 
-/// Of the crowd from where it is on.
+/// Records the crowd from its current state and writes the exports.
 Result<void> export_crowd(const CrowdOptions& options, CrowdScene& scene) {
   if (options.exports.empty()) return {};
   const auto recording = record_crowd(scene, options.export_s, show_progress);
@@ -98,7 +98,7 @@ Result<void> run(const CrowdOptions& options) {
   return write_report(options, crowd_json(*measured, memory, scene, options));
 }
 
-/// Before minutes of work are done for nothing.
+/// Checks output paths before minutes of work.
 Result<void> check_places(const CrowdOptions& options) {
   if (!options.report.empty()) {
     if (auto place = check_result_place("--report", options.report); !place) return place;
@@ -107,7 +107,7 @@ Result<void> check_places(const CrowdOptions& options) {
   return {};
 }
 
-/// On each rank; what there is to be said is said by the first one.
+/// Runs on each rank; only the first one prints.
 int run_ranks(const std::string& command, const CrowdOptions& options) {
   std::unique_ptr<Transport> by_mpi;
   LocalRanks alone;
@@ -145,23 +145,23 @@ Subcommand crowd_command() {
   auto text = std::make_shared<CrowdText>();
   Subcommand command{.name = "crowd"};
   command.footer =
-      "People differ in height (1.72 m, deviation 0.09), body mass index (24, 3), build, speed (1.35 m/s, 0.15) and\n"
-      "style, begin anywhere on a square of 2.5 m2 each, and turn, change speed or stop and go on four times a "
-      "minute.\n"
-      "Who they are and what they do follows from --seed and a person's number alone: the same seed gives the same\n"
-      "state_hash for any number of threads (not with --budget, where methods follow the clock).\n"
-      "The --near nearest to the middle of one edge are looked at: their muscles' control points are placed, within\n"
-      "--near-tolerance; the others move on within --tolerance, along the modes of their muscles alone.\n"
-      "A tick as measured is what the host decides, the choosing of methods and the simulation; missed is one that\n"
-      "took longer than it simulates, by the wall's clock. It is a measurement: exit status 0 also where ticks were "
-      "missed.\n"
-      "Before it, not measured: spawning, and at least two seconds until methods have settled. heap requests are\n"
-      "those of malloc and its kin on all threads. Of a picture's people those near the camera show their legs' bones\n"
-      "and muscles; an exported scene's are all dressed, each with a skeleton and skin of their own.\n"
-      "Under mpirun the crowd is spread over ranks, one thread each, in --shards that are simulated by themselves.\n"
-      "The state_hash then depends on how many shards there are, and not on ranks, threads or machines; so it does\n"
-      "after a run that was killed goes on by --resume, on as many ranks as you like. The nearest are those of each "
-      "shard.\n"
+      "People differ in height (mean 1.72 m, deviation 0.09), body mass index (24, 3), build, speed\n"
+      "(1.35 m/s, 0.15) and style. They start anywhere on a square with 2.5 m2 per person. Four times a\n"
+      "minute they turn, change speed, or stop and start again. A person's body and actions depend only\n"
+      "on --seed and the person's number. The same seed gives the same state_hash for any number of\n"
+      "threads, except with --budget, where methods depend on the measured time.\n"
+      "The --near people nearest to the middle of one edge are observed: control points of their muscles\n"
+      "are computed, within --near-tolerance. Other muscles advance as modes only, within --tolerance.\n"
+      "A measured tick contains the host's decisions, the choice of methods and the simulation. A tick is\n"
+      "missed if it takes longer, in wall-clock time, than the time it simulates. The exit status is 0\n"
+      "even if ticks are missed. Before the measurement come spawning and at least two simulated seconds,\n"
+      "until methods have settled. Heap requests are calls of malloc and related functions on all threads.\n"
+      "In pictures, people near the camera show the bones and muscles of their legs. In exported scenes\n"
+      "all people are dressed, and each has its own skeleton and skin.\n"
+      "Under mpirun the crowd is divided into --shards, which are simulated independently, on ranks of one\n"
+      "thread each. The state_hash then depends on the number of shards, not on ranks, threads or machines.\n"
+      "This includes a killed run that is continued with --resume, on any number of ranks. Each shard\n"
+      "chooses its part of the nearest people.\n"
       "\n"
       "Examples: mobil crowd\n"
       "          mobil crowd --people 10000 --churn 100 --report crowd.json\n"
@@ -182,10 +182,10 @@ Subcommand city_command() {
   text->alive = "1000000";
   Subcommand command{.name = "city"};
   command.footer =
-      "Most people sleep and take a hundred bytes each. Before the camera sees them they wake, exactly where they "
-      "would\n"
-      "be. They turn, stop and go on asleep as awake. The camera flies at 8 m/s, turns at 20 degrees/s, and cuts to\n"
-      "another place every 10 s. Seeds, state_hash and ranks are as of mobil crowd.\n"
+      "Most people are asleep and take about 100 bytes each. They wake before the camera sees them, exactly\n"
+      "where they would be if awake. They turn, stop and start again, asleep or awake. The camera flies at\n"
+      "8 m/s, turns at 20 degrees/s and cuts to another place every 10 s. Seeds, state_hash and ranks work\n"
+      "as in mobil crowd.\n"
       "\nExamples: mobil city --people 1000000 --in-view 10000 --seconds 60\n"
       "          mpirun -n 4 mobil city --people 10000000 --save run";
   command.options = city_options(*text);

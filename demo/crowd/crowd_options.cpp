@@ -15,7 +15,7 @@
 namespace mobil {
 namespace {
 
-/// A number without a unit has this one.
+/// Appends the unit to a number without one.
 std::string with_unit(const std::string& text, std::string_view unit) {
   const bool bare = !text.empty() && (std::isdigit(static_cast<unsigned char>(text.back())) != 0 || text.back() == '.');
   return bare ? text + std::string(unit) : text;
@@ -37,36 +37,36 @@ Result<CrowdEffects> read_effects(const std::string& text) {
     const auto found = std::ranges::find(effects, name, &NamedEffect::name);
     if (found == std::end(effects)) {
       return fail(
-          fmt::format("--effects '{}': '{}' is none of muscles, forces, inertia, line-motion, activation, avoidance; "
-                      "or give none alone",
+          fmt::format("--effects '{}': '{}' is not one of muscles, forces, inertia, line-motion, activation, "
+                      "avoidance; use these, or only none",
                       text, name));
     }
     chosen.*found->on = true;
   }
   if ((chosen.inertia || chosen.line_motion || chosen.activation) && !chosen.muscles)
-    return fail(fmt::format("--effects '{}': inertia, line-motion and activation are of muscles; add muscles", text));
+    return fail(fmt::format("--effects '{}': inertia, line-motion and activation need muscles; add muscles", text));
   return chosen;
 }
 
-/// What a scene for other programs needs, before minutes of work are done for nothing.
+/// Reads and checks the options of exports before minutes of work.
 Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options, OptionReader& read) {
   options.export_s = read(read_value("--export-seconds", with_unit(text.export_seconds, "s"), Quantity::time, 0.1, 60));
   if (text.exports.empty()) return {};
   options.exports.assign(text.exports.begin(), text.exports.end());
-  if (options.raise) return fail("--raise: measures alone; leave --export out");
+  if (options.raise) return fail("--raise: cannot export; remove --export");
   if (options.crowd.churn_per_s > 0 || options.crowd.burst > 0)
-    return fail("--export: nobody may leave while it is recorded; leave --churn and --burst out");
+    return fail("--export: people cannot leave during the recording; remove --churn and --burst");
   const double poses = static_cast<double>(options.crowd.people) * options.export_s * 30;
   if (poses > static_cast<double>(max_recorded_poses)) {
     return fail(
-        fmt::format("--export: {} people for {} s are more than the {} poses that a scene may have; "
+        fmt::format("--export: {} people for {} s exceed the {} poses that a scene can have; "
                     "lower --people or --export-seconds",
                     options.crowd.people, options.export_s, max_recorded_poses));
   }
   return check_crowd_exports(options.exports);
 }
 
-/// Those of whom most sleep.
+/// Reads the options of `mobil city`.
 Result<void> read_alive(const CrowdText& text, CrowdOptions& options, OptionReader& read) {
   if (text.alive.empty()) return {};
   const CrowdText usual;
@@ -75,7 +75,7 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options, OptionRead
   alive.in_view = read(read_count("--in-view", text.in_view, 1, max_crowd));
   if (text.in_view == usual.in_view) alive.in_view = std::min(alive.in_view, alive.alive / 10);
   if (alive.in_view > alive.alive / 4)
-    return fail(fmt::format("--in-view {}: is more than a quarter of those alive", alive.in_view));
+    return fail(fmt::format("--in-view {}: is more than a quarter of --people; lower it", alive.in_view));
   alive.threads = options.crowd.threads;
   alive.seed = options.crowd.seed;
   alive.baked = options.crowd.baked;
@@ -84,7 +84,7 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options, OptionRead
   return {};
 }
 
-/// What makes a run another one: who they are and what is simulated of them.
+/// Returns the options that identify a run: its people and simulated effects.
 std::string about_run(const CrowdOptions& options) {
   if (options.alive) {
     const AliveRequest& alive = *options.alive;
@@ -103,13 +103,13 @@ std::string about_run(const CrowdOptions& options) {
   return crowd.all_seen ? about + " --all-seen" : about;
 }
 
-/// Several shards or ranks, and runs that are saved.
+/// Reads the options of shards, ranks and saved runs.
 Result<void> read_city(const CrowdText& text, CrowdOptions& options, OptionReader& read) {
   const bool ranks = started_as_rank();
   std::uint64_t shards = !text.resume.empty() ? 0 : ranks ? usual_shards : 1;
   if (!text.shards.empty()) shards = read(read_count("--shards", text.shards, 1, max_shards));
   if (!text.save.empty() && !text.resume.empty())
-    return fail("--save: a run that goes on by --resume saves where it was; leave --save out");
+    return fail("--save: a run continued with --resume saves to the same folder; remove --save");
   const bool several = ranks || shards > 1 || !text.save.empty() || !text.resume.empty();
   options.city = several || options.alive;
   const CrowdText usual;
@@ -117,16 +117,17 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options, OptionReade
                                              std::tuple("--balance-every", &text.balance_every, &usual.balance_every),
                                              std::tuple("--silence", &text.silence, &usual.silence)}) {
     if (!several && *given != *usually)
-      return fail(fmt::format("{}: is of several shards or ranks; give --shards, or run under mpirun", name));
+      return fail(fmt::format("{}: needs several shards or ranks; add --shards, or run under mpirun", name));
   }
   if (!options.city) return {};
   if (options.crowd.effects.avoidance)
-    return fail("--effects avoidance: is of a crowd in one piece; leave --shards, --save, --resume and mpirun out");
-  if (options.raise) return fail("--raise: tries crowds in one piece; leave --shards, --save, --resume and mpirun out");
+    return fail("--effects avoidance: needs an undivided crowd; run without --shards, --save, --resume and mpirun");
+  if (options.raise)
+    return fail("--raise: needs an undivided crowd; run without --shards, --save, --resume and mpirun");
   if (!options.exports.empty())
-    return fail("--export: is of a crowd in one piece; leave --shards, --save, --resume and mpirun out");
+    return fail("--export: needs an undivided crowd; run without --shards, --save, --resume and mpirun");
   if (options.frames > 0)
-    return fail("--frames: are of a crowd in one piece; leave --shards, --save, --resume and mpirun out");
+    return fail("--frames: needs an undivided crowd; run without --shards, --save, --resume and mpirun");
   const double tick_s = 1.0 / 60;
   ClusterOptions& cluster = options.cluster;
   const auto ticks = [&](const char* option, const std::string& given, double low) {
@@ -140,7 +141,7 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options, OptionReade
   cluster.resume = !text.resume.empty();
   cluster.folder = cluster.resume ? text.resume : text.save;
   cluster.about = about_run(options);
-  // A rank is a process beside others: it has one thread where nobody says otherwise.
+  // Ranks share the machine, so the default is one thread per rank.
   if (ranks && text.threads == usual.threads) {
     options.crowd.threads = 1;
     if (options.alive) options.alive->threads = 1;
@@ -151,28 +152,28 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options, OptionReade
 constexpr const char *of_people = "People", *of_muscles = "Muscles", *of_results = "Results",
                      *of_ranks = "Several ranks";
 
-/// What a crowd and a city have both.
+/// Returns the options common to crowds and cities.
 std::vector<Option> common_options(CrowdText& text) {
   return {
-      {"--seconds", &text.seconds, "How long is measured, 0.1s to 3600s of the crowd's time", of_people},
-      {"--threads", &text.threads, "Threads that work, 1 to 256; 0: as many as the machine has", of_people},
-      {"--seed", &text.seed, "Who they are and what they do", of_people},
+      {"--seconds", &text.seconds, "Simulated time to measure, 0.1s to 3600s", of_people},
+      {"--threads", &text.threads, "Number of threads, 1 to 256; 0: one per processor", of_people},
+      {"--seed", &text.seed, "Seed of the people and of their actions", of_people},
       {"--baked", &text.baked,
-       "What `mobil bake` wrote, FILE, instead of making it (a mobil.baked beside the program, or what an earlier run "
-       "has kept in ~/.cache/mobil, is taken unasked)",
+       "FILE of `mobil bake`, loaded instead of computing its content (default: a mobil.baked next to the program, or "
+       "one that an earlier run has kept in ~/.cache/mobil)",
        of_muscles},
       {"--shards", &text.shards,
-       fmt::format("Parts of the crowd that are simulated by themselves, 1 to {}; under mpirun {}", max_shards,
+       fmt::format("Number of independently simulated parts of the crowd, 1 to {}; under mpirun {}", max_shards,
                    usual_shards),
        of_ranks},
-      {"--save", &text.save, "Snapshots and commands go into this FOLDER, which all ranks must see", of_ranks},
-      {"--save-every", &text.save_every, "Time between snapshots, 0.1s to 3600s of the crowd's time", of_ranks},
-      {"--resume", &text.resume, "Go on from the last snapshot in the FOLDER of a run with --save, and save there",
+      {"--save", &text.save, "FOLDER for snapshots and commands, accessible to all ranks", of_ranks},
+      {"--save-every", &text.save_every, "Simulated time between snapshots, 0.1s to 3600s", of_ranks},
+      {"--resume", &text.resume, "Continue from the last snapshot in the FOLDER of a run with --save, and save there",
        of_ranks},
       {"--balance-every", &text.balance_every,
-       "Time after which shards may move to ranks with less to do, up to 3600s; 0: they stay", of_ranks},
-      {"--silence", &text.silence, "A rank that says nothing for so long ends the run of all, 1s to 3600s", of_ranks},
-      {"--report", &text.report, "JSON FILE for all figures", of_results}};
+       "Simulated time between moves of shards to less busy ranks, up to 3600s; 0: never", of_ranks},
+      {"--silence", &text.silence, "Time after which a silent rank ends the run of all ranks, 1s to 3600s", of_ranks},
+      {"--report", &text.report, "JSON FILE for all results", of_results}};
 }
 
 std::vector<Option> with_common(std::vector<Option> own, CrowdText& text) {
@@ -185,39 +186,38 @@ std::vector<Option> with_common(std::vector<Option> own, CrowdText& text) {
 
 std::vector<Option> crowd_options(CrowdText& text) {
   return with_common(
-      {{"--people", &text.people, fmt::format("How many walk, 1 to {}, all different", max_crowd), of_people},
-       {"--churn", &text.churn, "How many leave and as many come each second, spread over its ticks", of_people},
-       {"--burst", &text.burst, "How many leave and as many come in a single tick of each second", of_people},
+      {{"--people", &text.people, fmt::format("Number of people, 1 to {}, all different", max_crowd), of_people},
+       {"--churn", &text.churn, "Number of people replaced per second, spread over its ticks", of_people},
+       {"--burst", &text.burst, "Number of people replaced in a single tick of each second", of_people},
        {"--effects", &text.effects,
-        "LIST of muscles, forces, inertia, line-motion, activation, avoidance; or none: they only walk", of_muscles},
-       {"--tolerance", &text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", of_muscles},
-       {"--near", &text.near, "How many of the nearest are looked at (half of them in small crowds)", of_muscles},
-       {"--near-tolerance", &text.near_tolerance, "The same of those", of_muscles},
-       {"--all-seen", &text.all_seen, "Place everybody's control points, not only of those near", of_muscles},
-       {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s",
-        of_muscles},
+        "LIST of muscles, forces, inertia, line-motion, activation, avoidance; or none: only walk", of_muscles},
+       {"--tolerance", &text.tolerance, "Maximum error of control points, in mm: 0.01mm to 1m", of_muscles},
+       {"--near", &text.near, "Number of nearest people that are observed (half of a small crowd)", of_muscles},
+       {"--near-tolerance", &text.near_tolerance, "Maximum error of their control points, 0.01mm to 1m", of_muscles},
+       {"--all-seen", &text.all_seen, "Compute the control points of all people, not only of the nearest", of_muscles},
+       {"--budget", &text.budget, "Processor time for all muscles, in ms per tick: 0.001ms to 10s", of_muscles},
        {"--raise", &text.raise,
         "Raise the number of people from --people until ticks are missed, in runs of --seconds each", of_results},
        {"--capture", &text.capture, "Picture of the crowd at the end, FILE.png; with --frames a folder", of_results},
-       {"--frames", &text.frames, "So many pictures, 30 a second from the end on, into the folder", of_results},
+       {"--frames", &text.frames, "Number of pictures in the folder, 30 per second after the measurement", of_results},
        {"--export", &text.exports,
-        "FILE.glb or .usda: everybody walking, as a scene for other programs, from the end on; again for both",
-        of_results},
-       {"--export-seconds", &text.export_seconds, "How long that is, 0.1s to 60s, 30 poses a second", of_results}},
+        "Scene of all people walking after the measurement, FILE.glb or FILE.usda; repeat for both", of_results},
+       {"--export-seconds", &text.export_seconds, "Duration of the scene, 0.1s to 60s, 30 poses per second",
+        of_results}},
       text);
 }
 
 std::vector<Option> city_options(CrowdText& text) {
   return with_common(
       {{"--people", &text.alive,
-        fmt::format("How many live on 1 m2 each, 100 to {}; who is far from being seen sleeps", max_alive), of_people},
-       {"--in-view", &text.in_view, "How many of those the flying camera sees", of_people},
+        fmt::format("Number of people, 1 m2 each, 100 to {}; those far from view are asleep", max_alive), of_people},
+       {"--in-view", &text.in_view, "Number of people that the flying camera sees", of_people},
        {.name = "--effects",
         .target = &text.effects,
-        .help = "Those in view have muscles, or only walk",
+        .help = "Effects of the people in view",
         .group = of_muscles,
         .choices = {"muscles", "none"}},
-       {"--capture", &text.capture, "Three pictures, FILE_1.png and so on, spread over the time", of_results}},
+       {"--capture", &text.capture, "Three pictures, FILE_1.png to FILE_3.png, spread over the run", of_results}},
       text);
 }
 
@@ -241,7 +241,7 @@ Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
   if (text.near == CrowdText{}.near) crowd.near = std::min(crowd.near, crowd.people / 2);
   if (!text.budget.empty()) {
     crowd.budget_s = quantity("--budget", text.budget, "ms", Quantity::time, 1e-6, 10);
-    if (!crowd.effects.muscles) read.refuse("--budget: is of muscles; add muscles to --effects");
+    if (!crowd.effects.muscles) read.refuse("--budget: needs muscles; add muscles to --effects");
   }
   options.frames = read(read_count("--frames", text.frames, 0, 100'000));
   crowd.all_seen = text.all_seen;
@@ -249,11 +249,11 @@ Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
   crowd.baked = text.baked;
   options.report = text.report;
   options.capture = text.capture;
-  if (options.frames > 0 && options.capture.empty()) read.refuse("--frames: name a folder by --capture");
+  if (options.frames > 0 && options.capture.empty()) read.refuse("--frames: needs a folder; name it with --capture");
   if (options.frames == 0 && !options.capture.empty() && options.capture.extension() != ".png")
     read.refuse(
-        fmt::format("--capture {}: a picture's name must end in .png; for a folder give --frames too", text.capture));
-  if (options.raise && !options.capture.empty()) read.refuse("--raise: measures alone; leave --capture out");
+        fmt::format("--capture {}: a picture's name must end in .png; for a folder add --frames", text.capture));
+  if (options.raise && !options.capture.empty()) read.refuse("--raise: takes no pictures; remove --capture");
   read(read_crowd_exports(text, options, read));
   read(read_alive(text, options, read));
   read(read_city(text, options, read));

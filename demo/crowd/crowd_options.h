@@ -1,5 +1,5 @@
 #pragma once
-// What `mobil crowd` or `mobil city` was asked for, checked.
+// Options of `mobil crowd` and `mobil city`, read and checked.
 
 #include <string>
 
@@ -17,14 +17,14 @@ struct CrowdOptions {
   std::vector<std::filesystem::path> exports;
   double export_s = 2;
   bool raise = false;
-  std::optional<AliveRequest> alive{};  // of `mobil city`, instead of the crowd
-  /// A city, several shards, several ranks, or a run that is saved: `run_city` instead of one scene.
+  std::optional<AliveRequest> alive{};  // for `mobil city`, instead of `crowd`
+  /// True for a city, several shards or ranks, or a saved run, which `run_city` runs instead of one scene.
   bool city = false;
   ClusterOptions cluster{};
   double silence_s = 60;
 };
 
-/// The options as text, as the command line hands them over; bound by `crowd_options`.
+/// Options as text from the command line, bound by `crowd_options` or `city_options`.
 struct CrowdText {
   std::string command = "crowd";
   std::string people = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
@@ -37,14 +37,14 @@ struct CrowdText {
 
 inline constexpr std::size_t max_crowd = 200'000, max_alive = 20'000'000;
 
-/// Of `mobil crowd`, and of `mobil city`, which wants `alive` to be set.
+/// Return the options of `mobil crowd` and `mobil city`. The latter needs `alive` to be set.
 std::vector<Option> crowd_options(CrowdText& text);
 std::vector<Option> city_options(CrowdText& text);
 
-/// Shards of a crowd on several ranks where nobody says how many.
+/// Default and maximum number of shards of a crowd on several ranks.
 inline constexpr std::uint32_t usual_shards = 16, max_shards = 4096;
 
-/// Reads and checks every option. Errors name the option, the valid range and the mend.
+/// Reads and checks every option. Errors name the option, the valid range and the remedy.
 Result<CrowdOptions> read_crowd_options(const CrowdText& text);
 
 }  // namespace mobil

@@ -24,7 +24,7 @@
 namespace mobil {
 namespace {
 
-/// Parts visible through the skin of near people; the shirt hides the rest.
+/// Returns true for bones visible through the skin of near people; the shirt hides the others.
 bool is_leg(Segment segment) {
   return segment == Segment::pelvis || (segment >= Segment::thigh_right && segment < Segment::clavicle_right);
 }
@@ -42,7 +42,7 @@ void take_list(PlainReader& reader, std::vector<T>& list) {
   list = reader.take_many<T>(static_cast<std::size_t>(count));
 }
 
-/// Triangles must speak of vertices that are there.
+/// Returns true if all triangles are complete and use existing vertices.
 bool whole(std::size_t vertices, const std::vector<std::uint32_t>& triangle) {
   return triangle.size() % 3 == 0 &&
          std::ranges::all_of(triangle, [&](std::uint32_t vertex) { return vertex < vertices; });
@@ -50,9 +50,9 @@ bool whole(std::size_t vertices, const std::vector<std::uint32_t>& triangle) {
 
 constexpr std::string_view side_name[] = {"_right", "_left"};
 
-constexpr float near_m = 6, far_m = 18;  // who is seen with fewer triangles
-constexpr float glass = 0.35F;           // opacity of legs that muscles are seen through
-constexpr float person_m = 1;            // half the height of the box that a person is taken for
+constexpr float near_m = 6, far_m = 18;  // beyond these distances skins have fewer triangles
+constexpr float glass = 0.35F;           // opacity of legs with visible muscles
+constexpr float person_m = 1;            // half the height of a person's bounding box
 
 bool in_picture(const Camera& camera, int width, int height, const Vec3<float>& pelvis) {
   const Vec3<float> at = project(camera, width, height, pelvis);
@@ -64,7 +64,7 @@ bool in_picture(const Camera& camera, int width, int height, const Vec3<float>& 
 
 constexpr double recorded_frame_s = 1.0 / 30;
 
-/// Which of a recording's figures somebody looks like: one for each skin.
+/// Returns the index of the recording's figure for a skin, and adds the figure if the skin is new.
 std::size_t figure_of(const BodySkin& skin, std::map<const BodySkin*, std::size_t>& known, CrowdRecording& recording) {
   const auto [found, is_new] = known.try_emplace(&skin, recording.figures.size());
   if (is_new) recording.figures.push_back({{}, {}, recorded_skin(skin), standing_of(skin)});
@@ -84,7 +84,7 @@ Result<void> record_poses(const CrowdScene& scene, CrowdRecording& recording) {
 
 Result<const WalkRecording*> CrowdLegs::of(const Simulation& simulation, Entity person, std::uint64_t number) {
   const auto subject = simulation.person(person);
-  if (!subject) return fail("a person who is to be drawn has left");
+  if (!subject) return fail("a person to be drawn has left");
   auto found = shown_.find(number);
   if (found == shown_.end()) {
     auto figure = make_figure(*subject);
@@ -143,7 +143,7 @@ Result<WalkRecording> unpack_legs(std::span<const std::byte> packed) {
     take_list(reader, muscle.triangle);
     good = good && whole(muscle.position_m.front().size(), muscle.triangle);
   }
-  if (!good || !reader.whole()) return fail("a person's bones and muscles do not agree with themselves");
+  if (!good || !reader.whole()) return fail("the bytes of a person's bones and muscles are inconsistent");
   return legs;
 }
 
@@ -288,10 +288,10 @@ Result<void> check_crowd_exports(const std::vector<std::filesystem::path>& files
   for (const auto& file : files) {
     const auto ending = file.extension();
     if (ending != ".glb" && ending != ".usda") {
-      return fail(fmt::format("--export {}: ends in no format of crowds; there are .glb, .usda", file.string()));
+      return fail(fmt::format("--export {}: is not a format for crowds; use one of .glb, .usda", file.string()));
     }
     if (!taken.insert(file).second) {
-      return fail(fmt::format("--export {}: is given twice; leave one out", file.string()));
+      return fail(fmt::format("--export {}: is given twice; remove one", file.string()));
     }
     if (auto place = check_result_place("--export", file); !place) return place;
   }

@@ -1,6 +1,6 @@
 #pragma once
-// A crowd as pictures: people with their skin and clothes; of those in front the legs' muscles and bones are seen
-// through it. A crowd as a scene for other programs: all people dressed, walking.
+// Pictures of a crowd: dressed people, and the muscles and bones of the legs of those in front. Exports of a crowd as a
+// scene for other programs: all people dressed and walking.
 
 #include <map>
 
@@ -15,10 +15,10 @@ namespace mobil {
 /// Bones and muscles of the legs of people near the camera.
 class CrowdLegs {
  public:
-  /// One frame, as the person now is; good until asked for that number again. Errors: what make_figure refuses;
-  /// somebody who has left.
+  /// Returns one frame of the person's current state, valid until the next call with this number. Errors: those of
+  /// make_figure; a person who has left.
   Result<const WalkRecording*> of(const Simulation& simulation, Entity person, std::uint64_t number);
-  /// Lets go of the surfaces of who had this number.
+  /// Frees the surfaces of the person with this number.
   void forget(std::uint64_t number) { shown_.erase(number); }
 
  private:
@@ -29,31 +29,30 @@ class CrowdLegs {
   std::map<std::uint64_t, Shown> shown_;
 };
 
-/// The first frame, its bones and muscles; and taken out again, where another rank packed them. Errors: bytes that do
-/// not agree with themselves.
+/// Packs the first frame with its bones and muscles, and unpacks the bytes of another rank. Errors: inconsistent bytes.
 std::vector<std::byte> pack_legs(const WalkRecording& legs);
 Result<WalkRecording> unpack_legs(std::span<const std::byte> bytes);
 
-/// One who is in a picture: plain data, which may come from another process.
+/// A person in a picture; plain data, which can come from another process.
 struct PicturedPerson {
   std::uint64_t number = 0;
   float distance_m = 0;
-  std::uint32_t near = 0;  // of the nearest of these the legs' bones and muscles are seen
+  std::uint32_t near = 0;  // 1: bones and muscles of the legs are drawn, if among the nearest
   float height_m = 0, mass_kg = 0;
   std::uint32_t sex = 0, spare = 0;
   Pose<float> pose{};
 };
-/// Who is drawn first, whatever order they were found in: those who are near, then the nearest.
+/// Sorts people into drawing order: near ones first, then by distance. The initial order has no effect.
 void arrange(std::vector<PicturedPerson>& seen);
-/// Of how many at most, the first of who is near, legs are drawn.
+/// Maximum number of people whose bones and muscles are drawn, the first of the near ones.
 inline constexpr std::size_t max_legs = 64;
 
-/// Behind and above the viewer (CrowdScene::viewer_m), over a crowd on a square of that side.
+/// Returns a camera behind and above the viewer (CrowdScene::viewer_m) of a crowd on a square of that side.
 Camera crowd_camera(double side_m);
 
 class CrowdCamera {
  public:
-  /// Errors: a size out of range (Renderer::create), no driver.
+  /// Creates a camera for pictures of that size, pixels. Errors: a size out of range (Renderer::create), no driver.
   static Result<CrowdCamera> create(int width = usual_width, int height = usual_height);
   CrowdCamera(CrowdCamera&&) noexcept;
   CrowdCamera& operator=(CrowdCamera&&) noexcept;
@@ -61,25 +60,25 @@ class CrowdCamera {
 
   static constexpr int usual_width = 1920, usual_height = 1080;
 
-  /// The crowd as it is, seen from behind and above the viewer. Errors: a driver that fails.
+  /// Takes a picture of the crowd's current state with `crowd_camera`. Errors: those of the driver.
   Result<void> take(const CrowdScene& scene, Image& image);
-  /// These people from anywhere; of the nearest who are `near` the legs' bones and muscles are seen through the skin.
+  /// A person to be drawn. Bones and muscles of the legs show through the skin of the nearest people who are `near`.
   struct Drawn {
     Entity entity;
     std::uint64_t number;
     bool near;
   };
   Result<void> take(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people, Image& image);
-  /// Those of them who are in a picture of that size, in no order.
+  /// Returns the people who are in a picture of that size, unsorted.
   static std::vector<PicturedPerson> see(const Simulation& simulation, const Camera& camera,
                                          std::span<const Drawn> people, int width = usual_width,
                                          int height = usual_height);
-  /// A picture of them in that order. `legs`: by number, of those whose legs are drawn.
+  /// Draws people in the given order. `legs`: recordings of the people whose bones and muscles are drawn, by number.
   using Legs = std::map<std::uint64_t, const WalkRecording*>;
   Result<void> draw(const Camera& camera, std::span<const PicturedPerson> seen, const Legs& legs, Image& image);
-  /// What stands round the people in all pictures to come, instead of the plane with its grid. It must live until then.
+  /// Sets the surroundings of all further pictures, which replace the plane with its grid. They must outlive its use.
   void set_backdrop(std::span<const DrawMesh> meshes, std::span<const DrawLines> lines);
-  /// Lets go of the surfaces of who had this number.
+  /// Frees the surfaces of the person with this number.
   void forget(std::uint64_t number);
 
  private:
@@ -88,15 +87,15 @@ class CrowdCamera {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Poses that a recording may hold, 1.3 kB each.
+/// Maximum number of poses in a recording, 1.3 kB each.
 inline constexpr std::size_t max_recorded_poses = 800'000;
 
-/// Files that a crowd can be written to, by their ending. Errors: another ending, twice the same name, a place that
+/// Checks the names of files for a crowd. Errors: an ending other than .glb or .usda, a name given twice, a path that
 /// cannot be written.
 Result<void> check_crowd_exports(const std::vector<std::filesystem::path>& files);
 
-/// Records all people for the next `seconds`, as many pictures a second as films have; the crowd walks on. People are
-/// called person_NUMBER, by their number in the crowd, and must not be despawned until it returns. Errors: those of the
+/// Records all people for the next `seconds` at 30 frames per second, while the crowd walks on. People are named
+/// person_NUMBER, by their number in the crowd, and must not be despawned until it returns. Errors: those of the
 /// simulation.
 Result<CrowdRecording> record_crowd(CrowdScene& scene, double seconds, const CrowdScene::Progress& progress = {});
 

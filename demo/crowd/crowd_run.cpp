@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t hash_every = 60;  // ticks
 constexpr double live_every_s = 0.25;
 
-/// Muscles that fade after a change of method; when that ends the row is made anew.
+/// Returns the number of muscles that fade after a change of method. Their archetype changes when the fade ends.
 std::size_t fading(const World& world) {
   std::size_t rows = 0;
   for (const Table& table : world.tables()) {
@@ -32,7 +32,7 @@ std::size_t fading(const World& world) {
   return rows;
 }
 
-/// One tick, and what it took of heap.
+/// Runs one tick and adds its times, events and heap requests to the run.
 Result<void> measured_tick(CrowdScene& scene, CrowdRun& run) {
   CrowdTick tick;
   const std::size_t fading_before = fading(scene.simulation().world());
@@ -175,7 +175,7 @@ Result<CrowdLimit> raise_crowd(CrowdScene& scene, std::size_t ticks, std::size_t
       limit.tried.push_back(tried);
       if (told) told(tried);
       if (run->missed == 0) return true;
-      if (tried.p50_ms > 1e3 * run->tick_s) return false;  // no bad luck
+      if (tried.p50_ms > 1e3 * run->tick_s) return false;  // not an outlier
     }
     return false;
   };
@@ -234,12 +234,12 @@ std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const Cro
   text += parts_line(run.ticks, run.systems, 5e-4) + "\nmuscles:";
   for (const auto& [method, count] : by_method(run.muscles_by_level, run.active))
     text += fmt::format(" {} {}", count, method);
-  text += fmt::format("\n{} came, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.spawned,
+  text += fmt::format("\n{} arrived, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.spawned,
                       run.despawned, run.turned, run.changed_speed, 2 * run.switched);
-  text += fmt::format("memory: {} bytes a person, {} of those far away; {:.0f} MB at most\n", memory.per_person,
+  text += fmt::format("memory: {} bytes per person, {} if far away; peak {:.0f} MB\n", memory.per_person,
                       memory.far_person, 1e-6 * static_cast<double>(memory.peak));
   if (heap_is_counted()) {
-    text += fmt::format("heap: {} requests in the {} ticks in which nobody came, went or changed method\n",
+    text += fmt::format("heap: {} requests in the {} ticks without arrivals, departures or changes of method\n",
                         run.steady_allocations, run.steady_ticks);
   }
   return text;
@@ -252,13 +252,13 @@ std::string ticks_line(const std::vector<CrowdTick>& ticks, double tick_s, std::
 }
 
 std::string processor_line(const std::vector<CrowdTick>& ticks, std::string_view of) {
-  return fmt::format("processor time of all {}: p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms a tick\n", of,
+  return fmt::format("processor time of all {}: p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms per tick\n", of,
                      percentile_ms(ticks, 0.5, &CrowdTick::cpu_ms), percentile_ms(ticks, 0.99, &CrowdTick::cpu_ms),
                      percentile_ms(ticks, 1, &CrowdTick::cpu_ms));
 }
 
 std::string parts_line(const std::vector<CrowdTick>& ticks, const std::vector<CrowdSystem>& systems, double min_ms) {
-  std::string line = fmt::format("a tick, mean: host's decisions {:.3f} ms, choosing of methods {:.3f} ms",
+  std::string line = fmt::format("mean tick: host's decisions {:.3f} ms, choice of methods {:.3f} ms",
                                  mean_ms(ticks, &CrowdTick::host_ms), mean_ms(ticks, &CrowdTick::lod_ms));
   for (const CrowdSystem& system : systems) {
     if (system.mean_ms >= min_ms) line += fmt::format(", {} {:.3f} ms", system.name, system.mean_ms);
@@ -330,8 +330,8 @@ std::string tried_line(const CrowdLimit::Tried& tried) {
 }
 
 std::string limit_text(const CrowdLimit& limit) {
-  if (limit.people == 0) return fmt::format("{} people already miss ticks; begin with fewer\n", limit.missed_with);
-  if (limit.missed_with == 0) return fmt::format("{} people, the most there can be: no tick missed\n", limit.people);
+  if (limit.people == 0) return fmt::format("{} people already miss ticks; start with fewer\n", limit.missed_with);
+  if (limit.missed_with == 0) return fmt::format("{} people, the maximum: no tick missed\n", limit.people);
   return fmt::format("{} people: no tick missed; {}: missed\n", limit.people, limit.missed_with);
 }
 

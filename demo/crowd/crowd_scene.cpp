@@ -16,8 +16,8 @@ namespace mobil {
 namespace {
 
 constexpr double square_metres_each = 2.5;
-constexpr std::size_t batch = 1000;  // people who are spawned between two looks at the bar
-constexpr double settling_s = 2;     // what the taking up of a muscle excites falls by e⁻⁴ a second
+constexpr std::size_t batch = 1000;  // people spawned between two updates of the progress bar
+constexpr double settling_s = 2;     // vibrations of newly added muscles decay by e⁻⁴ per second
 constexpr std::uint64_t exchange_stream = 0x30000;
 
 }  // namespace
@@ -33,7 +33,7 @@ CrowdScene::CrowdScene(const CrowdRequest& request) : request_(request) {
   muscles_ = first_muscles();
 }
 
-/// What most of those far away need, so that nobody begins with another.
+/// Returns the method that most muscle groups of distant people need; all people start with it.
 LegMuscles CrowdScene::first_muscles() const {
   LegMuscles choice;
   choice.inertia = request_.effects.inertia;
@@ -73,8 +73,8 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make_empty(const CrowdRequest& r
   }
   if (request.effects.muscles) {
     LodOptions& options = scene->choosing_.emplace();
-    options.switches = 8;  // near ones change every second: spread over it
-    // Who needs otherwise says so once a second: some hundreds looked at each tick are soon enough.
+    options.switches = 8;  // near people change every second; this spreads the switches over it
+    // Needs change at most once a second, so checking some hundreds of people per tick is enough.
     options.stagger = static_cast<std::uint32_t>(std::clamp<std::size_t>(request.people / request.shards / 500, 8, 60));
     options.leg_muscles = scene->muscles_;
     if (!request.budget_s) options.machine_factor = 1;
@@ -101,7 +101,7 @@ bool CrowdScene::is_own(std::uint32_t place) const {
   return request_.shards == 1 || shard_of(place, request_.shards) == request_.shard;
 }
 
-/// Of the own walkers the first whose place is not before that one.
+/// Returns the slot of this shard's first walker whose place is not before `place`.
 std::size_t CrowdScene::first_slot_from(std::uint32_t place) const {
   if (request_.shards == 1) return std::min<std::size_t>(place, walkers_.size());
   const auto found = std::ranges::lower_bound(walkers_, place, {}, &CrowdWalker::place);
@@ -163,7 +163,7 @@ Result<void> CrowdScene::settle(const Progress& progress, bool exchanges) {
   return {};
 }
 
-/// New people in these slots, whose numbers and places are there. Who cannot walk as drawn is drawn again.
+/// Spawns new people in these slots, whose numbers and places are set. A random person who cannot walk is drawn again.
 Result<void> CrowdScene::come(std::span<const std::uint32_t> slots) {
   requests_.assign(slots.size(), {});
   entities_.resize(slots.size());
@@ -216,7 +216,7 @@ void CrowdScene::leave(std::span<const std::uint32_t> slots) {
   simulation_->despawn(entities_);
 }
 
-/// So many leave, whoever they are, and as many come in their stead.
+/// Returns the people replaced in this tick, from a random place on, as many as churn and burst require.
 CrowdOrders CrowdDirector::order(const CrowdRequest& request, std::uint32_t tick, double tick_s) {
   const auto a_second = static_cast<std::uint32_t>(std::lround(1 / tick_s));
   owed += request.churn_per_s * tick_s;
@@ -265,7 +265,7 @@ Result<CrowdDecisions> CrowdScene::decide(const CrowdOrders& orders) {
   }
   if (orders.count > 0) {
     if (orders.count > request_.people || orders.first_place >= request_.people)
-      return fail("orders name people who are not in the crowd");
+      return fail("orders refer to places outside the crowd");
     if (auto done = exchange(orders, decisions); !done) return tl::unexpected(done.error());
   }
   std::int32_t& first = due_[now % ring];
@@ -296,7 +296,7 @@ Result<void> CrowdScene::restore(std::span<const std::byte> saved) {
   walkers_ = reader.take_many<CrowdWalker>(static_cast<std::size_t>(count));
   reader.take(due_);
   reader.take(people);
-  if (!reader.whole()) return fail("a crowd's bytes do not agree with themselves");
+  if (!reader.whole()) return fail("the bytes of a crowd are inconsistent");
   request_.people = static_cast<std::size_t>(people);
   side_m_ = crowd_side_m(request_.people);
   for (std::size_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);

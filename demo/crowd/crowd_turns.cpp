@@ -1,4 +1,4 @@
-// Who turns, walks faster or slower, stops and goes on; who is near.
+// CrowdScene: changes of heading and speed, and the choice of near people.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::uint64_t return_stream = 0x40000;
 constexpr float whole_turn = 2 * std::numbers::pi_v<float>;
-constexpr float aims = 0.2F;   // rad off at most where who returns is to go
-constexpr float stays = 0.9F;  // part of the squared distance by which who is near counts as nearer
+constexpr float aims = 0.2F;   // maximum heading error of a returning walker, rad
+constexpr float stays = 0.9F;  // factor on the squared distance of people who are already near
 
 }  // namespace
 
-/// When the next change of who walks there comes.
+/// Schedules the walker's next change.
 void CrowdScene::plan(std::size_t slot) {
   CrowdWalker& walker = walkers_[slot];
   const float after_s = crowd_change(request_.seed, walker.number, walker.changes, walker.stopped).after_s;
@@ -38,7 +38,7 @@ void CrowdScene::forget_plan(std::size_t slot) {
   if (walker.next >= 0) walkers_[static_cast<std::size_t>(walker.next)].before = walker.before;
 }
 
-/// Who avoids others is asked through Avoidance, which asks for the steps.
+/// Requests a heading. With avoidance it sets the desired velocity, and Avoidance requests the steps.
 Result<void> CrowdScene::head_for(const CrowdWalker& walker, float heading_rad) {
   if (!request_.effects.avoidance) return simulation_->turn_to(walker.entity, heading_rad);
   const auto course = simulation_->get<AvoidanceState>(walker.entity);
@@ -47,7 +47,7 @@ Result<void> CrowdScene::head_for(const CrowdWalker& walker, float heading_rad) 
   return simulation_->avoidance().set_desired_velocity({&wish, 1});
 }
 
-/// A speed that the body cannot walk at in its own style is left alone.
+/// Applies the walker's next change. The person's usual speed replaces one that is impossible for body and style.
 Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decisions) {
   const CrowdChange change = crowd_change(request_.seed, walker.number, walker.changes++, walker.stopped);
   if (change.speed_m_s >= 0) {
@@ -73,15 +73,15 @@ Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decision
   return {};
 }
 
-/// Once a second.
+/// Updates positions, returning walkers and near people; called once a second.
 Result<void> CrowdScene::look_round(CrowdDecisions& decisions) {
   read_places();
   if (auto done = turn_back(decisions); !done) return done;
   return choose_near(decisions);
 }
 
-/// Where their walking lines are, for who is compact has no pose: block by block, which takes a tenth of the time that
-/// asking for one after the other would.
+/// Reads positions of walking lines, because compact people have no pose. Reading block by block is 10 times faster
+/// than one query per person.
 void CrowdScene::read_places() {
   each(simulation_->world(), [&](const Rows& rows, const GaitState<Lanes<float>>& state) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
@@ -92,8 +92,8 @@ void CrowdScene::read_places() {
   });
 }
 
-/// Who is outside of the square heads for a point of their own in its inner half, and goes on aiming at it: a turn
-/// takes steps, and those lead elsewhere.
+/// Turns walkers outside the square toward a point of their own in its inner half. Their heading is corrected until
+/// they are inside, because they leave the line to the point during the steps of a turn.
 Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
   const auto half_m = static_cast<float>(0.5 * side_m_);
   for (CrowdWalker& walker : walkers_) {
@@ -114,7 +114,7 @@ Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
   return {};
 }
 
-/// Those nearest to the viewer, the present ones a little preferred.
+/// Chooses the people nearest to the viewer, with a slight preference for the current ones.
 Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
   if (!choosing_) return {};
   const std::size_t part =
@@ -127,7 +127,7 @@ Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
     distance_.emplace_back((x * x + z * z) * (walkers_[i].near ? stays : 1), i);
   }
   std::nth_element(distance_.begin(), distance_.begin() + static_cast<std::ptrdiff_t>(near), distance_.end());
-  entities_.clear();  // all who come near become whole together
+  entities_.clear();  // people who become near are expanded together
   for (std::size_t k = 0; k < near; ++k)
     if (!walkers_[distance_[k].second].near) entities_.push_back(walkers_[distance_[k].second].entity);
   if (auto done = simulation_->set_state(entities_, PersonState::full); !done) return tl::unexpected(done.error());

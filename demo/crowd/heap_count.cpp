@@ -21,7 +21,7 @@
 namespace mobil {
 namespace {
 
-// One malloc serves the whole program, so that what counts it is the program's too.
+// The whole program has one malloc, so the counter is global.
 std::atomic<bool> counting = false;
 std::atomic<std::size_t> requests = 0;
 
@@ -50,7 +50,7 @@ std::size_t stop_heap_count() {
 }  // namespace mobil
 
 #if MOBIL_OWN_MALLOC
-// What glibc has a program that replaces malloc define; each hands on to glibc's own.
+// The functions that glibc requires in a program that replaces malloc. Each forwards to glibc's own.
 extern "C" {
 void* __libc_malloc(std::size_t bytes);                           // NOLINT: glibc's names
 void* __libc_calloc(std::size_t count, std::size_t bytes);        // NOLINT

@@ -1,17 +1,17 @@
 #pragma once
-// How often the whole program asks for heap memory: malloc and its kin, in which operator new and libraries' own
-// requests end.
+// Counts the heap requests of the whole program: calls of malloc and related functions, which include those of operator
+// new and of libraries.
 
 #include <cstddef>
 
 namespace mobil {
 
-/// Whether this build counts: with glibc, without a sanitizer (which has a malloc of its own).
+/// Returns true if this build counts requests: with glibc, and without a sanitizer (which has its own malloc).
 bool heap_is_counted();
 
-/// Begins anew, from 0, on all threads.
+/// Resets the count to 0 and starts counting on all threads.
 void start_heap_count();
-/// Requests since then; no more are counted.
+/// Stops counting. Returns the number of requests.
 std::size_t stop_heap_count();
 
 }  // namespace mobil

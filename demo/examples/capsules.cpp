@@ -1,8 +1,8 @@
-// Capsules that walkers drive: a game moves each by how its person's root went in the frame, a wall holds some of them
-// up, and these people are put where their capsules are. Footsteps are heard at their instant; who comes to a door is
-// elsewhere at once.
+// Capsules driven by walkers: a game moves each capsule by the root motion of its person in the frame. A wall stops
+// some of them, and their people are placed at their capsules. Footsteps are reported with their exact time, and people
+// who reach a door are moved elsewhere.
 //
-// Prints what is heard, and exits with 1 where a capsule is in the wall, not under its person, or nothing is heard.
+// Prints footsteps, and exits with 1 if a capsule is in the wall or away from its person, or if footsteps are missing.
 
 #include <cmath>
 #include <cstdio>
@@ -14,10 +14,10 @@ namespace {
 
 constexpr double frame_s = 1.0 / 50, wall_z_m = 6, door_z_m = 8, radius_m = 0.3;
 
-/// The way of a root, from where the capsule stands.
+/// Returns the capsule moved by a root's motion, up to the wall.
 mobil::Root pushed(const mobil::Root& capsule, const mobil::RootMotion& by) {
   mobil::Root to = moved(capsule, by);
-  const bool wall_ahead = capsule.x_m < 1.5;  // the others have a way past it
+  const bool wall_ahead = capsule.x_m < 1.5;  // the others walk past it
   if (wall_ahead && to.z_m > wall_z_m - radius_m) to.z_m = wall_z_m - radius_m;
   return to;
 }
@@ -26,7 +26,7 @@ double apart(const mobil::Root& a, const mobil::Root& b) {
   return std::hypot(a.x_m - b.x_m, a.z_m - b.z_m);
 }
 
-/// A person is put by the line beside the foot that bears; the root is as far from there as before.
+/// Returns a request that moves a person's root to `to`. It sets the walking line, whose offset from the root is kept.
 mobil::PlaceRequest under(const mobil::Simulation& simulation, mobil::Entity person, const mobil::Root& root,
                           const mobil::Root& to) {
   const auto state = *simulation.get<mobil::GaitState>(person);

@@ -1,8 +1,8 @@
-// A city on several ranks: mpirun -n 4 city, or city alone. The first rank decides who comes, turns and goes; all ranks
-// work on the shards that are theirs. Half way the city is saved; what goes on from there, as a crashed run would, ends
-// in the same state.
+// A city on several ranks (mpirun -n 4 city) or on one (city). The first rank decides on arrivals, turns and
+// departures; each rank simulates its own shards. The city is saved halfway, and a second run resumes there, as after a
+// crash. Both runs end in the same state.
 //
-// Prints people, ranks and the hash of the state, and exits with 1 where the two ends differ, 2 where something fails.
+// Prints ranks, shards and the state hash of both runs, and exits with 1 if the hashes differ, with 2 on an error.
 
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint32_t shards = 8, ticks = 240;
 constexpr std::uint64_t people = 400;
 
-/// What is to happen in a tick, as bytes for all shards.
+/// Returns the commands of a tick for all shards, as bytes.
 std::vector<std::byte> commands(std::uint32_t tick) {
   std::vector<mobil::PersonCommand> all;
   if (tick == 0) {
@@ -40,7 +40,7 @@ std::vector<std::byte> commands(std::uint32_t tick) {
   return {raw.begin(), raw.end()};
 }
 
-/// From where it is to the last tick; the hash of the state then. `folder`: where snapshots lie.
+/// Runs a new or resumed city to the last tick and returns its state hash. `folder`: folder of the snapshots.
 mobil::Result<std::uint64_t> live(mobil::Ranks& ranks, const std::filesystem::path& folder, bool resume) {
   mobil::ClusterOptions options;
   options.shards = shards;
@@ -71,7 +71,7 @@ int main() {
     by_mpi = std::move(*made);
   }
   mobil::Ranks ranks(by_mpi ? *by_mpi : alone[0]);
-  // A folder that all ranks see; this one is of one machine, and named by the first rank's process.
+  // All ranks need access to the folder. This one is local to the machine and named after the first rank's process.
   const auto process = ranks.sum(ranks.first() ? static_cast<std::uint64_t>(getpid()) : 0);
   const auto folder = std::filesystem::temp_directory_path() / ("mobil_city_" + std::to_string(process));
   const auto first = live(ranks, folder, false);
@@ -82,8 +82,8 @@ int main() {
   }
   if (ranks.first()) {
     std::filesystem::remove_all(folder);
-    std::printf("%d rank(s), %u shards: state hash %016llx, and %016llx after going on from half way\n", ranks.count(),
-                shards, static_cast<unsigned long long>(*first), static_cast<unsigned long long>(*again));
+    std::printf("%d rank(s), %u shards: state hash %016llx, and %016llx if resumed halfway\n", ranks.count(), shards,
+                static_cast<unsigned long long>(*first), static_cast<unsigned long long>(*again));
   }
   return *first == *again ? 0 : 1;
 }

@@ -1,8 +1,7 @@
-// Two streams of walkers cross; a player, who is no walker, goes straight through them. Nobody walks into anybody, nor
-// into the walls.
+// Two streams of walkers cross, and a player, who is not a walker, moves straight through them. Walkers avoid each
+// other, the player and the walls.
 //
-// Prints how far each stream got and how near people came, and exits with 1 where somebody overlaps another or stands
-// still.
+// Prints the distances walked and the smallest distance between people. Exits with 1 if people overlap or one is stuck.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr std::size_t a_stream = 24;
-constexpr double radius_m = 0.18, overlap_m = 0.06;  // of trunks: who comes nearer turns the shoulders
+constexpr double radius_m = 0.18, overlap_m = 0.06;  // of trunks; people who come nearer rotate their shoulders
 
 }  // namespace
 
@@ -38,7 +37,7 @@ int main() {
   }
   std::vector<mobil::Entity> people(requests.size());
   if (!simulation.spawn(requests, people)) return 2;
-  if (!avoidance.manage(people)) return 2;  // they want what they were asked for: that speed, that heading
+  if (!avoidance.manage(people)) return 2;  // their desired velocity is the requested speed and heading
 
   const mobil::Wall walls[] = {{{-20, 2.6F}, {-2.6F, 2.6F}}, {{-20, -2.6F}, {-2.6F, -2.6F}}};
   if (!avoidance.set_walls(walls)) return 2;
@@ -62,6 +61,6 @@ int main() {
     min_m = std::min(min_m, way);
     mean_m += way / static_cast<double>(roots.size());
   }
-  std::printf("in 25 s: %.1f m on average, %.1f m at least; nobody nearer than %.2f m\n", mean_m, min_m, nearest_m);
+  std::printf("in 25 s: %.1f m on average, %.1f m at least; smallest distance %.2f m\n", mean_m, min_m, nearest_m);
   return nearest_m > 2 * radius_m - overlap_m && min_m > 5 ? 0 : 1;
 }

@@ -1,5 +1,5 @@
-/* The C interface, in C89: forty people walk past, two of them with muscles whose surfaces go into a vertex buffer; time
- * goes back, and comes again with the same bits.
+/* The C interface in C89: forty people walk, two of them with muscles whose surfaces are written into a vertex buffer.
+ * Then a snapshot is restored, and the second run has bit-identical results.
  *
  *   cc -std=c89 demo/examples/crowd.c -I<prefix>/include -L<prefix>/lib -lmobil */
 #include <mobil/mobil.h>
@@ -47,7 +47,7 @@ static void spawn(mobil_id* ids) {
   need(mobil_set_muscles(sim, ids, seen, &muscles));
 }
 
-/* Draws nothing, but does what a renderer would: matrices of everybody, vertices of those who are seen. */
+/* Writes the input of a renderer: matrices of all people, vertices of the visible ones. Returns the maximum height. */
 static double draw(const mobil_id* ids, mobil_surfaces* surfaces, double ahead_s, vertex* vertices, float* matrices) {
   const size_t count = mobil_vertex_count(surfaces);
   mobil_surface_target targets[seen];
@@ -106,9 +106,9 @@ int main(void) {
   for (frame = 0; frame < frames; ++frame) need(mobil_advance(sim, 1.0 / 50, NULL));
   need(mobil_hash(sim, again));
 
-  printf("mobil %s: %d people, %lu vertices each of %d, the highest at %.2f m; after %.2f s %08x%08x, and again %s\n",
+  printf("mobil %s: %d people, %lu vertices for each of %d, up to %.2f m; after %.2f s %08x%08x, second run %s\n",
          mobil_library_version(), crowd, (unsigned long)mobil_vertex_count(surfaces), seen, highest, mobil_time_s(sim),
-         first[1], first[0], first[0] == again[0] && first[1] == again[1] ? "the same" : "OTHERWISE");
+         first[1], first[0], first[0] == again[0] && first[1] == again[1] ? "identical" : "DIFFERENT");
   mobil_drop_surfaces(surfaces);
   mobil_destroy(sim);
   free(vertices);

@@ -1,7 +1,7 @@
-// A system of one's own: walkers tire. A component keeps how tired each is; a system that runs between the library's
-// own lowers the speed that they walk at, one step after the other. Nothing of the library changes.
+// A custom system: walkers tire. A component stores each walker's fatigue, and a system that runs between those of the
+// library lowers the walking speed step by step. The library is unchanged.
 //
-// Prints each walker's speed, and exits with 1 where the tired one did not slow down or the other one did.
+// Prints each walker's speed, and exits with 1 if the tired walker did not slow down or the other one did.
 
 #include <cmath>
 #include <cstdio>
@@ -12,17 +12,17 @@
 
 using mobil::Lanes, mobil::UInt32;
 
-/// How tired a walker is, 0 to 1; what part of the speed asked for the system has left, and in which request; and the
-/// steps counted so far. All zero: fresh.
+/// Fatigue of a walker, all zero if fresh. `level`: 0 to 1. `left`: remaining fraction of the requested speed, set in
+/// the request `revision`. `steps`: steps counted so far.
 template <class F>
 struct Fatigue {
   F level, left;
   UInt32<F> revision, steps;
 };
 
-/// At each step a walker tires by half a percent at 1 m/s, faster in proportion to the square of speed; wholly tired
-/// they walk at half the speed asked for. `before` is the clock of the tick before: the gait decided here is then there
-/// when this tick's heel strikes ask for it.
+/// Adds half a percent of fatigue per step at 1 m/s, in proportion to the square of speed. A fully tired walker has
+/// half the requested speed. `before` is the state of the previous tick, so that the gait set here is used by the heel
+/// strikes of this tick.
 void tire(mobil::Previous<mobil::GaitState> before, mobil::Gait<Lanes<float>>& gait, Fatigue<Lanes<float>>& fatigue) {
   for (std::size_t lane = 0; lane < mobil::lane_count; ++lane) {
     if (before->steps[lane] == fatigue.steps[lane]) continue;
@@ -32,11 +32,11 @@ void tire(mobil::Previous<mobil::GaitState> before, mobil::Gait<Lanes<float>>& g
     fatigue.level[lane] = std::fmin(fatigue.level[lane] + 0.005F * gait.speed_m_s[lane] * gait.speed_m_s[lane], 1.0F);
     const float left = 1 - 0.5F * fatigue.level[lane];
     const float slower = asked * left / std::fmax(gait.speed_m_s[lane], 1e-6F);
-    gait.speed_m_s[lane] *= slower;  // steps get shorter and rarer alike
+    gait.speed_m_s[lane] *= slower;  // length and frequency of steps decrease equally
     gait.step_length_m[lane] *= std::sqrt(slower);
     gait.step_frequency_hz[lane] *= std::sqrt(slower);
     fatigue.left[lane] = left;
-    fatigue.revision[lane] = ++gait.revision[lane];  // a new request: steps are solved anew
+    fatigue.revision[lane] = ++gait.revision[lane];  // a new request: steps are solved again
   }
 }
 

@@ -1,4 +1,4 @@
-"""Three figures of the library's gallery again, from Python: angles, ground reaction and moments over a gait cycle, at
+"""Redraws three figures of the library's gallery from Python: angles, ground reaction and moments over a gait cycle, at
 five speeds.  Usage: figures.py [FOLDER]"""
 
 import pathlib

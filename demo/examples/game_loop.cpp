@@ -1,5 +1,5 @@
-// A game's loop: frames of any length, people who come in batches, the game's own threads and memory, and poses at the
-// very instant that is drawn, written into what would be an instance buffer.
+// A game loop: frames of any length, people spawned in batches, the game's own threads and memory, and poses at the
+// exact time of each frame, written as into an instance buffer.
 
 #include <cmath>
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace {
 
-/// The game's job system: here a thread for each half of the work.
+/// Returns the game's job system, here one thread for each half of the work.
 mobil::Jobs two_threads() {
   mobil::Jobs jobs;
   jobs.threads = 2;
@@ -65,17 +65,17 @@ int main() {
       if (const auto done = simulation.turn_to(who, 6 * any(random) - 3); !done) return failed(done.error());
     }
     const mobil::Ticks ticks = simulation.advance(frame_s);
-    const double ahead_s = ticks.alpha * simulation.tick_s();  // what the ticks have not reached yet
+    const double ahead_s = ticks.alpha * simulation.tick_s();  // time since the last tick
     if (const auto done = writer.write(simulation.world(), people, ahead_s, matrices, {instances}, jobs); !done)
       return failed(done.error());
 
-    const auto* pelvis = reinterpret_cast<const float*>(instances.data());  // of the first one: a matrix of three rows
+    const auto* pelvis = reinterpret_cast<const float*>(instances.data());  // of the first person, a 3x4 matrix
     const float now_m[3] = {pelvis[3], pelvis[7], pelvis[11]};
     const float way_m = std::hypot(now_m[0] - before_m[0], now_m[1] - before_m[1], now_m[2] - before_m[2]);
     if (frame > 0) fastest_m_s = std::max(fastest_m_s, way_m / static_cast<float>(frame_s));
     std::copy(now_m, now_m + 3, before_m);
   }
-  std::printf("%zu people, %u ticks; drawn, the first one's pelvis was never faster than %.2f m/s\n", people.size(),
+  std::printf("%zu people, %u ticks; maximum drawn speed of the first pelvis %.2f m/s\n", people.size(),
               simulation.ticks(), static_cast<double>(fastest_m_s));
   return fastest_m_s < 3 ? 0 : 1;
 }

@@ -1,6 +1,5 @@
-// A host that draws with OpenGL ES code of its own (gles_host.h): the muscles and bones of who is near, whose fibres
-// follow the tangents, and figures of who is far, posed by the vertex shader. With a FILE it keeps the last picture
-// (PPM).
+// A host with its own OpenGL ES renderer (gles_host.h). A near person has muscles and bones, with fibres along the
+// tangents; far people are figures posed by the vertex shader. With a FILE it writes the last picture (PPM).
 
 #include "demo/examples/gles_host.h"
 
@@ -61,7 +60,7 @@ int main(int arguments, char** argument) {
   need(simulation.spawn(crowd, people));
   const std::span far = std::span(people).subspan(1);
 
-  // Once: what is uploaded and stays.
+  // Uploaded once.
   own::open_context();
   const mobil::Person person = *simulation.person(people[0]);
   std::vector<mobil::SurfaceMuscle> muscles;
@@ -83,7 +82,7 @@ int main(int arguments, char** argument) {
     const double ahead_s = simulation.advance(1.0 / 45).alpha * simulation.tick_s();
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 
-    const std::span<std::byte> out = body.map();  // vertices go straight into it
+    const std::span<std::byte> out = body.map();  // vertices are written directly into it
     const auto stream = [&](std::size_t offset) {
       return mobil::VertexStream{out.subspan(offset), sizeof(NearVertex)};
     };

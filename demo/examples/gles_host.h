@@ -1,6 +1,5 @@
 #pragma once
-// What a host with a renderer has anyway: a context, shader programs, buffers, a picture of 960 by 540. It knows
-// nothing of mobil.
+// A host's renderer, independent of mobil: a context, shader programs, buffers, and a picture of 960 by 540 pixels.
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -24,7 +23,7 @@ constexpr int wide = 960, high = 540;
   std::exit(2);
 }
 
-/// OpenGL ES 3 without a window, drawing into a picture of its own.
+/// Opens an OpenGL ES 3 context without a window, which draws into its own picture.
 inline void open_context() {
   const auto of_platform =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
@@ -36,7 +35,7 @@ inline void open_context() {
   EGLint found = 0;
   if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE ||
       eglChooseConfig(display, wanted, &config, 1, &found) == EGL_FALSE || found == 0)
-    give_up("no OpenGL ES 3 driver; apt-get install libegl1 libgl1-mesa-dri has one");
+    give_up("no OpenGL ES 3 driver; install one: apt-get install libegl1 libgl1-mesa-dri");
   eglBindAPI(EGL_OPENGL_ES_API);
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, version);
   if (context == EGL_NO_CONTEXT || eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE)
@@ -78,7 +77,7 @@ vec4 seen(vec3 at) { vec3 from = at - vec3(0.5, 0.95, -1.9); return vec4(-1.2 * 
   glLinkProgram(program);
   GLint linked = GL_FALSE;
   glGetProgramiv(program, GL_LINK_STATUS, &linked);
-  if (linked == GL_FALSE) give_up("the shaders do not fit together");
+  if (linked == GL_FALSE) give_up("the shaders cannot be linked");
   return program;
 }
 
@@ -90,16 +89,16 @@ inline GLuint make_buffer(GLenum target, std::size_t bytes, const void* data) {
   return buffer;
 }
 
-/// Where GL takes an offset into a buffer for a pointer.
+/// Converts an offset into a buffer to the pointer that GL requires.
 inline const void* at_byte(std::size_t offset) {
   return reinterpret_cast<const void*>(offset);  // NOLINT(performance-no-int-to-ptr)
 }
 
-/// Vertices of several numbers each, and triangles.
+/// Vertices with several numbers each, and triangles.
 class Mesh {
  public:
-  /// `vertex` null: to be written every frame. `inputs`: numbers of each input of the vertex shader, in the order of
-  /// their locations.
+  /// `inputs`: number of components of each vertex shader input, by location. `vertex`: null if vertices are written
+  /// every frame.
   Mesh(GLuint program, std::vector<int> inputs, std::size_t vertices, const void* vertex,
        std::span<const std::uint32_t> index)
       : program_(program), inputs_(std::move(inputs)), indices_(static_cast<GLsizei>(index.size())) {
@@ -108,7 +107,7 @@ class Mesh {
     vertices_ = make_buffer(GL_ARRAY_BUFFER, bytes_, vertex);
     triangles_ = make_buffer(GL_ELEMENT_ARRAY_BUFFER, index.size_bytes(), index.data());
   }
-  /// The vertices as memory to be written, until they are drawn.
+  /// Maps the vertices for writing, until `unmap`.
   std::span<std::byte> map() {
     glBindBuffer(GL_ARRAY_BUFFER, vertices_);
     void* at = glMapBufferRange(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(bytes_),
@@ -144,7 +143,7 @@ class Mesh {
   GLsizei indices_;
 };
 
-/// A table of four numbers a cell, which the vertex shader looks up.
+/// Makes a table with four numbers per cell, which the vertex shader reads.
 inline void make_table(std::size_t columns, std::size_t rows) {
   GLuint table = 0;
   glGenTextures(1, &table);
@@ -158,12 +157,12 @@ inline void fill_table(std::size_t columns, std::size_t rows, const void* number
                   numbers);
 }
 
-/// Writes what was drawn as a PPM file, if there is a path; the part of the picture that is not background.
+/// Writes the picture as a PPM file if there is a path. Returns the fraction of the picture that is not background.
 inline double save_picture(const char* path) {
   std::vector<unsigned char> pixel(4 * wide * high), row(3 * wide);
   glReadPixels(0, 0, wide, high, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
   std::FILE* file = path == nullptr ? nullptr : std::fopen(path, "wb");
-  if (path != nullptr && file == nullptr) give_up("the picture cannot be written there");
+  if (path != nullptr && file == nullptr) give_up("the picture cannot be written");
   if (file != nullptr) std::fprintf(file, "P6\n%d %d\n255\n", wide, high);
   std::size_t drawn = 0;
   for (std::size_t y = high; y-- > 0;) {

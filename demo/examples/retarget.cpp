@@ -1,5 +1,5 @@
-// A game's own animation, here squats, on a skeleton of 14 bones (centimetres, z up, left-handed, x ahead), drives a
-// person whose muscles follow.
+// A game's own animation, here squats, on a skeleton of 14 bones (centimetres, z up, left-handed, x forward) drives a
+// person with muscles.
 
 #include <array>
 #include <cmath>
@@ -31,15 +31,15 @@ enum Bone {
 };
 using Bones = std::array<mobil::BonePlace, bone_count>;
 
-/// Turned about the axis to the right, y: what is below goes back.
+/// Returns a rotation about y, the axis to the right. A positive angle moves points below the axis back.
 mobil::Quat<float> pitched(float angle_rad) {
   return {0, std::sin(angle_rad / 2), 0, std::cos(angle_rad / 2)};
 }
 
-/// What the game's animation does: hips, knees and ankles bent by so much (rad), the chest forward.
+/// Returns a pose of the game's animation with these angles of hips, knees and chest, rad. The feet stay level.
 Bones squat(float hip, float knee, float lean) {
   constexpr float thigh_cm = 44, calf_cm = 44, ankle_cm = 7;
-  const float shank = knee - hip;  // back from upright
+  const float shank = knee - hip;  // tilt from upright
   Bones bones;
   const float ahead = calf_cm * std::sin(shank), up = ankle_cm + calf_cm * std::cos(shank);
   const float hip_x = ahead - thigh_cm * std::sin(hip), hip_z = up + thigh_cm * std::cos(hip);
@@ -106,6 +106,6 @@ int main() {
                   57.3 * static_cast<double>(knee), 1e3 * static_cast<double>(line.length_m - line.rest_length_m),
                   static_cast<double>(up_n));
   }
-  // Knees bend, their extensors lengthen, and to come up takes more than the weight.
+  // Knees bend, knee extensors lengthen, and standing up takes more force than the weight.
   return deepest_rad > 1.5F && longest_m > 0.02F && max_n > 80 * 9.81F ? 0 : 1;
 }

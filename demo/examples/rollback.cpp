@@ -1,5 +1,5 @@
-// Rollback: two peers simulate the same two hundred people. A peer learns of an input six ticks late, goes back, runs
-// on with it and has the other's bits again. A third one joins in the middle. The game's own component is part of it.
+// Rollback: two peers simulate the same two hundred people. One receives inputs six ticks late, repeats the ticks and
+// then has the other's state bit for bit. A third peer joins with a snapshot, which includes the game's own component.
 
 #include <cmath>
 #include <cstdio>
@@ -18,7 +18,7 @@ struct Score {
 
 constexpr std::uint32_t late_ticks = 6;
 
-/// Where somebody is asked to turn in that tick; every twentieth tick.
+/// Applies the input of a tick: every twentieth tick a person turns.
 void apply_input(mobil::Simulation& simulation, const std::vector<mobil::Entity>& people, std::uint32_t tick) {
   if (tick % 20 == 5) (void)simulation.turn_to(people[tick * 7 % people.size()], std::sin(static_cast<float>(tick)));
 }
@@ -44,7 +44,7 @@ int main() {
     server.tick();
     truth.push_back(server.state_hash());
     if (!window.keep(client)) return 2;
-    client.tick();  // without the input, which is still on its way
+    client.tick();  // without the input, which has not arrived
     if (tick % 20 != 5 + late_ticks) continue;
     if (const auto done = window.back(client, late_ticks + 1); !done) {
       std::fprintf(stderr, "%s\n", done.error().message.c_str());
@@ -61,7 +61,7 @@ int main() {
   std::vector<std::byte> bytes(server.snapshot_bytes());
   if (!server.save(bytes) || !joiner.restore(bytes)) return 2;
   const bool joined = joiner.state_hash() == server.state_hash() && joiner.get<Score>(people[3])->points == 7;
-  std::printf("%d rollbacks of %u ticks, %d desyncs; who joined has %s\n", rollbacks, late_ticks + 1, desyncs,
-              joined ? "the same state" : "another state");
+  std::printf("%d rollbacks of %u ticks, %d desyncs; the joined peer has %s\n", rollbacks, late_ticks + 1, desyncs,
+              joined ? "the same state" : "a different state");
   return rollbacks > 5 && desyncs == 0 && joined ? 0 : 1;
 }

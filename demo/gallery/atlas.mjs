@@ -1,4 +1,4 @@
-// A picture of a skin's texture coordinates: checks on the first person of a crowd, from ahead and from behind.
+// A picture of a skin's texture coordinates: checks on the first person of a crowd, from the front and from behind.
 //
 //   mobil crowd --people 2 --seconds 0.5 --export crowd.glb --export-seconds 0.2
 //   node demo/gallery/atlas.mjs MODULES crowd.glb assets/surfaces/atlas.jpg

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Four builds at one instant of a walk, dressed, side by side: makes demo/gallery/builds.png.
+# Makes demo/gallery/builds.png: four builds at one instant of a walk, dressed, side by side.
 # Usage: demo/gallery/builds.sh PROGRAM
 set -euo pipefail
 program=$(realpath "$1")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A film of two minutes, of all that mobil shows: a quarter of an hour of work without a graphics card.
+# A film of two minutes that shows all of mobil. Making it takes 15 minutes without a graphics card.
 # Usage: demo/gallery/film.sh PROGRAM [FILM.mp4]; FILM.mp4 has English subtitles as a track of their own.
 set -euo pipefail
 program=$(realpath "$1") gallery=$(cd "$(dirname "$0")" && pwd)
@@ -9,7 +9,7 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 parts=() begin_s=0 number=0
 
-# part SECONDS FILE SUBTITLE: the next one, at 1280 x 720 and 30 pictures a second.
+# part SECONDS FILE SUBTITLE: appends a part, at 1280 x 720 and 30 pictures a second.
 part() {
   local name
   name=$(printf 'part_%02d.mp4' "$number")

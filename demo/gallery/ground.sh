@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Up and down stairs, up and down a slope, dressed: makes demo/gallery/ground.jpg.
+# Makes demo/gallery/ground.jpg: up and down stairs, up and down a slope, dressed.
 # Usage: demo/gallery/ground.sh PROGRAM
 set -euo pipefail
 program=$(realpath "$1")

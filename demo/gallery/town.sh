@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The town from above: makes demo/gallery/town.jpg.
+# Makes demo/gallery/town.jpg: the town from above.
 # Usage: demo/gallery/town.sh PROGRAM
 set -euo pipefail
 program=$(realpath "$1")

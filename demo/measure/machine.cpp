@@ -18,16 +18,16 @@ const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
-// Enough chains that no multiply-add waits for another: latency times units is 8 to 16 on the processors of this day.
-// Two more registers hold the factors; x86 before AVX-512 (better targets have lower numbers) has sixteen in all.
-// Named one by one, as compilers keep an array of registers in memory.
+// Enough independent chains to hide the latency of a multiply-add: latency times units is 8 to 16 on current
+// processors. Two more registers hold the factors; x86 before AVX-512 (better targets have lower numbers) has 16
+// registers. The accumulators are separate variables because compilers keep an array of registers in memory.
 #if HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3
 #define MOBIL_CHAINS(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11)
 #else
 #define MOBIL_CHAINS(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)
 #endif
 
-/// `rounds` multiply-adds in each lane of each chain; how many operations that were.
+/// Computes `rounds` multiply-adds in each lane of each chain. Returns the number of operations.
 HWY_NOINLINE double multiply_add(std::size_t rounds, float factor, float summand, float* out) {
   const FloatTag tag;
   const auto m = hn::Set(tag, factor), a = hn::Set(tag, summand);
@@ -49,7 +49,7 @@ HWY_NOINLINE double multiply_add(std::size_t rounds, float factor, float summand
   return 2.0 * static_cast<double>(rounds * chains * hn::Lanes(tag));
 }
 
-/// a = b + s·c; the length is a multiple of 64, the arrays are aligned to 64 bytes.
+/// Computes a = b + s·c. The length must be a multiple of 64, the arrays aligned to 64 bytes.
 HWY_NOINLINE void triad(float* HWY_RESTRICT a, const float* HWY_RESTRICT b, const float* HWY_RESTRICT c, float s,
                         std::size_t length) {
   const FloatTag tag;
@@ -84,9 +84,9 @@ HWY_EXPORT(target_name);
 HWY_EXPORT(multiply_add);
 HWY_EXPORT(triad);
 
-constexpr std::size_t triads = 10;  // over the whole of the arrays
+constexpr std::size_t triads = 10;  // passes over the arrays
 
-/// What a text file says after the colon of the first line that begins so.
+/// Returns the text after the colon in the first line of a file that starts with `beginning`.
 std::string line_of(const char* file, const std::string& beginning) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
@@ -97,7 +97,7 @@ std::string line_of(const char* file, const std::string& beginning) {
   return {};
 }
 
-/// What the first core has of one level, its own or shared, for data; 0 where the system does not say.
+/// Returns the size of the first core's data cache of one level, private or shared; 0 if the system does not report it.
 std::size_t cache_bytes(const std::string& level) {
   for (int i = 0; i < 8; ++i) {
     const auto about = [folder = "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(i)](const char* what) {
@@ -114,7 +114,7 @@ std::size_t cache_bytes(const std::string& level) {
   return 0;
 }
 
-/// Additions that wait for each other, one a cycle on every processor that we know.
+/// Measures the clock by a chain of dependent additions, one per cycle on all known processors.
 double measure_clock_ghz() {
   constexpr int rounds = 100'000, chain = 16;
   const Measured time = measure(bench_repeats, [] {
@@ -123,7 +123,7 @@ double measure_clock_ghz() {
     for (int i = 0; i < rounds; ++i) {
       for (int k = 0; k < chain; ++k) {
         x += y;
-        asm volatile("" : "+r"(x));  // else the sixteen would become one
+        asm volatile("" : "+r"(x));  // keeps the compiler from merging the sixteen
       }
     }
   });
@@ -131,7 +131,7 @@ double measure_clock_ghz() {
 }
 
 void measure_peak(Machine& machine) {
-  volatile float factor = 0.999F, summand = 0.001F;  // unknown to the compiler; every chain tends to 1
+  volatile float factor = 0.999F, summand = 0.001F;  // hidden from the compiler; every chain converges to 1
   volatile float kept = 0;
   constexpr std::size_t rounds = 200'000;  // 1 to 3 ms
   double operations = 0;
@@ -144,8 +144,8 @@ void measure_peak(Machine& machine) {
   machine.fma_peak_median_gflops = operations / time.median_s * 1e-9;
 }
 
-/// Best and median rate (GB/s) of `threads` threads that each run over a part of `length` numbers an array. Alone, a
-/// thread is timed piece by piece, so that some pieces fall within its turn on a busy machine.
+/// Returns best and median rate (GB/s) of `threads` threads that share arrays of `length` numbers. A single thread is
+/// timed in pieces, so that on a busy machine some pieces run without interruption.
 std::pair<double, double> triad_gbps(unsigned threads, std::size_t length) {
   const std::size_t pieces = threads == 1 ? 8 : 1;
   const std::size_t piece = length / threads / pieces / 64 * 64, part = piece * pieces;
@@ -157,7 +157,7 @@ std::pair<double, double> triad_gbps(unsigned threads, std::size_t length) {
     rates.push_back(3.0 * sizeof(float) * static_cast<double>(piece * threads) / (wall_now_s() - start_s) * 1e-9);
   });
   const auto work = [&] {
-    // each thread's own, and touched by it first, so that they lie in its memory
+    // allocated and first touched by each thread, so that they are in its local memory
     const auto a = hwy::AllocateAligned<float>(part), b = hwy::AllocateAligned<float>(part),
                c = hwy::AllocateAligned<float>(part);
     std::fill_n(a.get(), part, 0.0F);

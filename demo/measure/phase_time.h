@@ -1,5 +1,5 @@
 #pragma once
-// What one phase of a tick took.
+// Time of one phase of a tick.
 
 #include <string_view>
 
@@ -8,7 +8,7 @@
 
 namespace mobil {
 
-/// Seconds of the last tick that the phase of that name took, before the systems; 0 where there is none.
+/// Returns the seconds that a phase before the systems took in the last tick; 0 if no phase has that name.
 inline double phase_s(const Simulation& simulation, std::string_view name) {
   for (const TimedPhase& one : simulation.schedule().before())
     if (one.phase.name == name) return one.last_seconds;

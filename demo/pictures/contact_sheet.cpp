@@ -10,7 +10,7 @@ namespace {
 
 constexpr int white = 255;
 
-/// Copies a picture onto a sheet that holds it whole, over what is there.
+/// Blends a picture over a sheet, which must contain all of it.
 void lay(const Image& picture, Image& sheet, int left, int top) {
   for (int y = 0; y < picture.height; ++y) {
     const std::uint8_t* from = picture.pixel(0, y);

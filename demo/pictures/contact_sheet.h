@@ -1,5 +1,5 @@
 #pragma once
-// Many pictures on one sheet.
+// Arranges pictures on one sheet.
 
 #include <span>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace mobil {
 
-/// Rows of pictures from the top, each row from the left, on white: every row as high as its highest picture, every
-/// column as wide as its widest, `gap_px` between them and round the whole. Pictures stand in the middle of their
-/// cells; empty ones leave theirs white, and rows may be of different lengths. What they do not cover wholly shows the
-/// white. Without any picture the sheet is empty.
+/// Returns a white sheet with rows of pictures from the top left, and gaps of `gap_px` between and around them. Each
+/// row is as high as its highest picture, each column as wide as its widest. Pictures are centred in their cells; an
+/// empty picture leaves its cell white. Rows can differ in length. Transparent pixels show the white. Without pictures
+/// the sheet is empty.
 Image contact_sheet(std::span<const std::vector<Image>> rows, int gap_px);
 
 }  // namespace mobil

@@ -6,7 +6,7 @@
 
 namespace mobil {
 
-/// Every 2 % from heel strike (0) to the next (100 %). The last point repeats the first.
+/// Number of points, every 2 % from heel strike (0) to the next (100 %). The last point repeats the first.
 inline constexpr std::size_t cycle_points = 51;
 using CycleCurve = std::array<double, cycle_points>;
 

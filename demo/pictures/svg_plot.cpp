@@ -18,7 +18,7 @@ constexpr double margin = 12, title_height = 26, legend_height = 20, panel_title
                  axis_label_height = 16, y_label_width = 18, y_tick_width = 36, gap = 22, footnote_height = 18,
                  swatch_width = 18;
 
-/// About what it takes at the usual size, in pixels; bytes that continue a letter take none.
+/// Estimates the width of a text at the default size, pixels. UTF-8 continuation bytes have no width.
 double text_width(std::string_view text) {
   return 6.1 * static_cast<double>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -33,7 +33,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// A range that grows with what it has to hold.
+/// A range that is extended by values.
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   bool logarithmic = false;
@@ -50,7 +50,7 @@ struct Range {
   double scaled(double value) const { return logarithmic ? std::log10(value) : value; }
 };
 
-/// Never empty, with some air round the data; fixed ends stay as they are.
+/// Returns a range that is not empty, with a margin `air` around the data. Fixed ends are kept.
 Range settled(Range range, const PlotAxis& axis, double air) {
   if (!(range.low <= range.high)) range.low = range.high = 1;
   if (range.low == range.high) {
@@ -86,7 +86,7 @@ void include_y(const PlotPanel& panel, Range& range) {
   for (const auto& points : panel.points) range.include(points.y);
 }
 
-/// A panel's place on the page and the way from data to pixels.
+/// A panel's place on the page, and the mapping from data to pixels.
 struct Frame {
   double left, top, width, height;
   Range x, y;
@@ -115,7 +115,7 @@ struct Page {
   }
 };
 
-/// As short as it can be said.
+/// Returns the label of a tick, as short as possible.
 std::string tick_text(double value, bool logarithmic) {
   if (logarithmic && value != 0 && (std::abs(value) >= 1e5 || std::abs(value) < 1e-3)) {
     return fmt::format("{:.0e}", value);
@@ -188,7 +188,7 @@ void draw_line(Page& page, const PlotLine& line, const Frame& frame) {
            line.width, line.dashed ? R"( stroke-dasharray="4 3")" : "");
 }
 
-/// What is drawn already: from, to and the line that a text there would stand on.
+/// An occupied place: left and right end, and the baseline of a text there.
 struct TakenPlace {
   double left, right, y;
 
@@ -198,12 +198,12 @@ struct TakenPlace {
   }
 };
 
-/// Beside the point where nothing is, within the frame: above or below it, right or left; first of all above.
+/// Draws a text next to its point, above or below it, right or left. Uses the first free place within the frame.
 void draw_point_text(Page& page, const Frame& frame, double x, double y, const std::string& text,
                      const std::string& colour, std::vector<TakenPlace>& taken) {
   constexpr double size = 10;
   const bool to_the_left = x > frame.left + 0.7 * frame.width;
-  const double width = text_width(text) * size / 11;  // text_width is of 11 pixels
+  const double width = text_width(text) * size / 11;  // text_width is for 11 pixels
   const auto beside = [&](bool left, double down) {
     return left ? TakenPlace{x - 6 - width, x - 6, y + down} : TakenPlace{x + 6, x + 6 + width, y + down};
   };
@@ -219,7 +219,7 @@ void draw_point_text(Page& page, const Frame& frame, double x, double y, const s
   auto found = std::ranges::find_if(places, is_free);
   if (found == places.end()) found = std::ranges::find_if(places, is_within);
   const TakenPlace& place = found != places.end() ? *found : places.front();
-  const bool ends_here = place.right < x;  // widths are an estimate: a text left of its point ends beside it
+  const bool ends_here = place.right < x;  // aligned at the point, because widths are estimates
   page.text(ends_here ? place.right : place.left, place.y, ends_here ? "end" : "start", text, colour, size);
   taken.push_back(place);
 }
@@ -249,7 +249,7 @@ struct LegendEntry {
   double opacity;
 };
 
-/// Adds what a panel has to name; a label counts once, with the strongest of its colours.
+/// Adds the legend entries of a panel. A label is added once, with its highest opacity.
 void add_legend(const PlotPanel& panel, std::vector<LegendEntry>& entries) {
   const auto add = [&](Swatch swatch, const std::string& label, const std::string& colour, double opacity) {
     if (label.empty()) return;
@@ -282,7 +282,7 @@ void draw_entry(Page& page, const LegendEntry& entry, double x, double y) {
   page.text(x + swatch_width + 5, y + 4, "start", entry.label);
 }
 
-/// Returns how many rows it takes; draws on `page` unless that is null.
+/// Draws the legend on `page`, unless null. Returns its number of rows.
 std::size_t draw_legend(Page* page, const std::vector<LegendEntry>& entries, double top, double width) {
   if (entries.empty()) return 0;
   std::size_t rows = 1;
@@ -298,7 +298,7 @@ std::size_t draw_legend(Page* page, const std::vector<LegendEntry>& entries, dou
   return rows;
 }
 
-/// To the right end of a panel, over it.
+/// Draws a panel's own legend above it, aligned to the right.
 void draw_own_legend(Page& page, const PlotPanel& panel, const Frame& frame) {
   std::vector<LegendEntry> entries;
   add_legend(panel, entries);
@@ -335,13 +335,13 @@ std::span<const PlotPanel> row_of(const PlotFigure& figure, std::size_t row, std
   return std::span(figure.panels).subspan(first, std::min(columns, figure.panels.size() - first));
 }
 
-/// Titles take space in a row that has one.
+/// Returns the height above the panels of a row, 0 without titles and own legends.
 double space_over(const PlotFigure& figure, std::size_t row, std::size_t columns) {
   const auto named = [](const PlotPanel& panel) { return !panel.title.empty() || panel.own_legend; };
   return std::ranges::any_of(row_of(figure, row, columns), named) ? panel_title_height : 0;
 }
 
-/// With titles, ticks and labels, and air to the next.
+/// Returns the height of a row with titles, ticks, labels and the gap to the next.
 double row_height(const PlotFigure& figure, std::size_t row, std::size_t columns) {
   const auto labelled = [](const PlotPanel& panel) { return !panel.x.label.empty(); };
   const bool label = std::ranges::any_of(row_of(figure, row, columns), labelled);

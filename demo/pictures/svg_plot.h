@@ -1,5 +1,5 @@
 #pragma once
-// Plots as SVG: a grid of panels with lines, bands and points. Data in, text out.
+// Plots as SVG text: a grid of panels with lines, bands and points.
 
 #include <cstddef>
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace mobil {
 
-/// A line through points; a point that is not finite (or not positive on a logarithmic axis) breaks it. `label`: in the
-/// legend, once for all series of that name in a figure; empty for none. `colour`: as CSS writes it.
+/// A line through points, broken at points that are not finite (or not positive on a logarithmic axis). `label`: entry
+/// in the legend, once for all series of that name in a figure; empty for none. `colour`: in CSS notation.
 struct PlotLine {
   std::vector<double> x, y;
   std::string colour, label;
@@ -24,21 +24,21 @@ struct PlotBand {
   double opacity = 0.22;
 };
 
-/// Single points. `text`: written beside each, empty for none.
+/// Single points. `text`: label next to each point, empty for none.
 struct PlotPoints {
   std::vector<double> x, y;
   std::vector<std::string> text;
   std::string colour, label;
 };
 
-/// `low`, `high`: the data's own range where absent. Put the unit into the label.
+/// An axis. `low`, `high`: if absent, those of the data. The label should include the unit.
 struct PlotAxis {
   std::string label;
   std::optional<double> low{}, high{};
   bool logarithmic = false;
 };
 
-/// `own_legend`: its series are named beside its title and not at the head of the figure.
+/// A panel. `own_legend`: its legend is next to its title instead of at the top of the figure.
 struct PlotPanel {
   std::string title;
   PlotAxis x, y;
@@ -48,8 +48,8 @@ struct PlotPanel {
   bool own_legend = false;
 };
 
-/// Panels fill rows of `columns` from the top left. `shared_y`: one vertical range a row, its axis that of the left
-/// panel and labelled there alone; for rows of one quantity. Sizes are pixels and do not count titles and labels.
+/// Panels in rows of `columns`, from the top left. `shared_y`: the panels of a row show one quantity, with one vertical
+/// range and the left panel's axis, the only one with labels. Sizes are in pixels, without titles and labels.
 struct PlotFigure {
   std::string title{}, footnote{};
   std::size_t columns = 1;
@@ -58,11 +58,11 @@ struct PlotFigure {
   std::vector<PlotPanel> panels{};
 };
 
-/// The whole SVG file. Vectors of one series that differ in length are cut to the shortest.
+/// Returns the SVG file. Vectors of one series that differ in length are cut to the shortest.
 std::string svg(const PlotFigure& figure);
 
-/// Where an axis from `low` to `high` has its ticks: at 1, 2 or 5 times powers of ten, some `count` of them; on a
-/// logarithmic axis at powers of ten, or at 1, 2 and 5 times them where it spans less than three.
+/// Returns the ticks of an axis from `low` to `high`: about `count` multiples of 1, 2 or 5 times a power of ten. On a
+/// logarithmic axis they are powers of ten, or 1, 2 and 5 times them if it spans less than three decades.
 std::vector<double> plot_ticks(double low, double high, bool logarithmic, int count = 5);
 
 }  // namespace mobil

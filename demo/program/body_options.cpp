@@ -18,10 +18,10 @@ Result<Biotype> read_biotype(const std::string& text) {
 std::vector<Option> body_options(BodyText& text) {
   return {
       {"--height", &text.height, "Stature, 1.2m to 2.2m", "Body"},
-      {"--mass", &text.mass, "Body mass, 30kg to 200kg and what a real body of that height has", "Body"},
+      {"--mass", &text.mass, "Body mass, 30kg to 200kg, in the range of real bodies of that height", "Body"},
       {"--biotype", &text.biotype, "Heath-Carter endo-meso-ecto, like 2-5-3", "Body"},
       {"--constitution", &text.constitution, "thin, average, athletic or heavy", "Body", words_of(constitution_name)},
-      {"--sex", &text.sex, "man or woman: whose girths and face the skin has", "Body", words_of(sex_name)}};
+      {"--sex", &text.sex, "man or woman, for the girths and the face of the skin", "Body", words_of(sex_name)}};
 }
 
 Result<BodyRequest> read_body_options(const BodyText& text) {

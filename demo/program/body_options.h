@@ -1,5 +1,5 @@
 #pragma once
-// The options that every subcommand about one person shares: what body is asked for.
+// Options of the body, shared by all subcommands about one person.
 
 #include <array>
 #include <string_view>
@@ -13,15 +13,15 @@ namespace mobil {
 inline constexpr std::array<std::string_view, 4> constitution_name = {"thin", "average", "athletic", "heavy"};
 inline constexpr std::array<std::string_view, 2> sex_name = {"man", "woman"};
 
-/// As text, as the command line hands it over.
+/// Options as text from the command line.
 struct BodyText {
   std::string height = "1.75", mass = "75", biotype, constitution = "average", sex = "man";
 };
 
 std::vector<Option> body_options(BodyText& text);
 
-/// Reads and checks them. Errors name the option, the valid range and the mend; whether the parts go together is for
-/// make_body to say.
+/// Reads and checks the options. Errors name the option, the valid range and the remedy. make_body checks the
+/// combination.
 Result<BodyRequest> read_body_options(const BodyText& text);
 
 }  // namespace mobil

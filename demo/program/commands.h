@@ -9,23 +9,23 @@
 
 namespace mobil {
 
-/// 0; or 2, and the error in one line on stderr: "mobil command: …".
+/// Returns 0 on success. Otherwise prints the error in one line on stderr, after "mobil command", and returns 2.
 int exit_status_of(std::string_view command, const Result<void>& done);
 
-/// The line alone, and `status`.
+/// Prints such a line and returns `status`.
 int complain(std::string_view command, std::string_view message, int status = 2);
 
-/// Fails where the file that `option` names could not be written, empty names included: so that nobody waits minutes
-/// for results that then cannot be.
+/// Checks before minutes of work that the file of `option` can be written. Errors: a path that cannot be written, an
+/// empty name.
 Result<void> check_result_place(std::string_view option, const std::filesystem::path& file);
 
-/// "written FILE" on stdout, unless the program is to be quiet.
+/// Prints "written FILE" on stdout, unless --quiet is set.
 void say_written(const std::filesystem::path& file);
 
-/// The same in words of one's own: "look at FOLDER: …".
+/// Prints a line about results on stdout, such as "look at FOLDER", unless --quiet is set.
 void say_where(std::string_view line);
 
-/// Writes a file of results that `option` names, and says so on stdout. Errors begin with the option.
+/// Writes the results file of `option` and prints its name on stdout. Errors begin with the option.
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text);
 
 Subcommand crowd_command();
@@ -49,7 +49,7 @@ Subcommand fit_shapes_command();
 Subcommand completion_command();
 Subcommand man_command();
 
-/// Those of `mobil`, `mobil-crowd` and `mobil-lab`.
+/// Return the subcommands of `mobil`, `mobil-crowd` and `mobil-lab`.
 std::vector<Subcommand> walk_commands();
 std::vector<Subcommand> crowd_commands();
 std::vector<Subcommand> lab_commands();

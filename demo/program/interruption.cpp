@@ -13,11 +13,11 @@ void handle_interruption() {
   sigemptyset(&signals);
   for (const int s : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction now {};
-    if (sigaction(s, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;  // as under nohup
+    if (sigaction(s, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;  // ignored, as under nohup
     sigaddset(&signals, s);
   }
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // all threads that are started from here on inherit that
-  // A thread of its own instead of a handler, because removing folders allocates.
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // inherited by all threads started later
+  // A thread instead of a signal handler, because removing folders allocates.
   std::thread([] {
     int signal = 0;
     if (sigwait(&signals, &signal) != 0) return;

@@ -1,6 +1,6 @@
 #pragma once
-// JSON to be written: members in the order in which they were set. The library that spells it out stands in json.cpp
-// alone, for its header takes the compiler four seconds.
+// JSON for writing, with members in the order in which they were set. Only json.cpp includes the JSON library, because
+// its header takes four seconds to compile.
 
 #include <concepts>
 #include <cstddef>
@@ -43,14 +43,14 @@ class Json {
   static Json array();
   static Json object();
 
-  /// The member of that name, made where there is none; of null, which becomes an object, or of an object.
+  /// Returns the member of that name, and adds it if missing. Null becomes an object.
   Json& operator[](std::string_view name);
-  /// To null, which becomes an array, or to an array. The item stays where it is until the next is added.
+  /// Appends to an array; null becomes an array. The returned reference is valid until the next item is added.
   Json& push_back(Json item);
   /// Sets every member of `object`.
   void update(const Json& object);
 
-  /// UTF-8, so many spaces a level; numbers as the shortest that reads the same, or almost; not-a-number is null.
+  /// Returns UTF-8, `indent` spaces per level. Numbers have about the shortest form that reads the same; NaN is null.
   std::string dump(int indent) const;
 
  private:

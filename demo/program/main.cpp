@@ -1,6 +1,6 @@
-// `mobil`, `mobil-crowd` and `mobil-lab`: the face of the library for people and for scripts.
-// Exit status: 0 done, or nobody reads what is printed any more (`| head`); 1 ran but did not hold, or standard output
-// could not be written; 2 bad usage or input (one line on stderr says what and how to mend it).
+// `mobil`, `mobil-crowd` and `mobil-lab`, the command-line interface of the library.
+// Exit status: 0 done, or the reader of stdout has gone (`| head`); 1 a bound did not hold, or standard output could
+// not be written; 2 bad usage or input (one line on stderr with cause and remedy).
 
 #include <poll.h>
 #include <unistd.h>
@@ -12,13 +12,13 @@
 
 namespace {
 
-/// Of a pipe: the other end is closed.
+/// Returns true if stdout is a pipe whose other end is closed.
 bool nobody_reads_stdout() {
   pollfd out{STDOUT_FILENO, POLLOUT, 0};
   return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
 }
 
-/// What was printed may still be in a buffer: only now is it known whether it reached anybody.
+/// Flushes stdout, which can fail for output that is still buffered, and returns the exit status.
 int finish(int status) {
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (written || status != 0 || nobody_reads_stdout()) return status;

@@ -1,6 +1,6 @@
 #pragma once
-// Errors that end a measurement: thrown where they appear and caught by the subcommand, which reports them. Functions
-// of the laboratory without a Result throw Stopped for the errors that their comments name.
+// Errors that end a measurement. They are thrown where they occur and caught by the subcommand, which reports them.
+// Functions of demo/lab without a Result throw Stopped for the errors listed in their comments.
 
 #include <stdexcept>
 #include <type_traits>
@@ -10,19 +10,19 @@
 
 namespace mobil {
 
-/// A measurement that cannot continue, and why.
+/// The reason why a measurement cannot continue.
 struct Stopped : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The value of `result`. Throws Stopped with its error's message.
+/// Returns the value of `result`, or throws Stopped with its error message.
 template <class T>
 T must(Result<T> result) {
   if (!result) throw Stopped(result.error().message);
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// The result of `work()`, or the error of what stopped it.
+/// Returns the result of `work()`, or the error if it throws Stopped.
 template <class Work>
 auto attempt(Work&& work) -> Result<decltype(work())> {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-// What commands share that run the entries of a list, `mobil bench` and `mobil robustness`: choosing them by name.
+// Choice of list entries by name, for commands such as `mobil bench` and `mobil robustness`.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +13,7 @@
 
 namespace mobil {
 
-/// The names of entries, each of which has a `name`.
+/// Returns the `name` of each entry.
 template <class Entries>
 std::vector<std::string> names_of(const Entries& entries) {
   std::vector<std::string> names;
@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const Entries& entries) {
   return names;
 }
 
-/// Those that were named, in the list's order; all where none was. Fails on an unknown name. `kind` is for the message.
+/// Returns the named entries in the list's order, or all if `names` is empty. Fails on an unknown name of that `kind`.
 template <class Entries>
 Result<std::vector<typename Entries::value_type>> choose_named(const Entries& entries,
                                                                const std::vector<std::string>& names,
@@ -31,7 +31,7 @@ Result<std::vector<typename Entries::value_type>> choose_named(const Entries& en
   for (const std::string& name : names) {
     if (std::ranges::find(entries, name, &Entry::name) == entries.end()) {
       const auto known = names_of(entries);
-      return fail(fmt::format("there is no {} '{}'{}; there are: {}", kind, name, suggestion(name, known),
+      return fail(fmt::format("there is no {} '{}'{}; choose from: {}", kind, name, suggestion(name, known),
                               fmt::join(known, ", ")));
     }
   }
@@ -42,13 +42,13 @@ Result<std::vector<typename Entries::value_type>> choose_named(const Entries& en
   return chosen;
 }
 
-/// The arguments that name entries. `what` is done with them: "measure".
+/// Returns the option for arguments that name entries. `what` is the verb of its help, such as "measure".
 template <class Entries>
 Option named_option(const Entries& entries, std::vector<std::string>& names, std::string_view what) {
   auto known = names_of(entries);
   return {.name = "name",
           .target = &names,
-          .help = fmt::format("What to {}, of {}; all by default", what, fmt::join(known, ", ")),
+          .help = fmt::format("Entries to {}, from {}; default: all", what, fmt::join(known, ", ")),
           .words = std::move(known)};
 }
 

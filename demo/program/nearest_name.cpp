@@ -10,9 +10,9 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t shortest_part = 3;  // letters; less is in too many names
+constexpr std::size_t shortest_part = 3;  // letters; shorter parts occur in too many names
 
-/// Levenshtein's: letters to change, put in or leave out.
+/// Returns the Levenshtein distance: letters to change, insert or delete.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -36,7 +36,7 @@ std::string suggestion(std::string_view given, std::span<const std::string> know
   for (const auto& name : known) {
     const std::size_t needed = edits(given, name);
     const bool part = given.size() >= shortest_part && name.find(given) != std::string::npos;
-    const std::pair cost{!part, needed};  // names that hold it before all others
+    const std::pair cost{!part, needed};  // names that contain it come first
     if ((!part && 2 * needed > given.size()) || (nearest != nullptr && cost >= best)) continue;
     nearest = &name;
     best = cost;

@@ -1,5 +1,5 @@
 #pragma once
-// What somebody may have meant who wrote a name that is not there.
+// Suggestions for unknown names.
 
 #include <span>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace mobil {
 
-/// " (did you mean X?)" with the known name that takes the fewest edits, names that hold the given one first; empty
-/// where none is near.
+/// Returns " (did you mean X?)" with the known name that needs the fewest edits. Names that contain the given one come
+/// first. Returns an empty text if no name is near.
 std::string suggestion(std::string_view given, std::span<const std::string> known);
 
 }  // namespace mobil

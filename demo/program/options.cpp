@@ -49,14 +49,14 @@ void add_subcommand(CLI::App& app, const Program& program, const Subcommand& fro
     CLI::Option* added = add_option(*command, option);
     if (!from.empty_refused || added->get_items_expected() == 0) continue;
     added->check([](const std::string& value) {
-      return value.empty() ? std::string("is empty; give a value or leave the option out") : std::string();
+      return value.empty() ? std::string("is empty; give a value or remove the option") : std::string();
     });
   }
   command->callback([&from, &exit_status] { exit_status = from.run(); });
 }
 
-/// The first argument, as it was written, that nothing took; empty if all were taken. After a subcommand options go
-/// first: what follows an unknown one is left over only because of it.
+/// Returns the first argument that was not parsed, empty if all were. After a subcommand, unknown options take
+/// precedence, because they also leave the arguments after them unparsed.
 std::string first_left_over(const CLI::App& app, int argc, const char* const* argv) {
   const auto left = app.remaining(true);
   std::string first;
@@ -68,8 +68,8 @@ std::string first_left_over(const CLI::App& app, int argc, const char* const* ar
   return first;
 }
 
-/// One line: the subcommand it is about, what was not understood, the nearest known name, where to
-/// read on. `app` is the one that threw `error` while it parsed `argv`.
+/// Returns one line with the subcommand, the argument that was not understood, the nearest known name and the command
+/// for help. `app` threw `error` while it parsed `argv`.
 std::string explain_usage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
   const auto chosen = app.get_subcommands();
   const CLI::App& at = chosen.empty() ? app : *chosen.front();
@@ -93,7 +93,7 @@ std::string explain_usage(const CLI::App& app, const CLI::ParseError& error, int
                      : fmt::format("there is no option {}{}", option, suggestion(option, options));
   } else if (chosen.empty()) {
     what = left.empty() ? "a subcommand is missing" : fmt::format("there is no subcommand '{}'", left);
-    what += fmt::format("{}; there are: {}", suggestion(left, subcommands), fmt::join(subcommands, ", "));
+    what += fmt::format("{}; choose from: {}", suggestion(left, subcommands), fmt::join(subcommands, ", "));
   } else if (!left.empty()) {
     what = fmt::format("'{}' was not expected; options begin with --", left);
   } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
@@ -153,7 +153,7 @@ int run_program(const Program& program, int argc, const char* const* argv) {
         stderr);
     return 2;
   } catch (const std::system_error& error) {
-    if (error.code() == std::errc::broken_pipe) return exit_status;  // nobody reads what is printed any more
+    if (error.code() == std::errc::broken_pipe) return exit_status;  // the reader of stdout has gone
     say(fmt::format("{}: {}", program.name, error.what()));
     return 1;
   } catch (const std::exception& error) {

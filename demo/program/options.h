@@ -1,6 +1,6 @@
 #pragma once
-// The subcommands of a program and their options, as plain data. The library that reads command lines stands in
-// options.cpp alone, for its header takes the compiler five seconds.
+// Subcommands of a program and their options, as plain data. Only options.cpp includes the command-line library,
+// because its header takes five seconds to compile.
 
 #include <cstddef>
 #include <functional>
@@ -12,60 +12,60 @@
 
 namespace mobil {
 
-/// One option, one flag ("--name", target a bool) or the arguments without a name ("name", target a vector). The target
-/// keeps its value where nothing is given, and --help shows that value unless it is empty, 0 or false. A vector after
-/// "--name" takes one value each time that the option is given.
+/// An option, a flag ("--name" with a bool as target) or the positional arguments ("name" with a vector as target). The
+/// target keeps its value if the option is absent, and --help shows that value unless it is empty, 0 or false. A vector
+/// for "--name" receives one value per occurrence of the option.
 struct Option {
   using Target =
       std::variant<bool*, std::string*, std::optional<std::string>*, std::size_t*, std::vector<std::string>*>;
   std::string name;
   Target target;
   std::string help;
-  std::string group{};                 // the heading in --help; empty: "Options"
-  std::vector<std::string> words{};    // values that a shell offers where `choices` are empty: no check
-  std::vector<std::string> choices{};  // of a text: the only values; empty: any
+  std::string group{};                 // heading in --help; empty: "Options"
+  std::vector<std::string> words{};    // values that a shell suggests if `choices` is empty; not checked
+  std::vector<std::string> choices{};  // valid values of a text; empty: any
 };
 
-/// Names of an array, for a shell to offer.
+/// Returns the names of an array, for a shell to suggest.
 template <class Names>
 std::vector<std::string> words_of(const Names& names) {
   return {std::begin(names), std::end(names)};
 }
 
-/// What --help is, at every level.
+/// The option --help of every level.
 extern const Option help_option;
 
 struct Subcommand {
   std::string name;
   std::string about{};                 // filled from the table of subcommands (subcommands.h)
-  std::string footer{};                // the end of --help
+  std::string footer{};                // end of --help
   std::vector<Option> options{};       // in the order of --help
-  bool last_stands = true;             // an option given twice takes its last value; an error otherwise
-  bool empty_refused = false;          // an empty value, as scripts leave it, is an error
-  std::function<int()> run = nullptr;  // when chosen, after the targets are set; the exit status
-  std::string program{};               // the one that has it, which is its heading in --help; empty: the only one
+  bool last_stands = true;             // true: an option given twice takes its last value; false: an error
+  bool empty_refused = false;          // true: an empty value, as from an unset script variable, is an error
+  std::function<int()> run = nullptr;  // called after the targets are set; returns the exit status
+  std::string program{};               // program that contains it, its heading in --help; empty: the only one
 };
 
 struct Program {
   std::string name, about, version, footer;
-  std::vector<Option> options{};  // that every subcommand has after its own
+  std::vector<Option> options{};  // common to all subcommands, after their own
   std::vector<Subcommand> commands{};
 };
 
 void add_options(Subcommand& command, const std::vector<Option>& options);
 
-/// A subcommand's, with those that every subcommand has.
+/// Returns the options of a subcommand, including the common ones.
 std::vector<Option> all_options(const Program& program, const Subcommand& command);
 
-/// Whether a value follows it.
+/// Returns true if a value follows the option.
 bool takes_value(const Option& option);
 
-/// What --help shows as the value where none is given: empty, 0 and false are not shown.
+/// Returns the default value that --help shows. It is empty for an empty value, 0 and false.
 std::string default_value(const Option& option);
 
-/// Reads the command line and runs the subcommand that it names. Exit status: that of `run`; 0 for --help and
-/// --version; 2 for bad usage, with one line on stderr that says what, the nearest known name and where to read on; 1
-/// where `run` throws.
+/// Parses the command line and runs its subcommand. Returns the exit status: that of `run`; 0 for --help and --version;
+/// 2 for bad usage, with one line on stderr (cause, nearest known name, command for help). If `run` throws, it returns
+/// 2 for a filesystem_error and 1 for others.
 int run_program(const Program& program, int argc, const char* const* argv);
 
 }  // namespace mobil

@@ -18,7 +18,7 @@
 namespace mobil {
 namespace {
 
-/// Real meshes are read by mobil-crowd alone, so `walk --anatomy` is one of its subcommands.
+/// Returns the program that runs a subcommand. Only mobil-crowd reads real meshes, so it runs `walk --anatomy`.
 std::string_view program_of(const SubcommandRow& row, std::span<const std::string> arguments) {
   const bool meshes = row.name == "walk" && std::ranges::any_of(arguments, [](const std::string& argument) {
                         return argument.starts_with("--anatomy");
@@ -26,7 +26,7 @@ std::string_view program_of(const SubcommandRow& row, std::span<const std::strin
   return meshes ? "mobil-crowd" : row.program;
 }
 
-/// Replaces this process; returns where that program is not built.
+/// Replaces this process by another program. Returns only if that is not built.
 int run_beside(const SubcommandRow& row, std::string_view program, char** argv) {
   std::error_code none;
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
@@ -34,14 +34,14 @@ int run_beside(const SubcommandRow& row, std::string_view program, char** argv) 
   std::string target(program == "mobil" ? "mobil_program" : program);
   std::ranges::replace(target, '-', '_');
   fmt::print(stderr,
-             "mobil: '{}' is a subcommand of {}, which is not beside this program; build it: cmake --build "
+             "mobil: '{}' is a subcommand of {}, which is not in the folder of this program; build it: cmake --build "
              "build/release --target {}\n",
              row.name, program, target);
   return 2;
 }
 
 struct FormerWord {
-  std::string_view option, was, is;  // a value of `option`; the option itself where that is empty
+  std::string_view option, was, is;  // values of `option`, or options if `option` is empty
 };
 constexpr std::array former_words = {
     FormerWord{"", "--humans", "--people"},
@@ -53,8 +53,8 @@ constexpr std::array former_words = {
     FormerWord{"--method", "reduced", "modal"},
 };
 
-/// `--name VALUE` is two arguments, `--name=VALUE` is one. Removed in 0.5, with `crowd --alive N`, now `city --people
-/// N`.
+/// Replaces former words in `--name VALUE` and `--name=VALUE`, and `crowd --alive N` by `city --people N`. To be
+/// removed in 0.5.
 void replace_former_words(std::vector<std::string>& arguments) {
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     std::string& argument = arguments[i];
@@ -83,12 +83,12 @@ Result<Program> make_program(std::string_view name, std::vector<Subcommand> comm
   Program program = {
       .name = "mobil",
       .about =
-          "mobil: crowds of virtual humans who walk, and whose muscles deform as they do.\n"
-          "Body and gait parameters go in; a walking skeleton, its lines of action, finite-element muscles and\n"
-          "anatomical surfaces come out. Quantities are SI or carry a unit: 180cm, 5km/h, 110steps/min.",
+          "mobil: crowds of walking virtual humans with finite-element muscles.\n"
+          "From body and gait parameters it computes walking skeletons, lines of action, deforming muscles and\n"
+          "anatomical surfaces. Quantities are SI or carry a unit: 180cm, 5km/h, 110steps/min.",
       .version = MOBIL_VERSION,
       .footer = "Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out",
-      .options = {{"--quiet", &quiet, "Say nothing of progress and of what was written; errors stay"}}};
+      .options = {{"--quiet", &quiet, "Print no progress and no names of written files; errors stay"}}};
   for (const SubcommandRow& row : subcommand_rows()) {
     const auto own = std::ranges::find(commands, row.name, &Subcommand::name);
     Subcommand command{.name = std::string(row.name)};
@@ -96,13 +96,13 @@ Result<Program> make_program(std::string_view name, std::vector<Subcommand> comm
       command = std::move(*own);
       commands.erase(own);
     } else if (name.empty() || row.program == name) {
-      return fail(fmt::format("'{}' is in the table alone", row.name));
+      return fail(fmt::format("'{}' is only in the table", row.name));
     }
     command.about = row.help;
     command.program = row.program;
     program.commands.push_back(std::move(command));
   }
-  if (!commands.empty()) return fail(fmt::format("the table has no '{}' of this program", commands.front().name));
+  if (!commands.empty()) return fail(fmt::format("the table lacks '{}' for this program", commands.front().name));
   return program;
 }
 
@@ -114,7 +114,7 @@ int run_own(std::string_view name, std::vector<Subcommand> commands, int argc, c
     arguments[1] = row->name;
   }
   replace_former_words(arguments);
-  handle_interruption();  // not before another program takes over, which would inherit blocked signals
+  handle_interruption();  // after run_beside, because another program would inherit blocked signals
   const auto program = make_program(name, std::move(commands));
   if (!program) {
     fmt::print(stderr, "{}: subcommands differ from demo/program/subcommands.cpp: {}\n", name, program.error().message);

@@ -1,5 +1,5 @@
 #pragma once
-// The programs `mobil`, `mobil-crowd` and `mobil-lab` as data: what they say of themselves, their subcommands.
+// The programs `mobil`, `mobil-crowd` and `mobil-lab` as data: descriptions and subcommands.
 
 #include <string_view>
 
@@ -8,15 +8,15 @@
 
 namespace mobil {
 
-/// Fails unless `commands` are those that the table of subcommands gives to a program of that name; to any, where it is
-/// empty. Subcommands of other programs are in it by name and help alone.
+/// Returns the program of that name, or a program of all if the name is empty. Fails unless `commands` match the table
+/// of subcommands. Subcommands of other programs are included with name and help only.
 Result<Program> make_program(std::string_view name, std::vector<Subcommand> commands);
 
-/// All subcommands, as if they were one program's: what the manual and shells' completion are made of. Made anew at
-/// every call, options at their usual values.
+/// Returns all subcommands as one program, for the manual and shell completion. Each call creates a new one, with
+/// options at their default values.
 Program mobil_program();
 
-/// Runs the subcommand that is asked for, or the program beside this one that has it. The exit status.
+/// Runs the requested subcommand, or the program in the same folder that contains it. Returns the exit status.
 int run_own(std::string_view name, std::vector<Subcommand> commands, int argc, char** argv);
 
 }  // namespace mobil

@@ -1,6 +1,6 @@
 #pragma once
-// How far something is, on stderr. On a terminal a line that the next one replaces; elsewhere, in a log or a pipe,
-// plain lines ten seconds apart, so that short runs write none.
+// Progress on stderr: on a terminal, a line that the next one replaces; in a log or a pipe, plain lines ten seconds
+// apart, so that short runs write none.
 
 #include <cstddef>
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace mobil {
 
-/// Set by --quiet: no function below writes anything then.
+/// Set by --quiet. The functions below then write nothing.
 inline bool quiet = false;
 
-/// When a plain line is due: ten seconds after the first that was asked for, and after each that was written.
+/// Pace of plain lines. A line is due ten seconds after the first request, and ten seconds after each written line.
 class LinePace {
  public:
   bool due(double now_s);
@@ -20,16 +20,16 @@ class LinePace {
   std::optional<double> next_s_;
 };
 
-/// Replaces the line that was shown; "" clears it, which is due before anything else is printed. From any thread.
+/// Replaces the line that was shown. An empty line clears it, which must precede other output. Any thread can call it.
 void show(std::string_view line);
 
-/// The same as "what 40 %", `part` of 0 to 1.
+/// Shows a line such as "what 40 %", with `part` from 0 to 1.
 void show_part(std::string_view what, double part);
 
-/// The same as "what [=====     ] 3/6", plainly "what 3/6"; `of` is above 0.
+/// Shows a line such as "what [=====     ] 3/6", or "what 3/6" as a plain line. `of` must be above 0.
 void show_progress(std::string_view what, std::size_t done, std::size_t of);
 
-/// A bar over many small items: from the first second on, at most ten times a second; cleared at the end.
+/// A bar for many small items, shown after the first second, at most ten times a second, and cleared at the end.
 class ProgressBar {
  public:
   ProgressBar(std::string_view what, std::size_t of);
@@ -41,7 +41,7 @@ class ProgressBar {
  private:
   std::string_view what_;
   std::size_t of_;
-  double next_s_;  // when it may be shown again, on the steady clock
+  double next_s_;  // time of the next update, on the steady clock
   bool shown_ = false;
 };
 

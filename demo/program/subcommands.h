@@ -1,5 +1,5 @@
 #pragma once
-// All subcommands, of whichever program they are: `mobil NAME` runs the program beside itself that has NAME.
+// All subcommands of all programs. `mobil NAME` runs the program in its folder that contains NAME.
 
 #include <span>
 #include <string_view>
@@ -8,13 +8,13 @@ namespace mobil {
 
 struct SubcommandRow {
   std::string_view name, program, help;
-  std::string_view former{};  // an older name, which is taken as well
+  std::string_view former{};  // an older name, still accepted
 };
 
-/// A program's rows are next to each other, in the order of --help.
+/// Returns the table. Rows of one program are adjacent, in the order of --help.
 std::span<const SubcommandRow> subcommand_rows();
 
-/// By its name or its former one; null where there is none.
+/// Returns the row with this name or former name, or null.
 const SubcommandRow* find_subcommand(std::string_view name);
 
 }  // namespace mobil

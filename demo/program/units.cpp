@@ -9,7 +9,7 @@ namespace {
 
 struct Unit {
   std::string_view name;
-  double base;  // one of it, in the base unit
+  double base;  // its size in base units
 };
 
 constexpr Unit length_units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
@@ -20,7 +20,7 @@ constexpr Unit times[] = {{"s", 1}, {"ms", 0.001}, {"min", 60}};
 constexpr Unit angles[] = {{"deg", 1}, {"°", 1}, {"rad", 180 / std::numbers::pi}};
 constexpr Unit pressures[] = {{"Pa", 1}, {"kPa", 1e3}, {"MPa", 1e6}};
 constexpr Unit densities[] = {{"kg/m3", 1}, {"g/cm3", 1000}};
-constexpr Unit rates[] = {{"1/s", 1}, {"/s", 1}};  // "5/s": the 1 would join the number
+constexpr Unit rates[] = {{"1/s", 1}, {"/s", 1}};  // "5/s", because the 1 of "51/s" would belong to the number
 constexpr Unit stiffnesses[] = {{"N/m", 1}, {"kN/m", 1e3}};
 
 std::span<const Unit> units(Quantity quantity) {
@@ -97,7 +97,7 @@ Result<double> read_value(std::string_view name, const std::string& text, Quanti
 }
 
 std::optional<std::uint64_t> parse_count(std::string_view text, std::uint64_t least, std::uint64_t most) {
-  constexpr std::size_t max_digits = 18;  // which 64 bits hold
+  constexpr std::size_t max_digits = 18;  // fits 64 bits
   if (text.empty() || text.size() > max_digits) return std::nullopt;
   std::uint64_t count = 0;
   for (const char c : text) {
@@ -110,7 +110,7 @@ std::optional<std::uint64_t> parse_count(std::string_view text, std::uint64_t le
 Result<std::uint64_t> read_count(std::string_view option, const std::string& text, std::uint64_t least,
                                  std::uint64_t most) {
   if (const auto count = parse_count(text, least, most)) return *count;
-  return fail(fmt::format("{} {}: give a whole number of {} to {}", option, text, least, most));
+  return fail(fmt::format("{} {}: give a whole number from {} to {}", option, text, least, most));
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as people write them: "180cm", "5km/h", "80", "110steps/min", "2x2x8", "0,-9.81,0"; and names in lists.
+// Reads numbers with units ("180cm", "5km/h", "80", "110steps/min"), lists ("2x2x8", "0,-9.81,0") and names.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,21 +20,21 @@ namespace mobil {
 
 enum class Quantity { length, mass, speed, frequency, time, angle, pressure, density, rate, stiffness, ratio };
 
-/// The unit of values without one, as in messages: "m", "kg", …; empty for a ratio, which has none.
+/// Returns the unit of values without one, such as "m" or "kg"; empty for a ratio.
 std::string_view base_unit(Quantity quantity);
 
-/// Reads a number with an optional unit and returns it in the base unit: m, kg, m/s, Hz, s, deg (angles alone are not
-/// in SI), Pa, kg/m3, 1/s, N/m, 1. Errors: not a finite number, or a unit that does not belong to the quantity (the
-/// message lists those that do).
+/// Reads a number with an optional unit and returns it in the base unit m, kg, m/s, Hz, s, deg (the only one that is
+/// not SI), Pa, kg/m3, 1/s, N/m or 1. Errors: not a finite number, or a unit of another quantity (the message lists the
+/// valid ones).
 Result<double> parse_quantity(const std::string& text, Quantity quantity);
 
-/// The value of an option, or of what else `name` says; messages begin with the name.
+/// Reads the value of an option, or of another input called `name`. Messages begin with the name.
 Result<double> read_value(std::string_view name, const std::string& text, Quantity quantity);
 
-/// The same; also fails outside `low` to `high` (base unit).
+/// Reads a value and fails outside `low` to `high` (base unit).
 Result<double> read_value(std::string_view name, const std::string& text, Quantity quantity, double low, double high);
 
-/// One of an enumeration's names, which stand in its order. Errors name the option and all that there are.
+/// Returns the enumerator with this name. `names` are in the enumeration's order. Errors list the option and all names.
 template <class E, class Names>
 Result<E> choose(std::string_view option, const std::string& text, const Names& names) {
   const auto found = std::find(std::begin(names), std::end(names), text);
@@ -42,10 +42,10 @@ Result<E> choose(std::string_view option, const std::string& text, const Names& 
   return fail(fmt::format("{} '{}': choose one of {}", option, text, fmt::join(names, ", ")));
 }
 
-/// The first error of several options. What is read after it is worthless.
+/// Keeps the first error of several options. Values read after an error are invalid.
 class OptionReader {
  public:
-  /// The value; of a failure an empty one.
+  /// Returns the value, or an empty one on failure.
   template <class T>
   T operator()(Result<T> read) {
     if (read) return std::move(*read);
@@ -59,7 +59,7 @@ class OptionReader {
     if (!error_) error_ = Error{std::move(message)};
   }
 
-  /// `value` where nothing failed; the first error otherwise.
+  /// Returns `value`, or the first error.
   template <class T>
   Result<T> result(T value) const {
     if (error_) return tl::unexpected(*error_);
@@ -70,17 +70,17 @@ class OptionReader {
   std::optional<Error> error_;
 };
 
-/// Digits alone, 18 at most, that make `least` to `most`; nothing otherwise.
+/// Reads a number of up to 18 digits, and nothing else, from `least` to `most`. Returns nullopt for other texts.
 std::optional<std::uint64_t> parse_count(std::string_view text, std::uint64_t least, std::uint64_t most);
 
-/// The same of an option; fails where parse_count has nothing.
+/// Reads the count of an option; fails if parse_count returns nullopt.
 Result<std::uint64_t> read_count(std::string_view option, const std::string& text, std::uint64_t least,
                                  std::uint64_t most);
 
-/// The parts between separators, empty ones too: always one more than there are separators.
+/// Returns the parts between separators, including empty ones. There is always one more part than separators.
 std::vector<std::string> split(std::string_view text, char separator);
 
-/// N plain numbers from `low` to `high` between separators; nothing where there are more, fewer or others.
+/// Reads N plain numbers from `low` to `high` between separators. Returns nullopt for other texts.
 template <std::size_t N>
 std::optional<std::array<double, N>> parse_list(std::string_view text, char separator, double low, double high) {
   const auto parts = split(text, separator);

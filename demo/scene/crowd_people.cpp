@@ -13,7 +13,7 @@
 namespace mobil {
 namespace {
 
-// streams of a person; draws of who they are come first
+// streams of a person; lower numbers are draws of body and gait
 constexpr std::uint64_t place_stream = 0x10000, change_stream = 0x20000, sex_stream = 0x50000;
 constexpr float turning_deg = 50, turn_part = 0.5F, stop_part = 0.125F;
 
@@ -56,7 +56,7 @@ CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t
   person.body.height_m = random.bell(1.72F, 0.09F);
   person.body.mass_kg = random.bell(24, 3) * person.body.height_m * person.body.height_m;
   person.body.biotype = {random.bell(3, 0.7F), random.bell(4, 0.7F), random.bell(3, 0.7F)};
-  // Half are women; of who is tall fewer.
+  // Half are women, but fewer of the tall people.
   constexpr float between_m = 1.72F, spread_m = 0.04F;
   const float man = 1 / (1 + std::exp((between_m - person.body.height_m) / spread_m));
   person.body.sex = CrowdRandom(seed, number, sex_stream).even(0, 1) < man ? Sex::man : Sex::woman;
@@ -66,7 +66,7 @@ CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t
     float& value = person.gait.style.*parameter.value;
     value = std::clamp(value * random.even(0.9F, 1.1F), parameter.low, parameter.high);
   }
-  // A tenth of it would have half of the crowd walk on knees bent by 30 to 50°.
+  // A variation by a tenth would make half of the crowd walk with knees bent by 30 to 50°.
   constexpr float part_of_it = 0.05F;
   float& height = person.gait.style.mid_stance_height;
   height = std::lerp(GaitStyle{}.mid_stance_height, height, part_of_it);

@@ -1,6 +1,6 @@
 #pragma once
-// Who is in a crowd, and what each of them does: drawn from a seed and a person's number alone, so that it is the same
-// however large the crowd is, in whatever order people come, on however many threads.
+// Bodies, gaits and actions of a crowd, drawn from a seed and a person's number only. They do not depend on the size of
+// the crowd, the order of spawning or the number of threads.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace mobil {
 
-/// Steele, Lea & Flood's SplitMix64: the same numbers on every machine. `stream`: one of a person's many.
+/// SplitMix64 of Steele, Lea & Flood, the same on every machine. `stream`: one of a person's many sequences.
 class CrowdRandom {
  public:
   CrowdRandom(std::uint64_t seed, std::uint64_t person, std::uint64_t stream);
 
-  /// Even within [low, high).
+  /// Returns a uniform number in [low, high).
   float even(float low, float high);
-  /// A sum of twelve even numbers, which is bell-shaped enough and exact everywhere; cut at 2.5 deviations.
+  /// Returns a nearly normal number, cut at 2.5 deviations: a sum of twelve uniform ones, the same on every machine.
   float bell(float mean, float deviation);
-  /// 0 … count − 1.
+  /// Returns an integer from 0 to count − 1.
   std::size_t below(std::size_t count);
 
  private:
@@ -35,32 +35,32 @@ struct CrowdPerson {
   GaitRequest gait;
 };
 
-/// Drawn from: height 1.72 ± 0.09 m, body mass index 24 ± 3 kg/m², biotype about 3-4-3 ± 0.7 each, speed 1.35 ± 0.15
-/// m/s (mean ± standard deviation, bell-shaped, cut at 2.5 deviations), any constitution, and every gait parameter
-/// within a tenth of its default (even), hips in mid-stance within a two-hundredth, asymmetries none. `draw`: another
-/// person for the same number.
+/// Returns a random person. Nearly normal, with mean ± standard deviation and cut at 2.5 deviations: height 1.72 ± 0.09
+/// m, body mass index 24 ± 3 kg/m², biotype 3-4-3 ± 0.7 each, speed 1.35 ± 0.15 m/s. Uniform: the constitution, and
+/// gait parameters within a tenth of their defaults (a two-hundredth for the mid-stance hip height). Asymmetries are 0.
+/// `draw` selects another person for the same number.
 CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t draw);
 
-/// The first such person from that draw on who can walk so. Errors: none in twenty draws.
+/// Returns the first such person from `draw` on who can walk, and sets `draw`. Errors: none in twenty draws.
 Result<CrowdPerson> crowd_walker(std::uint64_t seed, std::uint64_t number, std::uint8_t& draw);
 
-/// m/s, from the crowd's distribution.
+/// Returns a speed from the crowd's distribution, m/s.
 float crowd_speed(CrowdRandom& random);
 
-/// Where someone begins: parts of the area's side from its middle, −0.5 to 0.5, and rad about +Y.
+/// A person's initial place, in fractions of the area's side from its middle (−0.5 to 0.5), and heading about +Y, rad.
 struct CrowdPlace {
   float across, along, heading_rad;
 };
 CrowdPlace crowd_place(std::uint64_t seed, std::uint64_t number);
 
-/// What someone does next: `after_s` after the last change, turn by `turn_rad` (0: not), walk at `speed_m_s` (0: stop;
-/// below 0: as before).
+/// A person's next change, `after_s` after the last one: a turn by `turn_rad` (0 for none), and the new `speed_m_s` (0
+/// to stop, below 0 for no change).
 struct CrowdChange {
   float after_s = 0, turn_rad = 0, speed_m_s = -1;
 };
 
-/// Change `k` of a person, 0 the first. Every 15 s on the mean (even, 4 to 26 s, the first within 15 s) someone turns
-/// (about 0 ± 50°), walks at another speed, or, one time in eight, stops for 2 to 8 s; who has stopped goes on.
+/// Returns change `k` of a person, from 0, after 4 to 26 s (the first after 0 to 15 s), uniform. Half are turns (0 ±
+/// 50°), one in eight is a stop, after which the person walks again in 2 to 8 s, and the others set the speed.
 CrowdChange crowd_change(std::uint64_t seed, std::uint64_t number, std::uint32_t k, bool stopped);
 
 }  // namespace mobil

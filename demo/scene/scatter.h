@@ -1,5 +1,5 @@
 #pragma once
-// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): a bijection that scatters bits, the same on every machine.
+// The finaliser of SplitMix64 (Steele, Lea and Flood 2014), a bijection that scatters bits, the same on every machine.
 
 #include <cstdint>
 

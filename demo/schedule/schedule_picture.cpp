@@ -22,9 +22,9 @@ namespace {
 
 constexpr double row_height = 17, column_width = 15, mark = 9, margin = 12, letter_width = 6.1;
 constexpr double legend_height = 40;
-constexpr double slope = 0.5;  // of the columns' names: sine of 30° off the vertical
+constexpr double slope = 0.5;  // of the columns' names: sine of 30°, their angle from the vertical
 
-/// A column: who touches it, and how.
+/// A column: the systems that access it, and their modes.
 struct Touched {
   struct By {
     std::size_t system;
@@ -130,7 +130,7 @@ class Picture {
     for (const Touched::By& by : column.by) draw_mark(by.mode, x, row_y(by.system));
   }
 
-  /// Told apart by shape and by colours that the colour-blind tell apart.
+  /// Draws a mark. Modes differ in shape, and in colours that colour-blind people can distinguish.
   void draw_mark(Access::Mode mode, double x, double y) {
     constexpr double half = mark / 2;
     switch (mode) {
@@ -152,11 +152,10 @@ class Picture {
   }
 
   void draw_legend() {
-    constexpr std::pair<Access::Mode, std::string_view> marks[] = {
-        {Access::Mode::write, "writes"},
-        {Access::Mode::read, "reads, of its own rows"},
-        {Access::Mode::previous, "reads what the last tick left"},
-        {Access::Mode::lookup, "looks up in other rows"}};
+    constexpr std::pair<Access::Mode, std::string_view> marks[] = {{Access::Mode::write, "writes"},
+                                                                   {Access::Mode::read, "reads its own rows"},
+                                                                   {Access::Mode::previous, "reads the previous tick"},
+                                                                   {Access::Mode::lookup, "looks up in other rows"}};
     double x = margin + 6;
     for (const auto& [mode, words] : marks) {
       draw_mark(mode, x, margin + 6);
@@ -164,7 +163,7 @@ class Picture {
       x += 30 + letter_width * static_cast<double>(words.size());
     }
     add(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", margin, margin + 28,
-        "Numbers: passes, between which threads wait for each other. Slanting: phases, one at a time.");
+        "Numbers: passes, between which threads wait for each other. Italics: phases, one at a time.");
   }
 
   std::span<const System> systems_;
@@ -195,11 +194,11 @@ Subcommand schedule_command() {
   auto svg = std::make_shared<std::optional<std::string>>();
   Subcommand command{.name = "schedule"};
   command.footer =
-      "Made from the schedule itself, whose order follows from what systems read and write. A system without rows\n"
-      "takes no time. A host's own schedule: simulation.schedule().describe().\n"
+      "Shows the schedule itself, whose order follows from the reads and writes of systems. A system\n"
+      "without rows takes no time. For a host's own schedule call simulation.schedule().describe().\n"
       "\nExamples: mobil schedule\n"
       "          mobil schedule --svg schedule.svg";
-  add_options(command, {{"--svg", svg.get(), "A picture, written to this FILE in place of the text"}});
+  add_options(command, {{"--svg", svg.get(), "Write a picture to this FILE instead of printing text"}});
   command.run = [svg] { return exit_status_of("schedule", show_schedule(*svg)); };
   return command;
 }

@@ -1,6 +1,5 @@
 #pragma once
-// What a tick does, as a picture: systems in the order of running, one a row, against what they read and write, one a
-// column.
+// A picture of a tick, with a row per system, in execution order, and a column per type that systems read or write.
 
 #include <string>
 
@@ -8,8 +7,8 @@
 
 namespace mobil {
 
-/// The whole SVG file. Columns come in the order in which they are first written; those that no system writes come
-/// first. A line in a column goes from its first writer to its last reader. Rows of one pass share a ground.
+/// Returns the SVG file. Columns are in the order of their first write; those that no system writes come first. The
+/// line in a column spans the first to the last system that accesses it. Rows of one pass share a background.
 std::string schedule_picture(const Schedule& schedule);
 
 }  // namespace mobil

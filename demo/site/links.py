@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks every link and anchor of a folder of pages. Usage: links.py SITE. Exit status 1: some lead nowhere; each is named."""
+"""Checks all links and anchors of a folder of pages and prints broken ones (exit status 1). Usage: links.py SITE."""
 import html.parser
 import pathlib
 import sys
@@ -29,7 +29,7 @@ def main():
     for file, page in pages.items():
         name = file.relative_to(site)
         if page.unnamed:
-            broken.append(f'{name}: {page.unnamed} pictures without a text for who does not see them')
+            broken.append(f'{name}: {page.unnamed} pictures without an alternative text')
         for link in page.links:
             parts = urllib.parse.urlsplit(link)
             if parts.scheme or parts.netloc:
@@ -42,7 +42,7 @@ def main():
                 broken.append(f'{name}: {link} leads nowhere')
             elif parts.fragment and target in pages and \
                     urllib.parse.unquote(parts.fragment) not in pages[target].anchors:
-                broken.append(f'{name}: {link} has no such place')
+                broken.append(f'{name}: {link} has no such anchor')
     for each in broken:
         print(each)
     print(f'{len(pages)} pages, {count} links, {len(broken)} broken')

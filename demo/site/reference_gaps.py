@@ -1,24 +1,24 @@
 #!/usr/bin/env python3
-"""Names what Doxygen complains of, and what is public and explained nowhere.
+"""Lists warnings of Doxygen and public declarations without documentation.
 
-Usage: reference_gaps.py SOURCE_DIR LOG…   (SOURCE_DIR: as reference_source.py wrote it)
+Usage: reference_gaps.py SOURCE_DIR LOG…   (SOURCE_DIR: output of reference_source.py)
 
-A comment explains a whole paragraph: the declarations below it up to the first blank line. Members of a record need no
-words of their own where the record has some. Exit status 1 where something is left.
+A comment documents a paragraph: the declarations below it up to the first blank line. Members of a documented record
+need no comments. Exit status 1 if anything is listed.
 """
 import pathlib
 import re
 import sys
 
 WARNING = re.compile(r'^(.*?):(\d+): warning: (.*)$')
-# What hosts never name: how the library reads a system's parameters, and members that say what they are.
+# Declarations that hosts never name (how the library reads a system's parameters), and self-explanatory members.
 PLAIN = re.compile(r'operator|::(Packed)?Parameter<|Signature|Compound .*<|\((variable|typedef)\) of (struct|union)|'
                    r'\((friend|function)\) of (struct|union)|macro definition')
 SAYS_ITSELF = re.compile(r'\b(size|empty|begin|end|data|front|back|~?[A-Z]\w*|is_\w+|has_\w+)\(.*\)[a-z ]*\(function\)')
 
 
 def explained(lines, at):
-    """Whether a comment of Doxygen's stands above that line in its paragraph."""
+    """Returns true if a Doxygen comment precedes that line in its paragraph."""
     for i in range(at, -1, -1):
         line = lines[i].strip()
         if line.startswith(('///', '/**')) or (i < at and '*/' in line):
@@ -39,7 +39,7 @@ def main():
                 continue
             file, line, text = found[1], int(found[2]), found[3]
             if 'potential recursive class relation' in text:
-                continue  # Doxygen's own trouble with Signature<decltype(&F::operator())>
+                continue  # a problem of Doxygen with Signature<decltype(&F::operator())>
             if 'is not documented' in text:
                 if PLAIN.search(text) or SAYS_ITSELF.search(text):
                     continue

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Copies the installed headers with their comments as Doxygen reads them.
+"""Copies the installed headers and converts their comments for Doxygen.
 
 Usage: reference_source.py INCLUDE_DIR OUT_DIR
 
-Our headers explain a file in the `//` block below `#pragma once`, a declaration in the block above it, and a field by
-the comment behind it, which may go on below. Here each becomes a comment of Doxygen's, and what Doxygen would take for
-a command or for HTML is escaped. 
+Our headers document a file in the `//` block below `#pragma once`, a declaration in the block above it, and a field in
+the comment after it, which can continue below. Each becomes a comment for Doxygen. Text that Doxygen would read as a
+command or as HTML is escaped.
 """
 import pathlib
 import re
@@ -16,17 +16,17 @@ NOT_DOCUMENTATION = re.compile(r'^(namespace\b|IWYU|NOLINT|clang-format|extern )
 
 
 def escaped(text):
-    """Plain text and `code`: nothing else means anything in our comments."""
+    """Escapes plain text but not `code`, the only markup in our comments."""
     parts = re.split(r'(`[^`]*`)', text)
     for i in range(0, len(parts), 2):
         part = parts[i].replace('&', '&amp;').replace('<', '&lt;').replace('>', '&gt;')
         part = re.sub(r'([\\@#*%~])', r'\\\1', part)
-        parts[i] = re.sub(r'\b([A-Z][a-z]+)(?=: )', r'%\1', part)  # "Threads: …" begins a remark and names no class
+        parts[i] = re.sub(r'\b([A-Z][a-z]+)(?=: )', r'%\1', part)  # "Threads: …" is a remark, not a class
     return ''.join(parts).replace('\\*', '&lowast;').replace('`&lt;', '`<')
 
 
 def block(lines):
-    """Lines of a comment, without its marks: an indented one is an example's."""
+    """Converts the lines of a comment, without its marks. Indented lines are an example."""
     out, inside = [], False
     for line in lines:
         example = line.startswith('   ') and line.strip() != ''
@@ -44,7 +44,7 @@ def block(lines):
 
 
 class Scopes:
-    """Which braces a line lies in: of namespaces and records, or of bodies and values."""
+    """The braces around a line: those of namespaces and records, and those of bodies and values."""
 
     def __init__(self):
         self.stack, self.text, self.parens = [], '', 0
@@ -108,7 +108,7 @@ def cpp(text, stem):
             continue
         else:
             if namesake.match(line) and not out[-1].startswith('///'):
-                out += about  # a header that is one class explains it at its head
+                out += about  # a header with one class documents it at its head
             head = head and not line.strip()
             found = re.match(r'^(.*?\S)\s+//\s*(?!/)(.*)$', line) if '//' in line else None
             if found and '"' in found[1] and found[1].count('"') % 2:
@@ -139,7 +139,7 @@ def cpp(text, stem):
 
 
 def c(text):
-    """The C header: `/* … */` above a declaration or behind it, and a line of dashes round a chapter's name."""
+    """Converts the C header: `/* … */` above or after a declaration, and chapter names between dashes."""
     chapters = []
 
     def comment(match):

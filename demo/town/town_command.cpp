@@ -1,4 +1,4 @@
-// `mobil town`: people go about a small town with kerbs, stairs and a ramp, and keep out of each other's way.
+// `mobil town`: people walk in a small town with kerbs, stairs and a ramp, and avoid each other.
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ enum class TownView { follow, above };
 
 using namespace geometry;
 
-/// From where the camera looks at who is followed: to the left of the tour's way and behind, m.
+/// Offset of the camera from the followed person: to the left of the tour's path and behind, m.
 constexpr Vec3<float> beside{-4.2F, 2.1F, -5.2F};
 constexpr float hips_m = 0.95F, follows_per_frame = 0.04F;
 constexpr Colour joint{0.66F, 0.64F, 0.60F};
@@ -36,14 +36,14 @@ constexpr Colour joint{0.66F, 0.64F, 0.60F};
 /// Takes pictures of the town and its people.
 class TownCamera {
  public:
-  /// Errors: a size out of range, no driver.
+  /// Creates a camera for pictures of that size, pixels. Errors: a size out of range, no driver.
   static Result<TownCamera> create(int width, int height, TownView view) {
     auto camera = CrowdCamera::create(width, height);
     if (!camera) return tl::unexpected(camera.error());
     return TownCamera(std::move(*camera), view);
   }
 
-  /// Goes along, once a picture; a little late, so that it sways less than who is followed.
+  /// Moves the camera, once per picture. It lags a little, so that it sways less than the followed person.
   void follow(const TownScene& scene) {
     if (view_ == TownView::above) {
       camera_.eye = {-13, 13, -17};
@@ -60,7 +60,7 @@ class TownCamera {
     camera_.vertical_fov_deg = 42;
     looks_ = true;
   }
-  /// Errors: a driver that fails.
+  /// Takes a picture. Errors: those of the driver.
   Result<void> take(const TownScene& scene, Image& image) {
     people_.set_backdrop(meshes_, lines_);
     std::vector<CrowdCamera::Drawn> people;
@@ -115,7 +115,8 @@ Result<TownRun> read_options(const TownText& text) {
   if (!run.capture.empty()) {
     if (!run.video && run.capture.extension() != ".png")
       read.refuse(
-          fmt::format("--capture {}: end it in .mp4 for a film, or in .png for a picture of the end", text.capture));
+          fmt::format("--capture {}: is neither .mp4 nor .png; end it in .mp4 for a video, or in .png for a picture",
+                      text.capture));
     read(check_result_place("--capture", run.capture));
   }
   if (!run.report.empty()) read(check_result_place("--report", run.report));
@@ -127,14 +128,13 @@ std::string report_text(const TownScene& scene) {
   const double per_tick = 1e6 / static_cast<double>(r.ticks), people = static_cast<double>(scene.people().size());
   const double seconds = scene.simulation().time_s();
   return fmt::format(
-      "{} people, {:.0f} s: {:.2f} m/s on average, {} times somebody arrived, {} ways found\n"
-      "{}the longest wait was {:.1f} s\n"
-      "a tick took {:.0f} us: ways {:.0f}, avoidance {:.0f}, ground {:.0f} ({:.1f} places), walking {:.0f}\n",
+      "{} people, {:.0f} s: {:.2f} m/s on average, {} arrivals, {} paths found\n"
+      "{}longest wait {:.1f} s\n"
+      "mean tick {:.0f} us: paths {:.0f}, avoidance {:.0f}, ground {:.0f} ({:.1f} queries), walking {:.0f}\n",
       scene.people().size(), seconds, r.walked_m / seconds / people, r.arrivals, r.paths,
-      people < 2 ? "" : fmt::format("nobody came nearer than {:.1f} cm to touching; ", 100 * r.nearest_m),
-      r.longest_wait_s, per_tick * (r.paths_s + r.avoidance_s + r.terrain_s + r.tick_s), per_tick * r.paths_s,
-      per_tick * r.avoidance_s, per_tick * r.terrain_s,
-      static_cast<double>(r.places_asked) / static_cast<double>(r.ticks), per_tick * r.tick_s);
+      people < 2 ? "" : fmt::format("smallest gap between people {:.1f} cm; ", 100 * r.nearest_m), r.longest_wait_s,
+      per_tick * (r.paths_s + r.avoidance_s + r.terrain_s + r.tick_s), per_tick * r.paths_s, per_tick * r.avoidance_s,
+      per_tick * r.terrain_s, static_cast<double>(r.places_asked) / static_cast<double>(r.ticks), per_tick * r.tick_s);
 }
 
 std::string report_json(const TownScene& scene, const TownRun& run) {
@@ -156,7 +156,7 @@ std::string report_json(const TownScene& scene, const TownRun& run) {
   return json.dump(2) + "\n";
 }
 
-/// The ticks, and of every second one a picture where there is to be a film.
+/// Runs the ticks and takes pictures: every second tick for a video, or one at the end.
 Result<void> go(const TownRun& run, TownScene& scene) {
   const auto ticks = static_cast<std::size_t>(std::max(1L, std::lround(run.seconds / scene.simulation().tick_s())));
   std::optional<TownCamera> camera;
@@ -212,24 +212,24 @@ Subcommand town_command() {
   auto text = std::make_shared<TownText>();
   Subcommand command{.name = "town"};
   command.footer =
-      "A street with kerbs, a square, houses, stairs up to a terrace and a ramp down from it. Everybody has a place\n"
-      "to go to, a way there by Recast and Detour, and a wish that follows it; Avoidance keeps people apart, Terrain\n"
-      "puts their feet on the ground. One of them takes a tour: across the street, round the corner of a house, up\n"
-      "the stairs, over the terrace and down the ramp; --view follow goes along.\n"
+      "The town has a street with kerbs, a square, houses, stairs up to a terrace and a ramp down from it.\n"
+      "Each person has a destination, a path found by Recast and Detour, and a desired velocity along it.\n"
+      "Avoidance keeps people apart; Terrain places their feet on the ground. One person takes a tour\n"
+      "across the street, around the corner of a house, up the stairs, over the terrace and down the ramp;\n"
+      "--view follow moves with this person.\n"
       "\n"
       "Examples: mobil town\n"
       "          mobil town --capture town.mp4\n"
       "          mobil town --people 120 --seconds 20 --view above --capture town.png";
-  add_options(command, {{"--people", &text->people, "How many people, 1 to 300"},
-                        {"--seconds", &text->seconds, "How long"},
-                        {"--seed", &text->seed, "Who they are and where they go"},
-                        {"--threads", &text->threads, "Threads that work, 1 to 256; 0: as many as the machine has"},
-                        {.name = "--view",
-                         .target = &text->view,
-                         .help = "From where pictures are taken",
-                         .choices = {"follow", "above"}},
-                        {"--capture", &text->capture, "FILE.mp4: a film of it; FILE.png: a picture of the end"},
-                        {"--report", &text->report, "FILE for what happened, as JSON"}});
+  add_options(
+      command,
+      {{"--people", &text->people, "Number of people, 1 to 300"},
+       {"--seconds", &text->seconds, "Simulated time, 0.1s to 3600s"},
+       {"--seed", &text->seed, "Seed of the people and their destinations"},
+       {"--threads", &text->threads, "Number of threads, 1 to 256; 0: one per processor"},
+       {.name = "--view", .target = &text->view, .help = "Position of the camera", .choices = {"follow", "above"}},
+       {"--capture", &text->capture, "Video, FILE.mp4, or picture at the end, FILE.png"},
+       {"--report", &text->report, "JSON FILE for the results"}});
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("town", run_town(*text)); };
   return command;

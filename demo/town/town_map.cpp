@@ -13,7 +13,7 @@
 namespace mobil {
 namespace {
 
-// Recast's voxels, and who walks: m.
+// Sizes of Recast's voxels and of a walker, m, and the steepest slope, degrees.
 constexpr float cell_m = 0.1F, layer_m = 0.04F;
 constexpr float person_height_m = 2, person_radius_m = 0.32F, highest_step_m = 0.2F, steepest_deg = 40;
 constexpr float longest_edge_m = 8, simplified_m = 0.13F;
@@ -26,7 +26,7 @@ struct Freed {
 template <class T, void (*release)(T*)>
 using Owned = std::unique_ptr<T, Freed<T, release>>;
 
-/// All triangles of the town as Recast takes them.
+/// All triangles of the town in the format of Recast.
 struct Triangles {
   std::vector<float> corner;
   std::vector<int> index;
@@ -65,7 +65,7 @@ rcConfig config_of(const Triangles& town) {
 using PolyMesh = Owned<rcPolyMesh, rcFreePolyMesh>;
 using DetailMesh = Owned<rcPolyMeshDetail, rcFreePolyMeshDetail>;
 
-/// Voxels, spans, regions, outlines, polygons: Recast's own order. False where one of them fails.
+/// Runs the stages of Recast: voxels, spans, regions, outlines, polygons. Returns false if one of them fails.
 bool make_polygons(const Triangles& town, const rcConfig& config, PolyMesh& polygons, DetailMesh& detail) {
   rcContext context(false);
   const Owned<rcHeightfield, rcFreeHeightField> solid(rcAllocHeightfield());
@@ -98,7 +98,7 @@ using enum TownBlock::Use;
 constexpr Colour asphalt{0.42F, 0.43F, 0.45F}, stone{0.80F, 0.78F, 0.74F}, step{0.86F, 0.84F, 0.80F};
 constexpr Colour plaster{0.83F, 0.74F, 0.62F}, brick{0.70F, 0.52F, 0.44F}, parapet{0.74F, 0.72F, 0.68F};
 
-constexpr float low_x = -14, high_x = 14, low_z = -10, high_z = 20;  // the whole of it
+constexpr float low_x = -14, high_x = 14, low_z = -10, high_z = 20;  // bounds of the town
 constexpr float kerb = 0.12F, riser = 0.15F, tread = 0.32F, stairs_z = 10.4F;
 constexpr float stairs_low_x = -8, stairs_high_x = -3, terrace_z = 12, terrace_high_x = 2;
 constexpr float terrace = kerb + 6 * riser;
@@ -147,7 +147,7 @@ constexpr GroundPoint places[] = {
     {-5.5F, 13.5F},
     {0.5F, 15.5F},
     {12.5F, 15.5F},
-    // others'
+    // not on the tour
     {-12, -8},
     {12.5F, -8},
     {-12.5F, -3},
@@ -214,7 +214,7 @@ Result<TownPaths> TownPaths::make() {
   const rcConfig config = config_of(town);
   PolyMesh polygons;
   DetailMesh detail;
-  if (!make_polygons(town, config, polygons, detail)) return fail("Recast makes no mesh of this town");
+  if (!make_polygons(town, config, polygons, detail)) return fail("Recast cannot make a mesh of this town");
   for (int i = 0; i < polygons->npolys; ++i) polygons->flags[i] = walkable;
 
   dtNavMeshCreateParams params{};
@@ -240,11 +240,11 @@ Result<TownPaths> TownPaths::make() {
   params.buildBvTree = true;
   unsigned char* data = nullptr;
   int bytes = 0;
-  if (!dtCreateNavMeshData(&params, &data, &bytes)) return fail("Detour makes no mesh of this town");
+  if (!dtCreateNavMeshData(&params, &data, &bytes)) return fail("Detour cannot make a mesh of this town");
   auto made = std::make_unique<Mesh>();
   if (dtStatusFailed(made->mesh->init(data, bytes, DT_TILE_FREE_DATA)) ||
       dtStatusFailed(made->query->init(made->mesh.get(), 2048)))
-    return fail("Detour takes no mesh of this town");
+    return fail("Detour cannot use the mesh of this town");
   return TownPaths(std::move(made));
 }
 

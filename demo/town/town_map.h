@@ -1,6 +1,6 @@
 #pragma once
 // A small town: a street with kerbs, a square, a stair up to a terrace, a ramp down from it, houses and parapets. World
-// frame: m, +Y up; the street runs along X, the square lies ahead of it.
+// frame in m with +Y up. The street runs along X, and the square is on its +Z side.
 
 #include <cstdint>
 #include <memory>
@@ -15,17 +15,17 @@
 
 namespace mobil {
 
-/// Ways through the town by Recast and Detour: a mesh of where people can walk, made once of the town's triangles, and
-/// the shortest ways on it.
+/// Paths through the town by Recast and Detour: a mesh of the walkable area, made once from the town's triangles, and
+/// the shortest paths on it.
 class TownPaths {
  public:
-  /// Errors: Recast fails.
+  /// Makes the mesh. Errors: Recast or Detour fails.
   static Result<TownPaths> make();
   TownPaths(TownPaths&&) noexcept;
   TownPaths& operator=(TownPaths&&) noexcept;
   ~TownPaths();
 
-  /// Corners of the shortest way, its end last; empty where there is none.
+  /// Sets `corners` to those of the shortest path, its end last. Without a path it is empty.
   void find(GroundPoint from, GroundPoint to, std::vector<GroundPoint>& corners) const;
 
  private:
@@ -34,7 +34,7 @@ class TownPaths {
   std::unique_ptr<Mesh> mesh_;
 };
 
-/// A block with upright sides whose top rises from `at_low` to `at_high` along X, m over the street.
+/// A block with vertical sides. Its top rises along X from `at_low_m` to `at_high_m` above the street, m.
 struct TownBlock {
   enum class Use { walk, wall };
   float low_x_m, high_x_m, low_z_m, high_z_m;
@@ -45,19 +45,19 @@ struct TownBlock {
 
 std::span<const TownBlock> town_blocks();
 
-/// The ground, of the blocks that people walk on the highest; the street's elsewhere.
+/// Returns the ground: the highest walkable block at this place, or the street.
 TerrainHeight town_ground(float x_m, float z_m);
 
-/// Round each block that nobody walks on.
+/// Returns the walls around all blocks that are not walkable.
 std::vector<Wall> town_walls();
 
-/// Where steps have to be short and slow.
+/// Returns true on and near the stairs, where people must walk slowly.
 bool on_town_stairs(float x_m, float z_m);
 
-/// Places that people go to; the first few are the way that a visitor is shown, from across the street to the foot of
+/// Returns the destinations of people. The first ones are the stops of the tour, from across the street to the foot of
 /// the ramp.
 std::span<const GroundPoint> town_places();
-inline constexpr std::size_t tour_stops = 6;  // after where it begins
+inline constexpr std::size_t tour_stops = 6;  // after its start
 
 /// Triangles of one colour, counter-clockwise from outside; each corner has its own vertices.
 struct TownMesh {
@@ -65,10 +65,10 @@ struct TownMesh {
   std::vector<std::uint32_t> triangle;
   Colour colour;
 };
-/// The street and all blocks.
+/// Returns the meshes of the street and of all blocks.
 std::vector<TownMesh> town_meshes();
 
-/// Joints of the paving, pairs of ends.
+/// Returns the joints of the paving as pairs of end points.
 std::vector<Vec3<float>> town_paving();
 
 }  // namespace mobil

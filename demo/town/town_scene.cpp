@@ -15,7 +15,7 @@
 namespace mobil {
 namespace {
 
-// Somebody has come to a corner, or to where they go, who is that near.
+// Distances at which a corner, or the destination, is reached.
 constexpr float corner_m = 0.5F, arrived_m = 1;
 constexpr std::uint32_t wishes_every = 6, ways_every = 120;  // ticks
 constexpr float on_stairs_m_s = 0.65F;
@@ -53,7 +53,7 @@ Result<TownScene> TownScene::make(const TownOptions& options) {
   return scene;
 }
 
-/// Everybody stands somewhere on the way between two places, the first where the tour begins.
+/// Spawns people who stand at random points between two places. The first person stands at the start of the tour.
 Result<void> TownScene::people_come(const TownOptions& options) {
   const auto places = town_places();
   std::vector<SpawnRequest> requests(options.people);
@@ -67,7 +67,7 @@ Result<void> TownScene::people_come(const TownOptions& options) {
     request.gait = person.gait;
     Pedestrian& pedestrian = pedestrians_[i];
     pedestrian.speed_m_s = std::max(*person.gait.speed_m_s, 0.9F);
-    request.gait.speed_m_s = 0;  // who walks already might be about to walk into somebody
+    request.gait.speed_m_s = 0;  // a walking start could be an unavoidable collision
     CrowdRandom random(options.seed, i, place_stream);
     GroundPoint at = places.front();
     constexpr int tries = 40;
@@ -122,7 +122,7 @@ void TownScene::find_way(std::size_t number) {
   pedestrian.next = 0;
 }
 
-/// Toward the next corner, slowly where stairs are.
+/// Requests a velocity toward the next corner, slower on stairs.
 void TownScene::follow_way(std::size_t number) {
   Pedestrian& pedestrian = pedestrians_[number];
   const GroundPoint at = place_of(roots_[number]);
@@ -133,7 +133,7 @@ void TownScene::follow_way(std::size_t number) {
     choose_place(number);
   }
   DesiredVelocity wish{people_[number], 0, pedestrian.wish.heading_rad};
-  if (!pedestrian.corners.empty()) {  // else they wait until a way is found
+  if (!pedestrian.corners.empty()) {  // without a path the person waits
     const GroundPoint& to = pedestrian.corners[pedestrian.next];
     wish.heading_rad = std::atan2(to.x_m - at.x_m, to.z_m - at.z_m);
     wish.speed_m_s = on_town_stairs(at.x_m, at.z_m) ? on_stairs_m_s : pedestrian.speed_m_s;
@@ -155,7 +155,7 @@ void TownScene::tick() {
     if ((now + turn) % ways_every == 0) find_way(i);
     if ((now + turn) % wishes_every == 0 || !pedestrians_[i].asked) follow_way(i);
   }
-  (void)simulation_->avoidance().set_desired_velocity(wishes_);  // speeds and headings are in range
+  (void)simulation_->avoidance().set_desired_velocity(wishes_);  // in range
   const double begin_s = wall_now_s();
   simulation_->tick();
   report_.tick_s += wall_now_s() - begin_s;

@@ -1,6 +1,6 @@
 #pragma once
-// People who go about a small town: each has somewhere to go, a way there, and a wish that follows it. Avoidance keeps
-// them apart, Terrain puts their feet on kerbs, stairs and ramp.
+// The people of a small town: each has a destination, a path to it, and a desired velocity along the path. Avoidance
+// keeps them apart, Terrain places their feet on kerbs, stairs and ramp.
 
 #include <cstddef>
 
@@ -16,19 +16,19 @@ struct TownOptions {
   int threads = 0;
 };
 
-/// What happened so far.
+/// Statistics of the run so far.
 struct TownReport {
   std::size_t arrivals = 0, paths = 0, places_asked = 0;
-  double nearest_m = 1e9;     // between the walking lines of any two, less their radii
-  double longest_wait_s = 0;  // of who stands though they want to walk
-  double walked_m = 0;        // of all
+  double nearest_m = 1e9;     // minimum distance of two walking lines minus both radii
+  double longest_wait_s = 0;  // of a person who stands but has a desired speed
+  double walked_m = 0;        // sum over all people
   double paths_s = 0, avoidance_s = 0, terrain_s = 0, tick_s = 0;  // wall time
   std::size_t ticks = 0;
 };
 
 class TownScene {
  public:
-  /// Errors: Recast, memory.
+  /// Creates the scene. Errors: those of TownPaths::make and of the simulation.
   static Result<TownScene> make(const TownOptions& options);
   TownScene(TownScene&&) noexcept;
   TownScene& operator=(TownScene&&) = delete;
@@ -37,17 +37,17 @@ class TownScene {
   void tick();
 
   const Simulation& simulation() const { return *simulation_; }
-  /// The first of them takes the tour (town_places).
+  /// Returns the people; the first takes the tour (town_places).
   const std::vector<Entity>& people() const { return people_; }
   const TownReport& report() const { return report_; }
   bool tour_over() const { return pedestrians_.front().toured >= tour_stops; }
-  /// Where the walking line of the first of them is, and heads.
+  /// Returns place and heading of the first person's walking line.
   Root guide() const { return roots_.front(); }
 
  private:
   struct Pedestrian {
     float speed_m_s, radius_m;
-    std::size_t place;  // they are on the way to
+    std::size_t place;  // destination
     std::size_t toured = 0;
     std::vector<GroundPoint> corners;
     std::size_t next = 0;

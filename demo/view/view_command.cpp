@@ -1,4 +1,4 @@
-// `mobil view`: a window with one person and a crowd, and sliders for all that can be asked of them.
+// `mobil view`: a window with one person, a crowd, and sliders for their parameters.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -19,10 +19,10 @@
 namespace mobil {
 namespace {
 
-/// What concerns the window alone.
+/// State of the window only.
 struct ViewTime {
   bool paused = false;
-  int pace = 0;  // time as it runs, a quarter, a sixteenth
+  int pace = 0;  // real time, a quarter, a sixteenth
   double tick_ms = 0, picture_ms = 0;
 };
 
@@ -40,7 +40,7 @@ void slide(const char* name, float& value, float low, float high, const char* fo
   ImGui::SliderFloat(name, &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
 }
 
-/// A list of names of which one is chosen.
+/// Shows a list of names to choose from.
 template <class Names>
 void pick(const char* name, std::size_t& chosen, const Names& names) {
   if (!ImGui::BeginCombo(name, std::string(names[chosen]).c_str())) return;
@@ -91,7 +91,7 @@ void muscles(const ViewScene& scene, ViewChoice& choice) {
       choice.method[g] = methods[chosen];
     }
     if (is.cost_us > 0) {
-      ImGui::TextDisabled("  %.2f mm off at most, %.2f us a tick", static_cast<double>(1000 * is.error_m),
+      ImGui::TextDisabled("  error up to %.2f mm, %.2f us per tick", static_cast<double>(1000 * is.error_m),
                           static_cast<double>(is.cost_us));
     }
   }
@@ -100,9 +100,9 @@ void muscles(const ViewScene& scene, ViewChoice& choice) {
   choice.modes = static_cast<std::uint32_t>(modes);
   constexpr std::array<ExcitationSource, 3> sources = {ExcitationSource::none, ExcitationSource::phase,
                                                        ExcitationSource::moments};
-  constexpr std::array<std::string_view, 3> pulls = {"not at all", "by the phase of gait", "by joint moments"};
+  constexpr std::array<std::string_view, 3> pulls = {"none", "by gait phase", "by joint moments"};
   auto pull = static_cast<std::size_t>(std::ranges::find(sources, choice.activation) - sources.begin());
-  pick("pull", pull, pulls);
+  pick("activation", pull, pulls);
   choice.activation = sources[pull];
   ImGui::Checkbox("inertia", &choice.inertia);
   ImGui::SameLine();
@@ -120,7 +120,7 @@ void crowd(const ViewScene& scene, ViewChoice& choice) {
   slide("budget", budget_ms, 0, 10, budget_ms > 0 ? "%.1f ms" : "none");
   choice.budget_s = static_cast<double>(budget_ms) / 1000;
   if (const auto& did = scene.chosen())
-    ImGui::TextDisabled("  muscles %.2f ms a tick, %zu switched", 1000 * did->predicted_s, did->switched);
+    ImGui::TextDisabled("  muscles %.2f ms per tick, %zu switched", 1000 * did->predicted_s, did->switched);
 }
 
 template <std::size_t N>
@@ -128,7 +128,7 @@ void plot(const char* name, const std::array<float, N>& values, float low, float
   ImGui::PlotLines(name, values.data(), static_cast<int>(N), 0, nullptr, low, high, {0, 42});
 }
 
-/// Draws it, between ViewWindow::begin_frame and end_frame. What the user changed is in the choice it returns;
+/// Draws the panel, between ViewWindow::begin_frame and end_frame. Returns the choice with the user's changes;
 /// `refusal` is shown in red.
 ViewChoice view_panel(const ViewScene& scene, const std::string& refusal, ViewTime& time) {
   ViewChoice choice = scene.choice();
@@ -140,7 +140,7 @@ ViewChoice view_panel(const ViewScene& scene, const std::string& refusal, ViewTi
     if (ImGui::Button(time.paused ? "Play" : "Pause")) time.paused = !time.paused;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(110);
-    ImGui::Combo("time", &time.pace, "as it runs\0a quarter\0a sixteenth\0");
+    ImGui::Combo("time", &time.pace, "real time\0a quarter\0a sixteenth\0");
     ImGui::TextDisabled("tick %.2f ms, picture %.1f ms", time.tick_ms, time.picture_ms);
     if (!refusal.empty()) {
       ImGui::PushStyleColor(ImGuiCol_Text, {1, 0.45F, 0.4F, 1});
@@ -180,7 +180,7 @@ struct ViewText {
   bool hidden = false;
 };
 
-/// Looks at the person from all sides, as far as the ground allows.
+/// A camera that orbits the person and stays above the ground.
 struct Orbit {
   float round_rad = 0.5F, up_rad = 0.09F, away_m = 4.2F;
 
@@ -205,7 +205,7 @@ double ms_since(SteadyClock::time_point start) {
   return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
 
-/// The window, until it is closed, or for so many seconds of simulated time (0: no end) at 30 pictures a second.
+/// Runs the window until it is closed, or for `seconds` of simulated time (0: no end) at 30 pictures per second.
 Result<void> show_view(ViewScene& scene, ViewWindow& window, double seconds, const std::string& capture) {
   auto pictures = CrowdCamera::create(window.width(), window.height());
   if (!pictures) return tl::unexpected(pictures.error());
@@ -268,10 +268,10 @@ Result<void> run_view(const ViewText& text) {
   if (!text.seconds.empty()) given_s = read(read_value("--seconds", text.seconds, Quantity::time, 0.1, 3600));
   const auto seconds = read.result(given_s);
   if (!seconds) return tl::unexpected(seconds.error());
-  if (text.people > 5000) return fail(fmt::format("--people {}: 0 to 5000", text.people));
+  if (text.people > 5000) return fail(fmt::format("--people {}: give a whole number from 0 to 5000", text.people));
   if (text.width < 200 || text.width > 8192 || text.height < 200 || text.height > 8192)
-    return fail(fmt::format("--width {} --height-px {}: 200 to 8192", text.width, text.height));
-  if (!text.capture.empty() && *seconds == 0) return fail("--capture wants --seconds: when the picture is taken");
+    return fail(fmt::format("--width {} --height-px {}: give whole numbers from 200 to 8192", text.width, text.height));
+  if (!text.capture.empty() && *seconds == 0) return fail("--capture needs --seconds, the time of the picture");
   auto window = ViewWindow::open("mobil", static_cast<int>(text.width), static_cast<int>(text.height), text.hidden);
   if (!window) return tl::unexpected(window.error());
   auto scene = ViewScene::make(choice);
@@ -285,20 +285,19 @@ Subcommand view_command() {
   auto text = std::make_shared<ViewText>();
   Subcommand command{.name = "view"};
   command.footer =
-      "Drag to turn, wheel to come nearer, Space stops time, '.' makes one tick. What cannot be is refused in the\n"
-      "library's words, and the slider goes back.\n"
+      "Drag to orbit, turn the wheel to zoom, press Space to pause and '.' to advance one tick. An invalid\n"
+      "value is rejected with the library's message, and the slider returns to its old value.\n"
       "\nExamples: mobil view\n"
       "          mobil view --height 1.62 --mass 55 --people 1000\n"
       "          mobil view --seconds 3 --capture view.png";
   command.options = body_options(text->body);
-  add_options(command,
-              {{"--speed", &text->speed, "Walking speed, 0 to 10 m/s"},
-               {"--people", &text->people, "Of the crowd, 0 to 5000"},
-               {"--width", &text->width, "Of the window, pixels"},
-               {"--height-px", &text->height, "Of the window, pixels"},
-               {"--seconds", &text->seconds, "Closes then, of simulated time at 30 pictures a second"},
-               {"--capture", &text->capture, "PNG of the window at its end; wants --seconds"},
-               {"--hidden", &text->hidden, "Draws without showing the window (a display is needed all the same)"}});
+  add_options(command, {{"--speed", &text->speed, "Walking speed, 0 to 10 m/s"},
+                        {"--people", &text->people, "Number of people in the crowd, 0 to 5000"},
+                        {"--width", &text->width, "Width of the window, 200 to 8192 pixels"},
+                        {"--height-px", &text->height, "Height of the window, 200 to 8192 pixels"},
+                        {"--seconds", &text->seconds, "Close after this simulated time, at 30 pictures per second"},
+                        {"--capture", &text->capture, "Picture of the window at the end, FILE.png; needs --seconds"},
+                        {"--hidden", &text->hidden, "Draw without showing the window (still needs a display)"}});
   command.run = [text] { return exit_status_of("view", run_view(*text)); };
   return command;
 }

@@ -17,7 +17,7 @@ namespace mobil {
 namespace {
 
 constexpr float lane_apart_m = 1.1F, apart_m = 1.6F, street_m = 60;
-constexpr std::uint64_t crowd_number = 1'000'000;  // figures of the person have smaller ones
+constexpr std::uint64_t crowd_number = 1'000'000;  // the person's figures have smaller numbers
 
 LegMuscles muscles_of(const ViewChoice& choice) {
   LegMuscles muscles;
@@ -29,7 +29,7 @@ LegMuscles muscles_of(const ViewChoice& choice) {
   return muscles;
 }
 
-/// A street: who is in one lane walks one way at one speed, so that nobody meets anybody.
+/// Returns the people of a street. All people of a lane walk in one direction at one speed, so that they never meet.
 std::vector<SpawnRequest> street(std::size_t count) {
   std::mt19937 random(7);
   const auto next = [&] { return static_cast<float>(random() % 65536) / 65536; };
@@ -94,7 +94,7 @@ Result<ViewScene> ViewScene::make(const ViewChoice& choice) {
 Result<Entity> ViewScene::spawned(const ViewChoice& choice) const {
   SpawnRequest request{choice.body, choice.gait};
   request.muscles = muscles_of(choice);
-  request.muscles->activation = ExcitationSource::none;  // until there are forces to follow
+  request.muscles->activation = ExcitationSource::none;  // until forces are enabled
   if (person_ != Entity{}) request.z_m = place().z;
   Entity person;
   if (auto done = simulation_->spawn({&request, 1}, {&person, 1}); !done) return tl::unexpected(done.error());
@@ -127,7 +127,7 @@ Result<void> ViewScene::set_crowd(std::size_t people) {
   const std::vector<SpawnRequest> asked = street(people);
   std::vector<Entity> come(people);
   if (auto done = simulation_->spawn(asked, come); !done) return done;
-  (void)simulation_->despawn(crowd_);  // they are here
+  (void)simulation_->despawn(crowd_);  // they exist
   crowd_ = std::move(come);
   lane_m_.clear();
   drawn_.assign(1, {person_, number_, true});
@@ -218,7 +218,7 @@ void ViewScene::tick(const Camera& camera, int width, int height) {
   simulation_->tick();
   if (choosing_) chosen_ = simulation_->lod().report();
   sample();
-  if (simulation_->ticks() % 60 == 0) keep_near();  // a compact person's pose is made when it is asked for
+  if (simulation_->ticks() % 60 == 0) keep_near();  // not each tick: poses of compact people are computed on request
 }
 
 Vec3<float> ViewScene::place() const {
@@ -265,7 +265,7 @@ void ViewScene::sample() {
   }
 }
 
-/// Who has fallen behind, or come too far ahead, goes on at the other end of the street.
+/// Moves people who are too far behind or ahead to the other end of the street.
 void ViewScene::keep_near() {
   const float z = place().z;
   for (std::size_t i = 0; i < crowd_.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// What `mobil view` shows: one person of the user's choosing and a crowd to both sides of the way. No graphics.
+// The scene of `mobil view`, without graphics: one person chosen by the user, and a crowd on both sides.
 
 #include <array>
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace mobil {
 
 inline constexpr std::size_t view_groups = 4;
 
-/// All that the user sets.
+/// All settings of the user.
 struct ViewChoice {
   BodyRequest body{};
   GaitRequest gait{};
@@ -30,7 +30,7 @@ struct ViewChoice {
   ExcitationSource activation = ExcitationSource::none;
   bool inertia = false, forces = true;
   std::size_t people = 60;
-  bool choose = false;  // methods as the camera calls for, everybody's
+  bool choose = false;  // true: methods of all people are chosen for the camera
   float tolerance_px = 1;
   double budget_s = 0;  // 0: none
 };
@@ -40,37 +40,37 @@ bool same_choice(const ViewChoice& a, const ViewChoice& b);
 /// The last seconds of the person's right leg, oldest first.
 struct ViewTrace {
   static constexpr std::size_t ticks = 144;
-  std::array<float, ticks> hip_deg{}, knee_deg{}, ankle_deg{}, right_load{}, left_load{};  // loads: parts of weight
+  std::array<float, ticks> hip_deg{}, knee_deg{}, ankle_deg{}, right_load{}, left_load{};  // loads: fractions of weight
   std::array<std::array<float, ticks>, view_groups> elongation_mm{};
 };
 
-/// Of one muscle group what it has, its predicted error and its cost, as measured.
+/// Method of a muscle group, with the error and cost predicted from measurements.
 struct ViewMethod {
   MuscleMethod method;
-  float error_m = 0, cost_us = 0;  // 0 where that method was not measured
+  float error_m = 0, cost_us = 0;  // 0 if that method was not measured
 };
 
 class ViewScene {
  public:
-  /// Errors: a choice that cannot be.
+  /// Creates the scene. Errors: an invalid choice.
   static Result<ViewScene> make(const ViewChoice& choice);
 
-  /// Errors, in one line: what cannot be; the scene is unchanged.
+  /// Applies a choice. Errors, in one line: an invalid choice, which leaves the scene unchanged.
   Result<void> set(const ViewChoice& choice);
   const ViewChoice& choice() const { return choice_; }
 
-  /// One tick; `camera`, in pictures of that size, is what methods are chosen for.
+  /// Runs one tick. Methods are chosen for pictures of that size, pixels, by `camera`.
   void tick(const Camera& camera, int width, int height);
-  /// Everybody, the person first; good until the next call.
+  /// Returns all people, the person first; valid until the next call of `set`.
   std::span<const CrowdCamera::Drawn> drawn() const { return drawn_; }
-  /// Whose surfaces are not needed any more; asked once.
+  /// Returns once the number of a person whose surfaces are no longer needed.
   std::optional<std::uint64_t> gone() { return std::exchange(gone_, std::nullopt); }
-  /// Where the person's pelvis is, m.
+  /// Returns the place of the person's pelvis, m.
   Vec3<float> place() const;
   ViewMethod method(std::size_t group) const;
   const ViewTrace& trace() const { return trace_; }
   const Simulation& simulation() const { return *simulation_; }
-  /// What the last update of choosing did; nothing while nothing is chosen.
+  /// Returns the report of level of detail for the last tick; nullopt while methods are not chosen.
   const std::optional<LodReport>& chosen() const { return chosen_; }
 
  private:
@@ -90,7 +90,7 @@ class ViewScene {
   Entity person_{};
   std::uint64_t number_ = 0;  // of the person's figure
   std::vector<Entity> crowd_;
-  std::vector<float> lane_m_;  // of each of the crowd
+  std::vector<float> lane_m_;  // of each person in the crowd
   std::vector<CrowdCamera::Drawn> drawn_;
   std::optional<std::uint64_t> gone_;
   std::optional<LodReport> chosen_;

@@ -14,7 +14,7 @@
 namespace mobil {
 namespace {
 
-/// GLFW says what was wrong to a function alone.
+/// Message of the last error, which GLFW reports only to a callback.
 std::string last_complaint;  // NOLINT: GLFW is global itself
 void complained(int, const char* line) {
   last_complaint = line;
@@ -56,7 +56,7 @@ Result<ViewWindow> ViewWindow::open(const std::string& title, int width, int hei
   glfwSetErrorCallback(complained);
   if (glfwInit() != GLFW_TRUE) return none();
   auto parts = std::make_unique<Parts>();
-  // Pictures are rendered through EGL: one thread cannot have a context of GLX beside it.
+  // Pictures are rendered through EGL, and a thread cannot have an additional GLX context.
   glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
@@ -67,7 +67,7 @@ Result<ViewWindow> ViewWindow::open(const std::string& title, int width, int hei
   glfwMakeContextCurrent(parts->window);
   glfwSwapInterval(1);
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // nothing is left behind in the user's folder
+  ImGui::GetIO().IniFilename = nullptr;  // leaves no file in the user's folder
   ImGui::StyleColorsDark();
   if (!ImGui_ImplGlfw_InitForOpenGL(parts->window, true) || !ImGui_ImplOpenGL3_Init("#version 150")) return none();
   glGenTextures(1, &parts->texture);

@@ -1,5 +1,5 @@
 #pragma once
-// A window that shows pictures, with Dear ImGui on top. GLFW and OpenGL stand in view_window.cpp alone.
+// A window that shows pictures, with Dear ImGui on top. Only view_window.cpp includes GLFW and OpenGL.
 
 #include <memory>
 #include <string>
@@ -9,30 +9,30 @@
 
 namespace mobil {
 
-/// What the user did to the picture since the last frame.
+/// The user's input to the picture since the last frame.
 struct ViewInput {
   float turn_px = 0, tilt_px = 0;  // dragged
-  float zoom = 0;                  // steps of the wheel, nearer positive
+  float zoom = 0;                  // steps of the wheel, positive: nearer
   bool pause = false, step = false;
 };
 
 class ViewWindow {
  public:
-  /// Hidden ones are drawn like others, for pictures of them. Errors, in one line: no display, no OpenGL 3.
+  /// Opens a window. A hidden one is also drawn, for pictures of it. Errors, in one line: no display, no OpenGL 3.
   static Result<ViewWindow> open(const std::string& title, int width, int height, bool hidden);
   ViewWindow(ViewWindow&&) noexcept;
   ViewWindow& operator=(ViewWindow&&) noexcept;
   ~ViewWindow();
 
-  /// The user wants to close it.
+  /// Returns true if the user has requested to close the window.
   bool closing() const;
-  /// Of the picture area, pixels.
+  /// Return the size of the picture area, pixels.
   int width() const;
   int height() const;
 
-  /// Takes what the user did; ImGui calls may follow.
+  /// Reads the user's input. ImGui calls can follow.
   ViewInput begin_frame();
-  /// Shows the picture, stretched to the window, and ImGui's windows on it. `shot`: what the window shows, where asked.
+  /// Shows the picture, stretched to the window, with ImGui's windows on top. `shot` receives the window's content.
   void end_frame(const Image& picture, Image* shot = nullptr);
 
  private:

@@ -37,7 +37,7 @@ PosedSkin posed(const BodySkin& skin, float lengths, const Pose<float>& pose, co
 
 using namespace geometry;
 
-/// sRGB as the renderer takes it, from the recording's linear colour.
+/// Converts a recording's linear colour to the renderer's sRGB.
 Colour display_colour(const Vec3<float>& linear) {
   const auto encode = [](float x) { return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F; };
   return {encode(linear.x), encode(linear.y), encode(linear.z)};

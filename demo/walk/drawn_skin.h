@@ -1,5 +1,5 @@
 #pragma once
-// A person's skin and clothes, and a recorded walk, as a renderer draws them.
+// A person's skin and clothes, and a recorded walk, as meshes for the renderer.
 
 #include <array>
 #include <cstddef>
@@ -18,26 +18,26 @@
 
 namespace mobil {
 
-/// Of each SkinPart.
+/// Colours by SkinPart.
 using SkinColours = std::array<Colour, skin_parts>;
-/// Skin, hair and clothes that a number chooses, as people vary.
+/// Returns a variation of skin, hair and clothes, chosen by a number.
 SkinColours skin_colours(std::uint64_t number);
-/// From sRGB as shown to linear as files store it.
+/// Converts displayed sRGB to the linear colour of files.
 Vec3<float> linear_colour(const Colour& shown);
-/// The same colour everywhere, as of a body without clothes.
+/// Returns a single skin colour for all parts, for a body without clothes.
 SkinColours bare_colours();
 
-/// The same of each part.
+/// Returns a single opacity for all parts.
 constexpr std::array<float, skin_parts> opacity_of(float share) {
   std::array<float, skin_parts> all{};
   all.fill(share);
   return all;
 }
 
-/// Muscles' vertices of the right leg and the left one, world, m.
+/// Muscle vertices of the right and the left leg, world, m.
 using LegVertices = std::array<std::vector<Vec3<float>>, 2>;
 
-/// Of a right leg's, and of their mirror images.
+/// Returns the vertices of a right leg and their mirror images.
 LegVertices legs_at_rest(std::span<const Vec3<float>> right_m);
 
 struct DrawnSkin {
@@ -46,33 +46,32 @@ struct DrawnSkin {
   SkinColours colours{};
   std::array<float, skin_parts> opacity = opacity_of(1);
   std::vector<Vec3<float>> position{}, normal{};
-  std::optional<CustomSkin> own{};  // the legs', in their place, and what it moves with
+  std::optional<CustomSkin> own{};  // custom skin of the legs, and the skin that it follows
   std::optional<BodySkin> bare{};
   std::vector<Vec3<float>> own_position{}, own_normal{};
 
-  /// Legs are drawn as these meshes of right legs (bind_custom_skin). `rest_m`: of the right leg's muscles. `body`:
-  /// whose skin it is. `shorts_stay`: as there.
+  /// Replaces the legs by these meshes of right legs. `body`: the body of this skin. `rest_m`: vertices of the right
+  /// leg's muscles at rest. `shorts_stay`: as in bind_custom_skin.
   Result<void> follow(const Body& body, std::span<const SurfaceMesh> legs, std::span<const Vec3<float>> rest_m,
                       bool shorts_stay);
-  /// `muscles`: of the right and the left leg, as they are drawn in that pose; the skin covers them. `fat`: what
-  /// wobbles.
+  /// Moves the skin to a pose. `muscles`: leg muscles in that pose, which the skin covers. `fat`: displacement of fat.
   void pose(const Pose<float>& pose, const LegVertices& muscles = {}, const FatBeside* fat = nullptr);
-  /// One mesh a part; good until the next `pose`.
+  /// Adds one mesh per part, valid until the next `pose`.
   void draw(std::vector<DrawMesh>& out) const;
 };
 
-/// Meshes that look into recordings, and the placements that they look at.
+/// Meshes that refer to recordings, and the placements that they refer to.
 struct RecordedScene {
   std::vector<DrawMesh> meshes;
   std::deque<Placement> placement;
 };
 
-/// Adds the bones of a frame, moved by `shift`. `first_key`: bone i is sent to the device once, as this + i; 0 for each
-/// time.
+/// Adds the bones of a frame, moved by `shift`. `first_key`: bone i is uploaded once, under the key `first_key` + i;
+/// with 0 bones are uploaded each time.
 void add_bones(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, std::uint64_t first_key,
                RecordedScene& scene);
 
-/// A frame's muscles.
+/// Returns the muscle vertices of a frame.
 LegVertices muscles_of(const WalkRecording& recording, std::size_t frame);
 /// Adds the muscles of a frame, moved by `shift`.
 void add_muscles(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, RecordedScene& scene);

@@ -15,7 +15,7 @@ bool is_tendon(const std::string& name) {
   return name.find("tendon") != std::string::npos || name.find("ligament") != std::string::npos;
 }
 
-/// Writes a body's surfaces into memory of its own; nothing where muscles are gone.
+/// Vertices of a body's surfaces, all at the origin if its muscles are gone.
 struct WrittenSurfaces {
   std::vector<Vec3<float>> position, normal;
 };

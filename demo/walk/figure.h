@@ -1,5 +1,5 @@
 #pragma once
-// What a walking person looks like: the product's own surfaces, or real meshes, and their recording.
+// The figure of a walking person, with generated surfaces or real meshes, and its recording.
 
 #include <optional>
 #include <string>
@@ -15,19 +15,19 @@ namespace mobil {
 
 struct Figure {
   std::vector<BoneSurface> bones;
-  BodySurfaces muscles;              // of each right and left; with contacts bones, too, which are not drawn from here
+  BodySurfaces muscles;              // right and left; with contacts also bones, which are not drawn from here
   std::vector<Vec3<float>> colours;  // linear; of each part
   std::optional<SurfaceContacts> contacts;
   std::vector<std::string> said;    // about the folder and its meshes, "FILE: …"
-  std::vector<SurfaceMesh> skins;   // of right legs, where the folder has some (mobil/assets/surfaces/custom_skin.h)
-  std::vector<Vec3<float>> rest_m;  // then all vertices of the right leg's muscles at rest
+  std::vector<SurfaceMesh> skins;   // of right legs, if the folder has some (mobil/assets/surfaces/custom_skin.h)
+  std::vector<Vec3<float>> rest_m;  // with skins, all vertices of the right leg's muscles at rest
 };
 
-/// Surfaces for one person with muscles, generated from published dimensions. `contact`: muscles are kept out of each
-/// other and of bones.
+/// Generates surfaces for one person with muscles from published dimensions. `contact` keeps muscles from penetrating
+/// each other and bones.
 Result<Figure> make_figure(const Person& person, bool contact = false);
 
-/// The person's muscles with a mesh that a surface can follow; no bones.
+/// Returns the person's muscles with a mesh that a surface can follow, without bones.
 SurfaceChoice simulated_surfaces(const Person& person);
 
 /// Binds surfaces to the meshes of the person's muscles.
@@ -36,7 +36,7 @@ Result<Figure> bound_figure(const Person& person, DrawnSurfaces drawn, const Sur
 /// Begins a recording of the figure: bones, and each muscle's name, triangles and colour, right then left.
 WalkRecording begin_recording(const Figure& figure, double frame_s);
 
-/// Adds the person's present pose and surfaces as one frame.
+/// Adds the person's current pose and surfaces as one frame.
 void record_frame(const Figure& figure, const Simulation& simulation, const Person& person, WalkRecording& recording);
 
 }  // namespace mobil

@@ -10,7 +10,7 @@
 namespace mobil {
 namespace {
 
-/// Headings stand before the parameter that begins their group.
+/// A heading, and the first parameter of its group.
 struct Heading {
   std::string_view first, text;
 };
@@ -30,7 +30,7 @@ Quantity quantity_of(const GaitParameter& parameter) {
 std::string gait_parameter_table() {
   std::string text =
       "Gait parameters: mobil walk --set NAME=VALUE, or NAME as the parameter of a --script row.\n"
-      "Units: height is a part of body height, cycle a part of the gait cycle of two steps, 1 a plain number.\n";
+      "Units: height is a fraction of body height, cycle one of the gait cycle (two steps), 1 a number.\n";
   const auto row = [&](auto name, auto value, auto low, auto high, auto unit, auto meaning) {
     fmt::format_to(std::back_inserter(text), "  {:<23}{:>8}{:>8}{:>8}  {:<8}{}\n", name, value, low, high, unit,
                    meaning);
@@ -64,7 +64,7 @@ const GaitParameter* find_gait_parameter(std::string_view name) {
 Result<float> read_gait_parameter(const GaitParameter& parameter, const std::string& text) {
   const auto value = read_value(parameter.name, text, quantity_of(parameter));
   if (!value) return tl::unexpected(value.error());
-  const auto single = static_cast<float>(*value);  // as the ends of the range are: 0.03 is within 0 to 0.03
+  const auto single = static_cast<float>(*value);  // precision of the range, so that 0.03 is within 0 to 0.03
   if (single >= parameter.low && single <= parameter.high) return single;
   return fail(fmt::format("{} {}: outside the valid range {} to {}{}; choose a value inside it", parameter.name, text,
                           parameter.low, parameter.high,
@@ -74,8 +74,8 @@ Result<float> read_gait_parameter(const GaitParameter& parameter, const std::str
 Result<void> set_gait_parameter(const std::string& assignment, GaitStyle& style) {
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
-    return fail(fmt::format("'{}': write NAME=VALUE, like toe_out_deg=10; 'mobil walk --list-parameters' has the names",
-                            assignment));
+    return fail(fmt::format(
+        "'{}': write NAME=VALUE, like toe_out_deg=10; 'mobil walk --list-parameters' lists the names", assignment));
   }
   const std::string name = assignment.substr(0, equals);
   const GaitParameter* parameter = find_gait_parameter(name);

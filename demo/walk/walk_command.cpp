@@ -37,8 +37,8 @@
 namespace mobil {
 namespace {
 
-constexpr Vec3<float> ivory{0.80F, 0.74F, 0.60F};  // linear, as writers have bones
-constexpr int ticks_per_frame = 2;                 // 30 pictures a second
+constexpr Vec3<float> ivory{0.80F, 0.74F, 0.60F};  // linear, the writers' colour of bones
+constexpr int ticks_per_frame = 2;                 // 30 pictures per second
 
 using SteadyClock = std::chrono::steady_clock;
 double seconds_since(SteadyClock::time_point start) {
@@ -48,7 +48,7 @@ double seconds_since(SteadyClock::time_point start) {
 struct Walked {
   MotionTable motion;
   MuscleTable muscles;
-  WalkRecording recording, ticks;  // pictures with surfaces; where a file asks for them, poses and forces of all ticks
+  WalkRecording recording, ticks;  // pictures with surfaces; poses and forces of all ticks, if exported
   std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
   std::vector<FatBeside> fat;
   WalkOutcome outcome;
@@ -59,7 +59,7 @@ MotionRow motion_row(const Simulation& simulation, Entity entity) {
           *simulation.get<Feet>(entity), *simulation.get<CentreOfMass>(entity)};
 }
 
-/// Where they are simulated.
+/// Returns a person's forces, or nullopt if they are not simulated.
 std::optional<WalkForces> walk_forces(const Simulation& simulation, Entity entity) {
   const auto ground = simulation.get<GroundReaction>(entity);
   const auto moments = simulation.get<JointMoments>(entity);
@@ -92,7 +92,7 @@ void add_muscle_rows(const Simulation& simulation, const Person& person, std::st
   }
 }
 
-/// Says what of a style asked for cannot be walked, one line each.
+/// Prints one line for each corrected parameter of a requested style, and adds it to `all`.
 void tell_style_changes(const BodyRequest& body, const GaitRequest& asked, std::vector<StyleChange>& all) {
   const auto changes = style_changes(body, asked);
   if (!changes) return;
@@ -100,7 +100,7 @@ void tell_style_changes(const BodyRequest& body, const GaitRequest& asked, std::
   all.insert(all.end(), changes->begin(), changes->end());
 }
 
-/// Notes what limits are not kept in this tick.
+/// Records the limit violations of this tick.
 void note_limits(const Simulation& simulation, Entity person, std::vector<LimitPassed>& passed) {
   for (const LimitViolation& broken : limit_violations(simulation.world(), person)) {
     auto known = std::ranges::find(passed, broken.bound, [](const LimitPassed& limit) { return limit.furthest.bound; });
@@ -116,7 +116,7 @@ void tell_limits(const std::vector<LimitPassed>& passed) {
                described(limit.furthest));
 }
 
-/// Hands over the changes that are due. Errors name the script's line.
+/// Applies the changes that are due. Errors name the script's line.
 Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std::string& script, Entity entity,
                            Simulation& simulation, WalkOutcome& outcome) {
   std::size_t& applied = outcome.changes;
@@ -140,7 +140,7 @@ Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std
   return {};
 }
 
-/// Begins to record each tick.
+/// Begins a recording of every tick.
 WalkRecording begin_ticks(const Simulation& simulation, const Person& person) {
   WalkRecording ticks;
   ticks.frame_s = simulation.tick_s();
@@ -154,7 +154,7 @@ void record_tick(const Simulation& simulation, Entity entity, WalkRecording& tic
   if (const auto ground = simulation.get<GroundReaction>(entity)) ticks.ground.push_back(*ground);
 }
 
-/// The skin where it stands; with legs of the person's own where the anatomy has them.
+/// Returns the standing skin, with the anatomy's own skin of the legs if it has one.
 Result<DrawnSkin> own_legs(const BodySkin& skin, const Body& body, const Figure& figure) {
   DrawnSkin standing{&skin};
   if (figure.skins.empty()) return standing;
@@ -190,7 +190,7 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
     walked.recording.standing_m = standing_of(*skin);
     walked.recording.colours = {ivory};
     for (const Colour& colour : skin_colours(0)) walked.recording.colours.push_back(linear_colour(colour));
-    walked.recording.colours.push_back(walked.recording.colours[1]);  // of a skin of one's own
+    walked.recording.colours.push_back(walked.recording.colours[1]);  // of the custom skin
   }
   walked.ticks = begin_ticks(simulation, person);
   const bool all_ticks = std::ranges::any_of(options.exports, of_every_tick);
@@ -231,19 +231,19 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
   return walked;
 }
 
-/// The first few lines about an anatomy folder.
+/// Prints the first lines about an anatomy folder.
 void print_said(const std::vector<std::string>& said, const WalkOptions& options) {
   constexpr std::size_t most = 3;
   for (std::size_t i = 0; i < std::min(said.size(), most); ++i) fmt::print("anatomy: {}\n", said[i]);
   if (said.size() <= most) return;
-  fmt::print("anatomy: {} more such lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
+  fmt::print("anatomy: {} more lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
 }
 
 Result<void> write_results(const Walked& walked, const Simulation& simulation, const Person& person,
                            const Figure& figure, const WalkOptions& options, SteadyClock::time_point start,
                            OutputFolder& results) {
   const auto& folder = results.inside();
-  if (options.frames || options.video) {  // first, as they may lack a driver or a program
+  if (options.frames || options.video) {  // first, because a driver or ffmpeg can be missing
     const WalkDrawing drawing{&walked.recording,  &person.body,     &figure,
                               walked.action_line, walked.mesh_edge, walked.fat};
     const std::size_t frames = walked.recording.frames.size();
@@ -257,7 +257,7 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   if (!exported) return tl::unexpected(exported.error());
   std::string others;
   for (const WalkExport& wanted : options.exports) {
-    if (wanted.file == "walk.glb") continue;  // is there
+    if (wanted.file == "walk.glb") continue;  // already written
     show(fmt::format("writing {}", wanted.file));
     auto done = write_export(wanted, walked.recording, walked.ticks, folder);
     show("");
@@ -274,7 +274,7 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   print_said(outcome.anatomy_said, options);
   fmt::print("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", outcome.simulated_s,
              outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
-  fmt::print("simulation: {:.1f} us a tick, {:.0f} times faster than real time; everything: {:.1f} s\n",
+  fmt::print("simulation: {:.1f} us per tick, {:.0f} times faster than real time; total: {:.1f} s\n",
              1e6 * outcome.simulation_s / outcome.ticks, outcome.simulated_s / outcome.simulation_s, outcome.wall_s);
   say_where(fmt::format("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}{}",
                         one_line(options.out.string()), others, options.frames ? " frame_*.png" : "",
@@ -319,7 +319,7 @@ Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
                      : Result<void>(tl::unexpected(walked.error()));
   if (!done) show("");
   if (done && changes.size() > walked->outcome.changes) {
-    fmt::print("script: {} of {} changes lie after the end; lengthen --seconds to see them\n",
+    fmt::print("script: {} of {} changes are after the end; increase --seconds to include them\n",
                changes.size() - walked->outcome.changes, changes.size());
   }
   return done;

@@ -1,5 +1,5 @@
 #pragma once
-// `mobil walk`: one person from parameters to motion, muscles, pictures and a scene file.
+// `mobil walk`: motion, muscles, pictures and a scene file of one person.
 
 #include <filesystem>
 
@@ -8,10 +8,10 @@
 
 namespace mobil {
 
-/// Makes a figure of the real meshes in a folder (demo/anatomy/real_figure.h).
+/// Makes a figure from the real meshes in a folder (demo/anatomy/real_figure.h).
 using FigureReader = Result<Figure> (*)(const Person& person, const std::filesystem::path& folder, bool contact);
 
-/// Without a reader, `--anatomy` must not get this far: mobil runs mobil-crowd for it.
+/// Returns the subcommand. `read_figure` can be null only in mobil, which runs mobil-crowd for `--anatomy`.
 Subcommand walk_command(FigureReader read_figure);
 
 }  // namespace mobil

@@ -40,9 +40,9 @@ bool has_edges(GroundKind kind) {
 }  // namespace
 
 const char* const walk_ground_help =
-    "Ground: slope:10% and cross:10% rise ahead and to the left; hills:20cm; kerb:15cm and stairs:16cm/30cm (rise and\n"
-    "    tread) begin after two steps; below 0 they fall. On stairs steps are as long as treads unless asked "
-    "otherwise.";
+    "Ground: slope:10% and cross:10% rise forward and to the left; hills:20cm; kerb:15cm and\n"
+    "    stairs:16cm/30cm (rise and tread) start after two steps. Negative values descend. On stairs the\n"
+    "    default step length is the tread.";
 
 Result<WalkGround> read_walk_ground(const std::string& text) {
   WalkGround ground;
@@ -50,7 +50,7 @@ Result<WalkGround> read_walk_ground(const std::string& text) {
   const std::size_t colon = text.find(':');
   const auto row = std::ranges::find(rows, std::string_view(text).substr(0, colon), &GroundRow::name);
   if (row == rows.end() || colon == std::string::npos)
-    return fail("--ground: level, slope:10%, cross:10%, hills:20cm, kerb:15cm or stairs:16cm/30cm");
+    return fail("--ground: choose one of level, slope:10%, cross:10%, hills:20cm, kerb:15cm or stairs:16cm/30cm");
   ground.kind = row->kind;
   std::string value = text.substr(colon + 1);
   if (row->kind == GroundKind::stairs) {
@@ -68,7 +68,7 @@ Result<WalkGround> read_walk_ground(const std::string& text) {
 }
 
 void set_edges(WalkGround& ground, float height_m, float step_length_m) {
-  constexpr float behind_ankle_h[2] = {0.03F, 0.06F};  // of the foothold: up, down
+  constexpr float behind_ankle_h[2] = {0.03F, 0.06F};  // of the edge, in body heights: up, down
   constexpr float first_step = 2;
   ground.edge_m = first_step * step_length_m - behind_ankle_h[ground.rise < 0 ? 1 : 0] * height_m;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What `mobil walk` walks on: --ground, its heights and its picture.
+// The ground of `mobil walk`: option --ground, heights and picture.
 
 #include <cstdint>
 #include <string>
@@ -13,8 +13,8 @@ namespace mobil {
 
 enum class GroundKind { level, slope, cross, hills, kerb, stairs };
 
-/// A walk goes from (0, 0) toward +Z. `rise`: of slopes m per m, else m; below 0: down. `edge_m`: where the kerb or the
-/// first stair begins.
+/// The ground of a walk from (0, 0) toward +Z. `rise` is in m per m for slopes, else in m; negative values descend.
+/// `edge_m` is the place of the kerb or the first stair.
 struct WalkGround {
   GroundKind kind = GroundKind::level;
   float rise = 0, tread_m = 0, edge_m = 0;
@@ -22,15 +22,15 @@ struct WalkGround {
   TerrainHeight at(float x_m, float z_m) const;
 };
 
-/// For the end of --help.
+/// Part of --help about the ground.
 extern const char* const walk_ground_help;
 
-/// Reads level, slope:10%, cross:-5%, hills:20cm, kerb:15cm or stairs:16cm/30cm. Errors name the option, the range and
-/// the mend.
+/// Reads `level`, `slope:10%`, `cross:-5%`, `hills:20cm`, `kerb:15cm` or `stairs:16cm/30cm`. Errors name the option,
+/// the range and the remedy.
 Result<WalkGround> read_walk_ground(const std::string& text);
 
-/// Stairs and kerbs where a walker of that height and step length comes to them as people do: going up with the whole
-/// foot on the stair, going down with the toes over its edge.
+/// Places stairs or kerb for a walker of that height and step length, at the footholds of people. Going up, the whole
+/// foot is on the stair; going down, the toes are over its edge.
 void set_edges(WalkGround& ground, float height_m, float step_length_m);
 
 /// A strip under the walk, 3 m wide, and lines across it.

@@ -14,13 +14,13 @@ namespace {
 
 using namespace geometry;
 
-/// A point of a muscle's frame in the world; a left muscle's is reflected.
+/// Converts a point of a muscle's frame to the world. Points of left muscles are reflected.
 Vec3<float> to_world(const LineOfAction<float>& line, Side side, const Vec3<float>& p) {
   const Vec3<float> world = line.start_m + rotated(line.rotation, p);
   return side == Side::left ? mirrored(world) : world;
 }
 
-/// Each edge of the boundary once.
+/// Returns each edge of the boundary once.
 std::vector<std::array<std::uint32_t, 2>> boundary_edges(const Cells& cells) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const Quad& quad : boundary_quads(cells)) {
@@ -34,7 +34,7 @@ std::vector<std::array<std::uint32_t, 2>> boundary_edges(const Cells& cells) {
   return edges;
 }
 
-/// Calls f(plan, entity, side, line) for every muscle that is there.
+/// Calls f(plan, entity, side, line) for every existing muscle.
 template <class F>
 void for_each_muscle(const Simulation& simulation, const Person& person, F&& f) {
   for (const PersonMuscle& own : person.muscles) {
@@ -65,7 +65,7 @@ std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Person& 
   for_each_muscle(simulation, person,
                   [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
                     const NodalView moved = nodal_displacement(simulation.world(), muscle);
-                    if (moved.first == nullptr) return;  // a line alone
+                    if (moved.first == nullptr) return;  // without a mesh
                     const auto mesh = rest_mesh(person.body, plan.muscle, person.leg_muscles.cells);
                     if (!mesh) return;
                     const auto node = [&](std::uint32_t n) {

@@ -1,5 +1,5 @@
 #pragma once
-// What pictures draw as lines: lines of action, and the edges of the finite-element meshes.
+// Lines in pictures: lines of action, and the edges of the finite-element meshes.
 
 #include <vector>
 
@@ -9,10 +9,10 @@
 
 namespace mobil {
 
-/// The ends of each muscle's straight span now, two points a muscle, in the world (m).
+/// Returns the current ends of each muscle's straight span, two points per muscle, world, m.
 std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Person& person);
 
-/// The edges on the outside of each muscle's mesh as it is deformed now, two points an edge, in the world (m).
+/// Returns the outer edges of each muscle's currently deformed mesh, two points per edge, world, m.
 std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Person& person);
 
 }  // namespace mobil

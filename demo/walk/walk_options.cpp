@@ -19,18 +19,18 @@
 namespace mobil {
 namespace {
 
-/// In the order of WalkFormat.
+/// Endings of file names, in the order of WalkFormat.
 constexpr std::string_view endings[] = {".glb", ".bvh", ".mot", ".sto", ".usda", ".wrl", ".x3d", ".gl"};
 
 constexpr std::string_view drives[] = {"displacement", "force"};                          // in the order of Drive
-constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "glass"};  // of WalkView
+constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "glass"};  // in the order of WalkView
 
 // A program has no host that excites muscles.
 constexpr std::string_view walk_activations[] = {"none", "phase", "moments"};
 constexpr ExcitationSource walk_sources[] = {ExcitationSource::none, ExcitationSource::phase,
                                              ExcitationSource::moments};
 
-/// "groups", "single" and names of the table, separated by commas.
+/// Reads "groups", "single" and names of the table, separated by commas.
 Result<MuscleSet> read_muscles(const std::string& text) {
   MuscleSet set;
   for (const std::string& name : split(text, ',')) {
@@ -43,7 +43,7 @@ Result<MuscleSet> read_muscles(const std::string& text) {
     } else {
       std::string known;
       for (const MuscleRow& row : muscles()) known += fmt::format(", {}", row.name);
-      return fail(fmt::format("--muscles '{}': '{}' is none of groups, single{}", text, name, known));
+      return fail(fmt::format("--muscles '{}': '{}' is not one of groups, single{}", text, name, known));
     }
   }
   return set;
@@ -52,15 +52,15 @@ Result<MuscleSet> read_muscles(const std::string& text) {
 }  // namespace
 
 const char* const walk_exports_help =
-    "Formats of --export, by the file's ending (lengths in m, +Y up, walking toward +Z; assets/export/README.md has "
-    "more):\n"
-    "  .glb   glTF, as walk.glb: a skin over 48 joints, bones, muscles as morph targets; for engines, Blender, "
-    "browsers\n"
-    "  .usda  USD: skeleton, skinned bones, muscles as point caches; for Houdini, Omniverse, Blender, Maya\n"
-    "  .bvh   skeleton and joint angles of every tick; for programs that animate characters\n"
-    "  .mot   OpenSim's coordinates of its gait2392 model, every tick, in its axes; .sto: forces of the ground\n"
+    "Formats of --export, by the file's ending (lengths in m, +Y up, walking toward +Z; details are in\n"
+    "assets/export/README.md):\n"
+    "  .glb   glTF, as walk.glb: a skin over 48 joints, bones, muscles as morph targets; for engines,\n"
+    "         Blender, browsers\n"
+    "  .usda  USD: skeleton, skinned bones, muscle point caches; for Houdini, Omniverse, Blender, Maya\n"
+    "  .bvh   skeleton and joint angles of every tick; for character animation\n"
+    "  .mot   OpenSim's coordinates of its gait2392 model, every tick, in its axes; .sto: ground forces\n"
     "  .x3d   X3D, and .wrl VRML97: geometry with interpolators for joints and muscles\n"
-    "  .gl    vertices, normals and triangles for OpenGL, a block a picture\n";
+    "  .gl    vertices, normals and triangles for OpenGL, one block per picture\n";
 
 Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& names) {
   std::vector<WalkExport> wanted;
@@ -74,9 +74,9 @@ Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& nam
     if (ending == std::end(endings)) {
       std::string known;
       for (const auto& one : endings) known += fmt::format("{}{}", known.empty() ? "" : ", ", one);
-      return fail(fmt::format("--export {}: ends in no known format; there are {}", name, known));
+      return fail(fmt::format("--export {}: does not end in a known format; use one of {}", name, known));
     }
-    if (!taken.insert(name).second) return fail(fmt::format("--export {}: is given twice; leave one out", name));
+    if (!taken.insert(name).second) return fail(fmt::format("--export {}: is given twice; remove one", name));
     wanted.push_back({name, static_cast<WalkFormat>(ending - std::begin(endings))});
   }
   return wanted;
@@ -114,72 +114,72 @@ Result<void> write_export(const WalkExport& wanted, const WalkRecording& picture
 
 const char* const walk_muscles_help =
     "Muscles: a belly is a block of elements in the frame of its line of action.\n"
-    "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles that act alike,\n"
-    "    and cheap; single are the thirteen muscles on their own, for close views; others are not simulated.\n"
-    "  --method explicit-central: explicit, in steps short enough for each belly; implicit-central: the same with the "
-    "consistent mass;\n"
-    "    newmark: implicit, one step a tick; static: no vibration at all; modal: a few modes of a finer mesh, the\n"
-    "    cheapest that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the\n"
-    "    steps taken.\n"
-    "    finite: for close-ups; tissue that keeps its volume, whose fibres pull (--activation phase), on 425 nodes.\n"
-    "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in\n"
-    "    line share each one's length, and the belly gets what the tendon leaves; muscles.csv has them. moments:\n"
-    "    excited so that they make the walk's own moments at hip, knee and ankle as costs least; motion.csv has the "
-    "rest.\n"
-    "  --tuned: of --method modal; how hard a muscle pulls stiffens and damps what shakes it, as in people.\n"
-    "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7\n"
-    "    Hz); without it they move by the line's pull alone.\n";
+    "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles with\n"
+    "    the same action, and cheap; single are the thirteen individual muscles, for close views. Other\n"
+    "    muscles are not simulated.\n"
+    "  --method explicit-central: explicit, in steps short enough for each belly; implicit-central: the\n"
+    "    same with the consistent mass; newmark: implicit, one step per tick; static: no vibration;\n"
+    "    modal: a few modes of a finer mesh, the cheapest method with vibration; none: only lines of\n"
+    "    action, without bellies; finite: for close-ups, tissue of constant volume with active fibres\n"
+    "    (--activation phase), on 425 nodes. summary.json contains the steps.\n"
+    "  --activation phase: excitation as measured in walking people, at any speed. A fibre and a tendon\n"
+    "    in series share the muscle's length, and the belly gets the part that the tendon leaves;\n"
+    "    muscles.csv contains both. moments: excitation that produces the walk's own moments at hip, knee\n"
+    "    and ankle at minimum cost; motion.csv contains the remaining moments.\n"
+    "  --tuned: for --method modal; tension of a muscle stiffens and damps its vibration, as in people.\n"
+    "  --inertia: gravity and the leg's motion shake the bellies, which fascia and neighbours support\n"
+    "    sideways (7 Hz). Without it only the line of action moves them.\n";
 
 std::vector<Option> walk_options(WalkText& text) {
   const char *gait = "Gait", *muscles = "Muscles", *pictures = "Pictures";
   auto options = body_options(text.body);
   const std::vector<Option> own = {
-      {"--speed", &text.speed, "Walking speed (5km/h when no gait option is given)", gait},
-      {"--step-length", &text.step_length, "Heel to opposite heel; any two of the three give the third", gait},
+      {"--speed", &text.speed, "Walking speed (5km/h if no gait option is given)", gait},
+      {"--step-length", &text.step_length, "Heel to opposite heel; any two of the three determine the third", gait},
       {"--step-frequency", &text.step_frequency, "Steps per second, or 110steps/min", gait},
-      {"--set", &text.set, "NAME=VALUE: any gait parameter of --list-parameters, like toe_out_deg=12; again for more",
+      {"--set", &text.set, "NAME=VALUE: a gait parameter of --list-parameters, like toe_out_deg=12; repeat for more",
        gait},
-      {"--list-parameters", &text.list_parameters, "Print names, ranges and meanings for --set, and leave", gait},
-      {"--script", &text.script, "CSV time_s,parameter,value: changes while walking, see below", gait},
-      {"--seconds", &text.seconds, "How long to walk, 0.1s to 60s", gait},
+      {"--list-parameters", &text.list_parameters, "Print names, ranges and meanings for --set, and exit", gait},
+      {"--script", &text.script, "CSV file time_s,parameter,value of changes during the walk, see below", gait},
+      {"--seconds", &text.seconds, "Duration of the walk, 0.1s to 60s", gait},
       {"--ground", &text.ground, "level, slope:10%, cross:10%, hills:20cm, kerb:15cm or stairs:16cm/30cm, see below",
        gait},
-      {"--slow-down", &text.scale_speed, "On slopes and stairs, as people do, and go on as asked where it is level",
+      {"--slow-down", &text.scale_speed, "Scale speed on slopes and stairs, as people do; on level ground as requested",
        gait},
-      {"--no-forces", &text.no_forces, "Leave ground reactions and joint moments out: empty cells in motion.csv", gait},
-      {"--muscles", &text.muscles,
-       "groups, single, or names like hamstrings,soleus: which muscles of both legs are simulated", muscles},
-      {"--single-muscles", &text.single_muscles, "The single muscles too, beside those of --muscles", muscles},
+      {"--no-forces", &text.no_forces, "Omit ground reactions and joint moments (empty cells in motion.csv)", gait},
+      {"--muscles", &text.muscles, "Muscles of both legs to simulate: groups, single, or names like hamstrings,soleus",
+       muscles},
+      {"--single-muscles", &text.single_muscles, "Simulate the single muscles in addition to --muscles", muscles},
       {"--drive", &text.drive,
        "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it", muscles,
        words_of(drives)},
       {"--method", &text.method,
-       "How muscles move: explicit-central, implicit-central, newmark, static, modal, finite or none, see below",
+       "How muscles deform: explicit-central, implicit-central, newmark, static, modal, finite or none, see below",
        muscles, words_of(method_name)},
       {"--element", &text.element,
-       "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness", muscles,
-       words_of(element_name)},
+       "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one point, with hourglass stiffness",
+       muscles, words_of(element_name)},
       {"--activation", &text.activation,
-       "phase: muscles pull as people's do at that part of the gait cycle, and tendons stretch; moments; none", muscles,
+       "phase: muscles are active as in people at that phase of gait, with elastic tendons; moments; none", muscles,
        words_of(walk_activations)},
-      {"--tuned", &text.tuned, "Tension stiffens and damps vibration; with --activation phase, --method modal",
+      {"--tuned", &text.tuned, "Tension stiffens and damps vibration; needs --activation phase, --method modal",
        muscles},
-      {"--inertia", &text.inertia, "Muscles feel gravity and the leg's acceleration, see below", muscles},
+      {"--inertia", &text.inertia, "Apply gravity and the leg's acceleration to muscles, see below", muscles},
       {"--anatomy", &text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv", pictures},
       {"--view", &text.view,
        "stick (lines of action), wireframe (finite-element meshes), surface (muscles and bones), skin (dressed) or "
        "glass (muscles and bones through the skin)",
        pictures, words_of(views)},
-      {"--skin", &text.skin, "Skin and clothes in walk.glb and .usda", pictures},
-      {"--fat", &text.fat, "Fat under the skin wobbles, in pictures with --view skin or glass", pictures},
-      {"--contact", &text.contact, "Muscles are kept out of each other and of bones, in what is drawn and written",
+      {"--skin", &text.skin, "Add skin and clothes to walk.glb and .usda", pictures},
+      {"--fat", &text.fat, "Let fat under the skin wobble, in pictures with --view skin or glass", pictures},
+      {"--contact", &text.contact, "Keep muscles from penetrating each other and bones, in pictures and files",
        pictures},
-      {"--stereo", &text.stereo, "Left and right eye side by side, along parallel axes", pictures},
-      {"--eye-distance", &text.eye_distance, "Between the two eyes of --stereo, 1mm to 0.5m", pictures},
-      {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 a second", pictures},
+      {"--stereo", &text.stereo, "Show left and right eye side by side, along parallel axes", pictures},
+      {"--eye-distance", &text.eye_distance, "Distance between the two eyes of --stereo, 1mm to 0.5m", pictures},
+      {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 per second", pictures},
       {"--video", &text.video, "Write walk.mp4", pictures},
-      {"--export", &text.exports, "NAME.bvh, .usda, .mot …: the walk in that format too, see below; again for more"},
-      {"--out", &text.out, "Folder for the results, made if missing"}};
+      {"--export", &text.exports, "Also write the walk as NAME.bvh, .usda, .mot …, see below; repeat for more"},
+      {"--out", &text.out, "Folder for the results, created if missing"}};
   options.insert(options.end(), own.begin(), own.end());
   return options;
 }
@@ -199,11 +199,11 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.exports = read(read_exports(text.exports));
   for (const WalkExport& wanted : options.exports) {
     if (wanted.format == WalkFormat::sto && text.no_forces)
-      read.refuse(fmt::format("--export {}: holds the forces of the ground; leave --no-forces out", wanted.file));
+      read.refuse(fmt::format("--export {}: contains ground forces; remove --no-forces", wanted.file));
   }
   options.eye_distance_m = read(read_value("--eye-distance", text.eye_distance, Quantity::length, 0.001, 0.5));
   if (text.eye_distance != WalkText{}.eye_distance && !text.stereo)
-    read.refuse("--eye-distance: is of pictures for two eyes; add --stereo, or leave it out");
+    read.refuse("--eye-distance: needs pictures for two eyes; add --stereo, or remove it");
   options.body = read(read_body_options(text.body));
 
   // The gait's own ranges depend on the body and are checked when the walk is resolved.
@@ -242,17 +242,17 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.muscles.activation =
       walk_sources[read(choose<std::size_t>("--activation", text.activation, walk_activations))];
   if (has_activation(options.muscles) && options.muscles.drive == Drive::force)
-    read.refuse("--activation draws the belly's end to a place; leave --drive force out, or --activation");
+    read.refuse("--activation prescribes the place of the belly's end; remove --drive force or --activation");
   if (options.muscles.activation == ExcitationSource::moments && !options.forces)
-    read.refuse("--activation moments follows the moments at the joints; leave --no-forces out, or choose phase");
+    read.refuse("--activation moments needs joint moments; remove --no-forces, or choose phase");
   options.muscles.modal.tuned = text.tuned;
   if (text.tuned && (!has_activation(options.muscles) || options.muscles.method != Method::modal))
-    read.refuse("--tuned is of modal muscles that pull: add --activation phase --method modal, or leave it out");
+    read.refuse("--tuned needs active modal muscles; add --activation phase --method modal, or remove it");
   options.muscles.inertia = text.inertia;
   options.view = read(choose<WalkView>("--view", text.view, views));
   const bool shows_skin = options.view == WalkView::skin || options.view == WalkView::glass;
   if (text.fat && !(shows_skin && (text.frames || text.video)))
-    read.refuse("--fat: is of pictures of skin; add --view skin --frames (or glass, --video), or leave it out");
+    read.refuse("--fat: needs pictures of skin; add --view skin --frames (or glass, --video), or remove it");
   if (!text.anatomy.empty()) options.anatomy = text.anatomy;
   return read.result(std::move(options));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Options of `mobil walk`, checked; and the files of other programs that it exports to.
+// Options of `mobil walk`, and its exports to formats of other programs.
 
 #include <filesystem>
 
@@ -19,17 +19,17 @@ struct WalkExport {
   WalkFormat format;
 };
 
-/// From names, whose endings say the format. Errors: an ending that is none, a name with a folder, the same name twice.
+/// Reads names, whose endings determine the format. Errors: an unknown ending, a folder in a name, a repeated name.
 Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& names);
 
-/// True for a format with every tick and without surfaces; the others are of every picture.
+/// Returns true for a format with every tick and without surfaces; other formats have every picture.
 bool of_every_tick(const WalkExport& wanted);
 
-/// Writes one file into `folder`. `ticks`: poses of every tick and forces, where they are; `pictures`: with surfaces.
+/// Writes one file into `folder`. `ticks`: poses of every tick, and forces if there are any. `pictures`: with surfaces.
 Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& ticks,
                           const std::filesystem::path& folder);
 
-/// Text of --help about formats of export.
+/// Part of --help about export formats.
 extern const char* const walk_exports_help;
 
 enum class WalkView { stick, wireframe, surface, skin, glass };
@@ -51,7 +51,7 @@ struct WalkOptions {
   double eye_distance_m = 0.063;
 };
 
-/// The options as text, as the command line hands them over; bound by `walk_options`.
+/// Options as text from the command line, bound by `walk_options`.
 struct WalkText {
   BodyText body;
   std::string speed, step_length, step_frequency, seconds = "5";
@@ -67,10 +67,10 @@ struct WalkText {
 
 std::vector<Option> walk_options(WalkText& text);
 
-/// What the options above mean for muscles, for the end of --help.
+/// Part of --help about the options of muscles.
 extern const char* const walk_muscles_help;
 
-/// Reads and checks every option. Errors name the option, the valid range and the mend.
+/// Reads and checks every option. Errors name the option, the valid range and the remedy.
 Result<WalkOptions> read_walk_options(const WalkText& text);
 
 }  // namespace mobil

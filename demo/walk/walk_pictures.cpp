@@ -20,13 +20,14 @@ constexpr int width = 1280, height = 720;
 constexpr Colour line_red{0.80F, 0.16F, 0.12F};
 constexpr float half_stride_s = 0.55F;
 
-/// Where the pelvis is on the mean over a stride's time about each frame: the camera does not sway with every step.
+/// Returns the mean place of the pelvis over a stride around each frame, so that the camera does not sway with each
+/// step.
 std::vector<Vec3<float>> smooth_path(const WalkRecording& recording) {
   const std::size_t count = recording.frames.size();
   const auto reach = static_cast<std::size_t>(half_stride_s / recording.frame_s);
   std::vector<Vec3<float>> path(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t half = std::min({reach, i, count - 1 - i});  // as far ahead as behind
+    const std::size_t half = std::min({reach, i, count - 1 - i});  // symmetric
     Vec3<float> sum{0, 0, 0};
     for (std::size_t j = i - half; j <= i + half; ++j) {
       sum = sum + recording.frames[j].position_m[index(Segment::pelvis)];
@@ -36,9 +37,8 @@ std::vector<Vec3<float>> smooth_path(const WalkRecording& recording) {
   return path;
 }
 
-/// From the front and right of where the walk began, or from behind where stairs would hide the feet, at the height of
-/// the hips, far enough to hold the whole body; it goes along with the walker and does not turn with him, so that a
-/// turn is seen as one.
+/// Returns a camera at the height of the hips that shows the whole body from the front right, or from behind if stairs
+/// would hide the feet. It moves with the walker but keeps its direction, so that turns are visible.
 Camera follow(const Vec3<float>& at, float floor_m, bool climbs, const Body& body) {
   const float stature = body.request.height_m;
   Camera camera;
@@ -49,7 +49,7 @@ Camera follow(const Vec3<float>& at, float floor_m, bool climbs, const Body& bod
   return camera;
 }
 
-/// The sticks of one frame: every segment from its joint to its parent's, and the ends of the limbs.
+/// Returns the sticks of one frame: every segment from its joint to its parent's, and the ends of the limbs.
 std::vector<Vec3<float>> sticks(const Pose<float>& pose, const Body& body) {
   const auto place = [&](Segment s, const Vec3<float>& p) {
     return pose.position_m[index(s)] + rotated(pose.rotation[index(s)], p);
@@ -84,17 +84,17 @@ void set_beside(const Image& half, Image& whole, int column) {
   }
 }
 
-/// Everything that is drawn in one frame; the scene looks into it.
+/// All data that is drawn in one frame; the scene refers to it.
 struct FrameScene {
   RecordedScene drawn;
   std::vector<Vec3<float>> stick, joint;
   std::vector<DrawLines> lines;
   std::vector<DrawPoints> points;
-  std::optional<BodySkin> own;  // what `skin` draws
+  std::optional<BodySkin> own;  // drawn by `skin`
   DrawnSkin skin;
 };
 
-/// The skin of the views that show it.
+/// Creates the skin for the views that show it.
 Result<void> begin_skin(const WalkDrawing& drawing, WalkView view, FrameScene& scene) {
   if (view != WalkView::skin && view != WalkView::glass) return {};
   const bool of_their_own = !drawing.figure->skins.empty(), dressed = view == WalkView::skin;

@@ -1,5 +1,5 @@
 #pragma once
-// A recorded walk as pictures: frame_*.png, walk.mp4.
+// Pictures of a recorded walk: frame_*.png, walk.mp4.
 
 #include <cstddef>
 #include <functional>
@@ -10,9 +10,9 @@
 
 namespace mobil {
 
-/// What pictures show beyond the recording, by frame, two ends a line, in the world (m): lines of action (the stick
-/// view needs them), edges of the finite-element meshes (the wireframe view); and where the fat is beside its place, if
-/// it wobbles (the views with skin).
+/// Content of pictures in addition to the recording, by frame. Lines of action (for the stick view) and edges of the
+/// finite-element meshes (for the wireframe view) have two ends per line, world, m. `fat` is the displacement of
+/// wobbling fat (for the views with skin).
 struct WalkDrawing {
   const WalkRecording* recording = nullptr;
   const Body* body = nullptr;
@@ -21,8 +21,8 @@ struct WalkDrawing {
   std::vector<FatBeside> fat;
 };
 
-/// Renders every frame at 1280×720 with the camera following, as PNGs and/or a video in `folder`, as `options` says;
-/// `progress` is called with the number of frames done. Errors: no driver, no ffmpeg, an unwritable folder.
+/// Renders every frame at 1280×720 with a following camera, as PNGs, a video or both in `folder`, according to
+/// `options`. `progress` receives the number of finished frames. Errors: no driver, no ffmpeg, an unwritable folder.
 Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& options, const std::filesystem::path& folder,
                             const std::function<void(std::size_t)>& progress);
 

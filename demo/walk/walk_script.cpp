@@ -16,20 +16,20 @@
 namespace mobil {
 
 const std::string_view walk_script_help =
-    "A --script is a CSV file with the columns time_s,parameter,value, rows in order of time:\n"
+    "A --script is a CSV file with the columns time_s,parameter,value and rows in order of time:\n"
     "    time_s,parameter,value\n"
     "    2,speed,6km/h\n"
     "    4,heading,45\n"
     "    6,step_length_right,0.6\n"
     "    8,stop,\n"
-    "Each change takes effect at the next step. Rows of one time are one change. Parameters:\n"
-    "  speed, step_length, step_frequency   with units as above; 'speed' lets the steps follow as they do at the\n"
-    "                                       start; one of the other two keeps the speed, both at one time set it\n"
-    "  step_length_right, step_length_left  uneven steps: set step_length to their mean and step_asymmetry a, so that\n"
-    "                                       right = mean (1 + a), left = mean (1 - a); one alone keeps the other\n"
-    "  heading                              deg, 0 straight ahead as at the start, positive to the left\n"
-    "  aside, ahead                         a step of somebody who stands, from there: cm or m, to the left and\n"
-    "                                       ahead, negative to the right and back; both at one time are one step\n"
+    "Each change takes effect at the next step. Rows with the same time are one change. Parameters:\n"
+    "  speed, step_length, step_frequency   with units as above; 'speed' alone chooses usual steps;\n"
+    "                                       one of the others keeps the speed, both at one time set it\n"
+    "  step_length_right, step_length_left  uneven steps, right = mean (1 + a), left = mean (1 - a): they\n"
+    "                                       set step_length, step_asymmetry (a); one keeps the other\n"
+    "  heading                              deg, 0 is the heading at the start, positive to the left\n"
+    "  aside, ahead                         a step of a standing person: cm or m to the left and forward,\n"
+    "                                       negative to the right and back; both at one time are one step\n"
     "  stop                                 value empty or 1; stands until the next 'speed'\n"
     "  any gait parameter                   see --list-parameters";
 
@@ -37,7 +37,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> script_columns = {"time_s", "parameter", "value"};
 
-/// What a script sets besides the gait parameters, in the widest range of any body.
+/// A script parameter that is not a gait parameter, with the widest range of any body.
 struct Word {
   std::string_view name;
   Quantity quantity;
@@ -61,7 +61,7 @@ bool sets_pace(std::string_view name) {
   return name == "speed" || name == "step_length" || name == "step_frequency" || one_side(name);
 }
 
-/// Whether two rows of one time would say the same thing twice.
+/// Returns true if two rows with the same time would set the same quantity.
 bool clash(std::string_view a, std::string_view b) {
   const auto pair = [&](auto first, auto second) { return (first(a) && second(b)) || (first(b) && second(a)); };
   const auto is_stop = [](std::string_view name) { return name == "stop"; };
@@ -79,8 +79,8 @@ Result<float> read_row_value(const std::string& parameter, const std::string& te
       names.emplace_back(w.name);
       first += fmt::format("{}, ", w.name);
     }
-    return fail(fmt::format("there is no parameter '{}'{}; there are {}and those of 'mobil walk --list-parameters'",
-                            parameter, suggestion(parameter, names), first));
+    return fail(fmt::format("there is no parameter '{}'{}; use {}or one of 'mobil walk --list-parameters'", parameter,
+                            suggestion(parameter, names), first));
   }
   if (parameter == "stop") {
     if (text.empty() || text == "1") return 1.0F;
@@ -101,7 +101,7 @@ Result<WalkScript> from_table(const CsvTable& table) {
     const auto time = number(time_text);
     if (!time || *time < 0) {
       return refuse(
-          fmt::format("time_s '{}' is not a number of seconds from 0 on; write one", time_text.substr(0, 60)));
+          fmt::format("time_s '{}' is not a number of seconds of at least 0; write one", time_text.substr(0, 60)));
     }
     if (!script.row.empty() && *time < script.row.back().time_s) {
       return refuse(fmt::format("time {} s comes before {} s in the row above; sort the rows by time", *time,
@@ -113,7 +113,7 @@ Result<WalkScript> from_table(const CsvTable& table) {
     if (parameter == "speed" && *value == 0) parameter = "stop";
     for (auto above = script.row.rbegin(); above != script.row.rend() && above->time_s == *time; ++above) {
       if (!clash(parameter, above->parameter)) continue;
-      return refuse(fmt::format("{} does not go with {} of line {} at the same time; leave one out or move it in time",
+      return refuse(fmt::format("{} conflicts with {} of line {} at the same time; remove one or change its time",
                                 parameter, above->parameter, above->line));
     }
     script.row.push_back({*time, table.line[r], std::move(parameter), *value});
@@ -121,7 +121,7 @@ Result<WalkScript> from_table(const CsvTable& table) {
   return script;
 }
 
-/// The rows of one time.
+/// The rows with the same time.
 struct Moment {
   std::vector<WalkScript::Row>::const_iterator begin, end;
 
@@ -129,7 +129,7 @@ struct Moment {
     const auto found = std::find_if(begin, end, [&](const WalkScript::Row& row) { return row.parameter == name; });
     return found == end ? std::nullopt : std::optional<float>(found->value);
   }
-  /// The row to name when its gait cannot be walked.
+  /// Returns the line to name if the gait cannot be walked.
   std::size_t line() const {
     const auto found = std::find_if(begin, end, [](const WalkScript::Row& row) { return sets_pace(row.parameter); });
     return (found == end ? begin : found)->line;
@@ -140,7 +140,7 @@ bool standing(const GaitRequest& request) {
   return request.speed_m_s && *request.speed_m_s == 0;
 }
 
-/// One side alone keeps the other as it was.
+/// Sets uneven step lengths. One side alone keeps the length of the other.
 Result<void> set_sides(const Body& body, const GaitRequest& before, const Moment& moment, GaitRequest& request,
                        std::optional<float>& length) {
   auto right_m = moment["step_length_right"], left_m = moment["step_length_left"];
@@ -155,8 +155,8 @@ Result<void> set_sides(const Body& body, const GaitRequest& before, const Moment
   const GaitParameter& range = *find_gait_parameter("step_asymmetry");
   if (!(asymmetry >= range.low && asymmetry <= range.high)) {
     return fail(
-        fmt::format("steps of {:.3g} m right and {:.3g} m left are a step_asymmetry of {:.2g}, outside the valid "
-                    "range {} to {}; bring them nearer to each other",
+        fmt::format("steps of {:.3g} m right and {:.3g} m left have a step_asymmetry of {:.2g}, outside the valid "
+                    "range {} to {}; reduce their difference",
                     *right_m, *left_m, asymmetry, range.low, range.high));
   }
   request.style.step_asymmetry = asymmetry;
@@ -177,7 +177,7 @@ Result<void> set_pace(const Body& body, const GaitRequest& before, const Moment&
   if (!speed && !frequency && !length && !sides) return {};
   const bool both_sides = moment["step_length_right"] && moment["step_length_left"];
   if (standing(before) && ((!speed && !(frequency && (length || both_sides))) || (sides && !both_sides))) {
-    return fail("the walker stands; give a speed at this time, and the lengths of both steps or of none");
+    return fail("the walker stands; give a speed at this time, and the lengths of both steps or of neither");
   }
   if (auto done = set_sides(body, before, moment, request, length); !done) return done;
   auto kept = speed;

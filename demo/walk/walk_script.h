@@ -1,5 +1,5 @@
 #pragma once
-// How a walk changes under way: what `mobil walk --script` reads.
+// Scripts of changes during a walk, as read by `mobil walk --script`.
 
 #include <cstddef>
 #include <optional>
@@ -14,8 +14,8 @@
 
 namespace mobil {
 
-/// Rows in order of time; rows of the same time are one change. Values are in m/s, m, Hz and deg, or in the unit of the
-/// gait parameter; a speed of 0 is kept as a stop.
+/// A script with rows in order of time; rows with the same time are one change. Values are in m/s, m, Hz and deg, or in
+/// the unit of the gait parameter. A speed of 0 is stored as a stop.
 struct WalkScript {
   struct Row {
     double time_s;
@@ -27,18 +27,18 @@ struct WalkScript {
   std::vector<Row> row;
 };
 
-/// What parameters mean and how they act together, for --help.
+/// Part of --help about scripts.
 extern const std::string_view walk_script_help;
 
-/// Reads CSV text with the columns time_s, parameter, value; `name` is for messages. Fails, naming the line, on a time
-/// that is negative or before the row above, an unknown parameter, a value that is no quantity of its kind or out of
-/// range, and rows of one time that say the same thing twice.
+/// Reads CSV text with the columns time_s, parameter, value; `name` is for messages. Errors name the line. They are a
+/// negative or decreasing time, an unknown parameter, a value with a wrong unit or out of range, and rows with the same
+/// time that set the same quantity.
 Result<WalkScript> parse_walk_script(std::string_view text, std::string_view name);
 
-/// The same from a file; also fails where it cannot be read.
+/// Reads a script from a file. Errors: those of parse_walk_script, a file that cannot be read.
 Result<WalkScript> read_walk_script(const std::string& path);
 
-/// One change: the whole request that holds from then on, the heading to turn to, and a step aside.
+/// One change: the complete gait request from then on, the heading to turn to, and a step aside.
 struct ScriptedChange {
   double time_s;
   std::size_t line;  // of its first row
@@ -47,8 +47,8 @@ struct ScriptedChange {
   std::optional<std::pair<float, float>> aside_m{};  // to the left and ahead
 };
 
-/// What the script asks of this body, from the walk it starts with. Fails, naming the line, where a gait is out of the
-/// body's range, and where step length or frequency change while the walker stands.
+/// Returns the changes of a script for this body and initial walk. Errors, with the line: a gait out of the body's
+/// range, a change of step length or frequency while the walker stands.
 Result<std::vector<ScriptedChange>> plan_changes(const WalkScript& script, const Body& body, const GaitRequest& start);
 
 }  // namespace mobil

@@ -14,7 +14,7 @@
 namespace mobil {
 namespace {
 
-/// The shortest decimal that reads as this number: 0.1, not 0.10000000149.
+/// Returns the shortest decimal that reads as this number, 0.1 instead of 0.10000000149.
 double decimal(float value) {
   return std::stod(fmt::format("{}", value));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// summary.json: what was asked for, what came of it, and what it cost.
+// summary.json: the request, its results, and their cost.
 
 #include <mobil/gltf_writer.h>
 #include <mobil/schedule.h>
@@ -11,7 +11,7 @@
 
 namespace mobil {
 
-/// A limit of joints, ground or pelvis that the walk went beyond as it changed: furthest, and when.
+/// A limit of joints, ground or pelvis that the walk violated during a change: the largest violation, and its time.
 struct LimitPassed {
   LimitViolation furthest;
   double first_s, last_s;
@@ -20,19 +20,19 @@ struct LimitPassed {
 
 struct WalkOutcome {
   decltype(Person::gait) gait{};           // at the start
-  std::size_t changes = 0;                 // of the script that fell within the walk
-  std::uint32_t clamped_steps = 0;         // that no forces within bounds make as asked
-  std::vector<StyleChange> style_changes;  // what of the styles asked for, the script's too, was moved
+  std::size_t changes = 0;                 // of the script, within the walk
+  std::uint32_t clamped_steps = 0;         // that bounded forces cannot produce as requested
+  std::vector<StyleChange> style_changes;  // corrected parameters of all requested styles, including the script's
   std::vector<LimitPassed> limits_passed;
   std::uint32_t ticks = 0;
   double simulated_s = 0;
-  std::vector<Timing> stages;  // one a system
-  double simulation_s = 0;     // wall time of the ticks alone
+  std::vector<Timing> stages;  // one per system
+  double simulation_s = 0;     // wall time of the ticks only
   double wall_s = 0;           // of the whole command
   std::vector<std::string> anatomy_said;
 };
 
-/// The whole file as text.
+/// Returns the text of the file.
 std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Person& person,
                          const WalkOutcome& outcome, const std::vector<MuscleFidelity>& exported);
 

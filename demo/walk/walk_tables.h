@@ -1,5 +1,5 @@
 #pragma once
-// motion.csv and muscles.csv: one row a tick (and side and group). Columns are promises to scripts: they stay.
+// motion.csv and muscles.csv, with one row per tick (and side and group). Columns must stay, because scripts use them.
 
 #include <optional>
 #include <string>
@@ -25,23 +25,23 @@ struct MotionRow {
 struct WalkForces {
   GroundReaction<float> ground;
   JointMoments<float> moments;
-  std::optional<MomentReserve<float>> reserve{};  // where muscles follow the moments
+  std::optional<MomentReserve<float>> reserve{};  // if muscles follow the moments
 };
 
-/// motion.csv under way. Forces are those of the row's own tick; without them their cells are empty. The ground
-/// reaction's anterior part is along the row's heading. `reserves`: what of the moments the muscles do not make
-/// follows.
+/// The growing text of motion.csv. Forces are those of the row's own tick; without them their cells are empty. The
+/// anterior component of the ground reaction is along the row's heading. `reserves` adds columns for the moments that
+/// muscles do not produce.
 struct MotionTable {
   explicit MotionTable(bool reserves = false);
   void add(const MotionRow& row, const std::optional<WalkForces>& forces);
   std::string text;
 };
 
-/// The method column: explicit-central, implicit-central, newmark, static, modal or none; where the end is pulled
-/// explicit-central_force and so on.
+/// Returns the text of the method column: the name of the method, such as explicit-central, with the suffix _force if a
+/// force pulls the end.
 std::string method_label(const LegMuscles& muscles);
 
-/// What a row of muscles.csv tells of one muscle.
+/// A row of muscles.csv.
 struct MuscleTableRow {
   double time_s;
   Side side;
@@ -50,12 +50,12 @@ struct MuscleTableRow {
   LineOfAction<float> line;
   LineMotion<float> motion;
   std::optional<BellyReport<float>> belly;
-  Activation<float> activation;  // this and the next where the table is about them
+  Activation<float> activation;  // this and the next only in tables of active muscles
   Musculotendon<float> pull;
 };
 
-/// muscles.csv under way, with what muscles that pull have besides or without. A muscle without a belly has empty cells
-/// for it.
+/// The growing text of muscles.csv. `pulls` adds the columns of active muscles. Cells of the belly are empty for a
+/// muscle without one.
 struct MuscleTable {
   explicit MuscleTable(bool pulls);
   void add(const MuscleTableRow& row);

@@ -1,4 +1,4 @@
-// Makes what the page's usual muscles share, so that it starts at once.
+// Precomputes the shared data of the page's default muscles, so that the page starts fast.
 // Usage: node --experimental-wasm-relaxed-simd bake.mjs PACKAGE OUT
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';

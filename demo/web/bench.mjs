@@ -1,4 +1,4 @@
-// What ticks take as WebAssembly, median and best of 200, µs.
+// Times of ticks as WebAssembly, median and best of 200, µs.
 // Usage: node --experimental-wasm-relaxed-simd bench.mjs PACKAGE
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
@@ -22,7 +22,7 @@ function bench(name, count, muscles) {
   const people = world.spawn(Array.from({ length: count }, (_, i) => ({
     height_m: 1.6 + (0.3 * (i % 17)) / 17, mass_kg: 70, speed_m_s: 1 + (0.5 * (i % 13)) / 13, place: [i % 40, 0, Math.floor(i / 40)],
   })), muscles);
-  world.tick(300);  // until the engine has compiled well what is called often
+  world.tick(300);  // until the engine has optimized the frequent calls
   time(name, () => world.tick());
   if (!muscles) time(`matrices of ${count}`, () => world.matrices(people));
   world.destroy();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the ticks of bench.mjs take natively, on one thread: median and best of 200, µs.
+"""Native times of the ticks of bench.mjs on one thread: median and best of 200, µs.
 
 Usage: PYTHONPATH=build/release/python demo/web/bench.py
 """

@@ -1,4 +1,4 @@
-// Bundles the page: node build.mjs NODE_MODULES PACKAGE OUT. PACKAGE: systems/javascript as built; OUT gets static files.
+// Bundles the page to static files in OUT: node build.mjs NODE_MODULES PACKAGE OUT. PACKAGE: built systems/javascript.
 import { cpSync, mkdirSync, existsSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';

@@ -1,9 +1,9 @@
-// Chromium without a window, for tests and pictures.
+// Headless Chromium, for tests and pictures.
 import { spawnSync } from 'node:child_process';
 import { createRequire } from 'node:module';
 import path from 'node:path';
 
-/** A browser that draws by software, so that pictures are alike on all machines. `modules`: where playwright-core is. */
+/** Starts a browser with software rendering, for equal pictures everywhere. `modules`: folder of playwright-core. */
 export function launch(modules) {
   const { chromium } = createRequire(path.resolve(modules, 'x.js'))('playwright-core');
   return chromium.launch({
@@ -12,7 +12,7 @@ export function launch(modules) {
   });
 }
 
-/** ffmpeg with these arguments; throws where it fails. */
+/** Runs ffmpeg with these arguments; throws if it fails. */
 export function ffmpeg(...args) {
   const done = spawnSync('ffmpeg', ['-y', '-v', 'error', ...args], { stdio: 'inherit' });
   if (done.status !== 0) throw new Error(`ffmpeg failed: ${args.at(-1)}`);

@@ -1,7 +1,7 @@
-// Sliders, choices and switches, each with a label; what the library refuses is said, and the control goes back.
+// Sliders, choices and switches with labels. If the library rejects a value, they show its message and are reset.
 const refusal = document.getElementById('refusal');
 
-/** Runs `act`; where it throws, `undo`, and says why. Whether it went well. */
+/** Runs `act`. If that throws, runs `undo`, shows the message and returns false. */
 export function attempt(act, undo = () => {}) {
   refusal.textContent = '';
   try {
@@ -25,7 +25,7 @@ function control(place, name, title, element) {
   return label;
 }
 
-/** `holder[key]` is what it sets; `act` makes it so. */
+/** Adds a slider that sets `holder[key]` and then calls `act`. */
 export function slider(place, { id, name, title, holder, key, low, high, step, unit = '', usual, act }) {
   const input = document.createElement('input'), output = document.createElement('output');
   Object.assign(input, { id, type: 'range', min: low, max: high, step, value: holder[key] ?? usual });
@@ -48,7 +48,7 @@ export function slider(place, { id, name, title, holder, key, low, high, step, u
   });
 }
 
-/** `options`: names; what is held is the name, or with `numbers` its place. */
+/** Adds a choice among the names `options`. It stores the name, or with `numbers` its index. */
 export function choice(place, { id, name, title, holder, key, options, numbers = false, act }) {
   const select = document.createElement('select');
   select.id = id;

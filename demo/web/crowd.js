@@ -1,6 +1,6 @@
-// A crowd in one draw: 48 matrices a person go to the graphics card as they lie, as rows of a texture; a segment is the
-// ellipsoid that fills the box of its bone. Everybody keeps to a lane, whose people walk at one speed; or they go four
-// ways and keep clear of each other.
+// A crowd in one draw call: the 48 matrices of each person are copied unchanged to a row of a texture, and each segment
+// is an ellipsoid in the box of its bone. People walk in lanes with one speed each, or in four directions while they
+// avoid each other.
 import * as THREE from 'three';
 
 const lane_m = 1.1, apart_m = 1.6, length_m = 60, room_m2 = 4;
@@ -23,7 +23,7 @@ function random(seed) {
   return () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) / 2 ** 32;
 }
 
-/** Requests of `count` people to both sides of a walker at x = 0 who heads along z. */
+/** Returns requests of `count` people on both sides of a walker at x = 0 who heads along z. */
 function requests(count) {
   const next = random(7), all = [], lanes = Math.max(2, Math.ceil(count / Math.floor(length_m / apart_m)));
   for (let lane = 0; all.length < count; ++lane) {
@@ -40,10 +40,10 @@ function requests(count) {
   return all;
 }
 
-/** As many on a place `length_m` long, with `room_m2` each, who go ahead, back, and to both sides. */
+/** Returns requests of `count` people on an area `length_m` long, `room_m2` each, who walk in four directions. */
 function requestsAllOver(count, from) {
   const next = random(7), broad_m = Math.max(20, (count * room_m2) / length_m), all = [];
-  const even = (x) => 2 * Math.ceil(x / 2);  // so that nobody stands in the middle, where the person does
+  const even = (x) => 2 * Math.ceil(x / 2);  // keeps the middle free for the person
   const columns = even(Math.sqrt((count * broad_m) / length_m)), rows = even(count / columns);
   const within = (cell, cells, all_m) => ((cell + 0.3 + 0.4 * next()) / cells - 0.5) * all_m;
   for (let i = 0; i < count; ++i) {
@@ -57,14 +57,14 @@ function requestsAllOver(count, from) {
 }
 
 export class Crowd {
-  /** `figure`: whose bones' boxes everybody's segments are, in proportion to height. `clear`: they keep clear of each
-   *  other, and are all round `from`. */
+  /** `figure`: source of the boxes of segments, which are scaled by height. `clear`: people avoid each other and start
+   *  around `from`. */
   constructor(world, count, figure, height_m, parent, clear, from) {
     this.world = world;
     this.clear = clear;
     if (clear) ({ all: this.asked, broad_m: this.broad_m } = requestsAllOver(count, from));
     else this.asked = requests(count);
-    // Who keeps clear starts from standing: of two who walk already, and meet at once, none could stop in time.
+    // People who avoid each other start standing, because two walkers spawned close together could not stop in time.
     this.people = world.spawn(this.asked.map((r) => (clear ? { ...r, speed_m_s: 0 } : r)));
     if (clear) {
       world.avoidance.manage(this.people);
@@ -108,13 +108,13 @@ export class Crowd {
     this.looks.array.set([r, g, b], 4 * i + 1);
     this.looks.needsUpdate = true;
   }
-  /** Nobody's colour says anything. */
+  /** Sets random colours. */
   clothes() {
     const next = random(11);
     for (let i = 0; i < this.people.count; ++i) this.#colour(i, 0.2 + 0.3 * next(), 0.22 + 0.3 * next(), 0.26 + 0.3 * next());
   }
-  /** Colours of the next `some` people by what their muscles cost a tick: grey where nothing is simulated, then blue to
-   *  red from 0.2 to 5 µs. */
+  /** Colours the next `some` people by the cost of their muscles per tick: grey without simulation, then blue to red
+   *  from 0.2 to 5 µs. */
   heat(some = 200) {
     for (let k = 0; k < Math.min(some, this.people.count); ++k) {
       const i = this.next++ % this.people.count, person = this.people.slice(i);
@@ -125,8 +125,8 @@ export class Crowd {
       else this.#colour(i, 0.05 + 0.9 * hot, 0.25 * (1 - Math.abs(2 * hot - 1)) + 0.05, 0.9 * (1 - hot) + 0.03);
     }
   }
-  /** Who has fallen behind the walker at (x, z), or come too far ahead of him, goes on at the other end of the street. Of
-   *  those who keep clear, where nobody is; and who is too far aside turns back. */
+  /** Moves people too far behind or ahead of the walker at (x, z) to the other end of the street. With avoidance the
+   *  place must be free, and people too far to the side turn back. */
   wrap(x, z, matrices) {
     const away = [], placed = [], place = (i) => [matrices[576 * i + 3], matrices[576 * i + 11]];
     for (let i = 0; i < this.people.count; ++i) {
@@ -134,7 +134,7 @@ export class Crowd {
       if (Math.abs(dz) > 0.6 * length_m) away.push([i, z + dz - 1.2 * length_m * Math.sign(dz)]);
       if (this.clear && Math.abs(dx) > 0.5 * this.broad_m) this.#turn(i, dx > 0 ? -Math.PI / 2 : Math.PI / 2);
     }
-    const isFree = (to) => {  // three metres are what two who meet need to stop
+    const isFree = (to) => {  // two people who meet need three metres to stop
       const near = (at) => Math.hypot(at[0] - to[0], at[1] - to[1]) < 3;
       for (let i = 0; i < this.people.count; ++i) if (near(place(i))) return false;
       return !placed.some(near);
@@ -154,7 +154,7 @@ export class Crowd {
   }
   pose(x, z) {
     const matrices = this.texture.image.data;
-    matrices.set(this.world.matrices(this.people));  // a copy: what the library shows ends where its memory grows
+    matrices.set(this.world.matrices(this.people));  // a copy: views end when memory grows
     this.texture.needsUpdate = true;
     this.wrap(x, z, matrices);
   }

@@ -1,4 +1,4 @@
-// One person drawn: bones are rigid meshes, placed by a matrix each; muscles are one buffer that the library writes.
+// The meshes of one person: bones are rigid meshes with a matrix each, muscles are one buffer written by the library.
 import * as THREE from 'three';
 import { constants as c } from 'mobil';
 
@@ -27,7 +27,7 @@ export class Figure {
     return mesh;
   }
 
-  // Surfaces come in the world; a bone's are taken back into its segment once, and its matrix moves them from then on.
+  // Surfaces are in world coordinates. Those of a bone are transformed once to its segment, then moved by its matrix.
   #addBones(person) {
     const surfaces = this.world.surfaces(person, { bones: 1, muscles: 0, side: c.MOBIL_BOTH });
     const vertices = surfaces.write(person).slice(), matrices = this.world.matrices(person).slice();
@@ -62,7 +62,7 @@ export class Figure {
     });
   }
 
-  /** Where the person is after the last tick; where the pelvis is. */
+  /** Moves the meshes to the pose of the last tick and returns the place of the pelvis. */
   pose(person) {
     const m = this.world.matrices(person);
     for (const bone of this.bones) {
@@ -75,7 +75,7 @@ export class Figure {
     this.buffer.needsUpdate = true;
     return place;
   }
-  /** `activation(muscle, side)`: 0 to 1. */
+  /** Colours muscles by `activation(muscle, side)`, 0 to 1. */
   colour(activation) {
     for (const { userData, material } of this.muscles) if (!userData.tendon) material.color.lerpColors(rest, pulling, activation(userData.muscle, userData.side));
   }

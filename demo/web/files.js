@@ -1,4 +1,4 @@
-// Files to take along: a table of the last minute, and a stride as glTF.
+// Files to download: a table of the last minute, and a stride as glTF.
 import * as THREE from 'three';
 import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
 
@@ -10,7 +10,7 @@ export function download(name, parts, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// The vertices that a mesh uses of a shared buffer of places and normals, as a mesh of its own; `shapes`: further buffers.
+// Returns a mesh's part of a shared buffer of places and normals as a separate mesh. `shapes`: morph target buffers.
 function alone(of, first_buffer, shapes = []) {
   const index = of.geometry.index.array, first = index.reduce((a, b) => Math.min(a, b)), last = index.reduce((a, b) => Math.max(a, b));
   const pick = (all, offset, minus) => {
@@ -33,8 +33,8 @@ function alone(of, first_buffer, shapes = []) {
   return mesh;
 }
 
-/** A stride from now on, on the spot (and on stairs or hills up or down from there): bones as nodes that move, muscles as shapes between which is blended. `step` makes
- *  so many ticks; the world is put back to where it was. As bytes. */
+/** Returns the next stride as GLB bytes, on the spot (with height changes on stairs or hills): bones as moving nodes,
+ *  muscles as blended morph targets. `step` runs a number of ticks. The world is restored afterwards. */
 export async function strideAsGlb(world, person, figure, stride_s, step, shapes = 20) {
   const before = world.save(), ticks = Math.max(1, Math.round(stride_s / world.tick_s / shapes));
   const times = [], flesh = [], matrices = [];

@@ -1,9 +1,9 @@
-// What the page's people walk on: the height that the library asks for, and the mesh that shows it.
+// The uneven ground of the page: heights for the library's queries, and the mesh.
 import * as THREE from 'three';
 
 const reach_m = 60;
 
-/** Corners of a profile along z, [z, height] in m, that repeats after `period_m`; vertical where two have one z. */
+/** Corners of a profile along z, [z, height] in m, repeated after `period_m`; vertical between two with the same z. */
 const kerbs = { period_m: 8, corners: [[0, 0], [4, 0], [4, 0.12], [8, 0.12], [8, 0]] };
 const stairs = (() => {
   const steps = 6, rise_m = 0.16, tread_m = 0.3, up_m = 4, down_m = 10, period_m = 16, corners = [[0, 0]];
@@ -12,7 +12,7 @@ const stairs = (() => {
   return { period_m, corners: [...corners, [period_m, 0]] };
 })();
 
-/** Height at z: of the corners' last one before it, for all treads are level. */
+/** Returns a function for the height at z: that of the last corner before it, because all treads are level. */
 function tread({ period_m, corners }) {
   return (x, z) => {
     const at = z - period_m * Math.floor(z / period_m);
@@ -31,7 +31,7 @@ const hills = (x, z) => {
   return [0.3 * Math.sin(along * z) + 0.25 * Math.sin(slant), 0.25 * aside * Math.cos(slant), along * (0.3 * Math.cos(along * z) + 0.25 * Math.cos(slant))];
 };
 
-/** By name: `at(x, z)` is the height and its slopes along x and z; the periods after which it repeats. */
+/** Grounds by name. `at(x, z)` returns height and slopes along x and z, which repeat after `period_x`, `period_z`. */
 const grounds = {
   hills: { at: hills, period_x: 40, period_z: 30 },
   kerbs: { at: tread(kerbs), period_x: 1, period_z: kerbs.period_m, profile: kerbs },
@@ -39,7 +39,7 @@ const grounds = {
 };
 export const groundNames = ['level', ...Object.keys(grounds)];
 
-// Lines of a metre, which the ground's colour is multiplied by.
+// Returns a texture of squares of one metre, which is multiplied by the ground's colour.
 function squares() {
   const canvas = Object.assign(document.createElement('canvas'), { width: 128, height: 128 }), x = canvas.getContext('2d');
   x.fillStyle = '#fff';
@@ -54,9 +54,9 @@ function squares() {
 }
 
 function geometry({ at, profile, period_x, period_z }) {
-  // The mesh stands up to half a period off.
+  // The mesh is up to half a period off the person.
   const past = (period_m) => Math.ceil(reach_m / period_m + 0.5) * period_m, past_x = past(period_x), past_z = past(period_z);
-  const rows = [];  // [z, height or null where the ground says it]
+  const rows = [];  // [z, height, or null for the height of the ground]
   if (profile) for (let z = -past_z; z < past_z; z += period_z) rows.push(...profile.corners.map(([from, height]) => [z + from, height]));
   else for (let z = -past_z; z <= past_z; ++z) rows.push([z, null]);
   const apart = profile ? 2 * past_x : 1, position = [], uv = [], index = [], columns = (2 * past_x) / apart + 1;
@@ -89,7 +89,7 @@ export class Ground {
     this.stage = stage;
     stage.stand(this.mesh);
   }
-  /** What Terrain.setHeights takes. */
+  /** Callback for Terrain.setHeights. */
   heights = (places, count) => {
     const answers = new Float32Array(4 * count);
     for (let i = 0; i < count; ++i) {
@@ -98,7 +98,7 @@ export class Ground {
     }
     return answers;
   };
-  /** The mesh goes along by whole periods. */
+  /** Moves the mesh with the person, by whole periods. */
   follow(x, z) {
     this.mesh.position.set(this.period_x * Math.round(x / this.period_x), 0, this.period_z * Math.round(z / this.period_z));
   }

@@ -1,4 +1,4 @@
-// The page: one person of the reader's choosing, a crowd, and the library under both.
+// The page: one person set by the user, a crowd, and the library that simulates both.
 import { FEATURES, METHODS, MobilError, STATES, canRun, constants as c, load } from 'mobil';
 import { attempt, choice, slider, toggle } from './controls.js';
 import { Crowd } from './crowd.js';
@@ -24,18 +24,18 @@ class Page {
     this.trace = new Trace();
     this.told = { tick: 0, draw: 0 };
     this.play(still);
-    if (!attempt(() => this.respawn())) {  // a link that nobody can walk
+    if (!attempt(() => this.respawn())) {  // a link with an impossible scene
       const why = element('refusal').textContent;
       this.scene = structuredClone(usual);
       this.respawn();
-      element('refusal').textContent = `${why}; what is usual is shown instead`;
+      element('refusal').textContent = `${why}; default values are shown instead`;
     }
-    this.#controls();  // which hold the scene that is shown
+    this.#controls();  // for the scene that is shown
     this.grounded();
     this.crowded();
     this.chosen();
   }
-  // Bases of another version are refused, and made here instead.
+  // Bases of another version are rejected and computed here instead.
   #takeBaked(baked) {
     try { this.world.loadBaked(baked); } catch (error) { console.warn(error.message); }
   }
@@ -57,14 +57,14 @@ class Page {
     const method = METHODS[this.scene.methods[i]];
     this.world.setMethod(person, i, { method, modes: this.scene.modes, control_points: 1, reported: 1 });
   }
-  /** A new body; all or nothing. */
+  /** Replaces the person by one with the scene's body. On errors nothing changes. */
   respawn() {
     const { world, scene } = this;
     const at = this.#place();
     const muscles = Object.fromEntries(Object.entries(this.#muscles()).filter(([, v]) => v !== undefined));
-    // Who keeps clear starts from standing, so that there is time to see others.
+    // With avoidance the person starts standing, to have time to react to others.
     const body = request(scene, this.mobil.style), begins = scene.clear ? { ...body, speed_m_s: 0, step_length_m: undefined } : body;
-    // Muscles that follow moments want forces first.
+    // Muscles that follow moments need forces first.
     const person = world.spawn([{ ...begins, place: [scene.clear ? at.x : 0, 0, at.z] }], { ...muscles, activation: c.MOBIL_NO_ACTIVATION });
     try {
       if (scene.forces || scene.pull === 2) world.enable(person, FEATURES.forces);
@@ -87,14 +87,14 @@ class Page {
     this.#curves();
     if (this.choosing) this.world.lod.manage(this.person);
   }
-  /** Of the person's pelvis. */
+  /** Returns the place of the person's pelvis. */
   #place() {
     const m = this.figure ? this.world.matrices(this.person) : [];
     return { x: m[3] ?? 0, z: m[11] ?? 0 };
   }
   walk() {
     this.world.changeWalk(this.person, request(this.scene, this.mobil.style, false));
-    if (this.scene.clear) {  // managed anew: avoidance keeps the length of steps that it found
+    if (this.scene.clear) {  // managed again, because avoidance keeps the initial step length
       this.world.avoidance.release(this.person);
       this.#keepClear();
     }
@@ -104,7 +104,7 @@ class Page {
     const { scene } = this;
     this.ways = groups.map((_, i) => this.mobil.levels(i, { speed_m_s: scene.speed / 3.6, height_m: scene.height, inertia: !!scene.inertia, pulling: scene.pull > 0 }));
   }
-  /** Of each group the name of the way that it has now. */
+  /** Returns the name of each group's current method. */
   #chosenWays() {
     return groups.map((_, i) => {
       const has = this.world.method(this.person, i);
@@ -121,7 +121,7 @@ class Page {
     if (this.ground && this.crowd) world.terrain.manage(this.crowd.people);
     if (this.choosing && this.crowd) world.lod.manage(this.crowd.people);
   }
-  /** Everybody keeps clear of everybody, or all walk as they are told. */
+  /** Applies a change of *keep clear*: all people avoid each other, or all walk as requested. */
   cleared() {
     this.respawn();
     this.crowded();
@@ -142,7 +142,7 @@ class Page {
     if (this.ground) for (const people of everybody) world.terrain.manage(people);
   }
 
-  /** Methods as the scene calls for, or as they are set. */
+  /** Applies a change of *choose*: methods chosen for the camera, or those of the controls. */
   chosen() {
     const { world, scene } = this, everybody = [this.person, this.crowd?.people].filter(Boolean);
     if (this.choosing) {
@@ -170,7 +170,7 @@ class Page {
   // ---- Time
   step(ticks) { for (let i = 0; i < ticks; ++i) this.#ran(() => { this.world.tick(); return 1; }); }
   advance(seconds) { this.#ran(() => this.world.advance(seconds).count); }
-  /** `ticks()` returns how many there were. */
+  /** Times and samples ticks. `ticks()` runs them and returns their number. */
   #ran(ticks) {
     const began = performance.now(), count = ticks();
     if (!count) return;
@@ -196,7 +196,7 @@ class Page {
     this.stage.draw();
     this.told.draw = soft(this.told.draw, performance.now() - began);
   }
-  /** Plots and figures, less often than pictures. */
+  /** Updates plots and figures, less often than pictures. */
   tell() {
     groups.forEach((_, i) => {
       const select = element(`method${i}`), { method } = this.world.method(this.person, i);
@@ -206,8 +206,8 @@ class Page {
     });
     drawTrace(this.trace, this.scene.mass * 9.81);
     drawWays(this.ways, this.#chosenWays());
-    const did = this.choosing && this.did ? `, muscles predicted ${(1000 * this.did.predicted_s).toFixed(2)} ms a tick, ${this.did.compacted} far people compact` : '';
-    element('told').textContent = `tick ${this.told.tick.toFixed(2)} ms, picture ${this.told.draw.toFixed(1)} ms, ${(1 + (this.crowd?.people.count ?? 0)).toLocaleString('en')} people, ${(this.mobil.library.memory.buffer.byteLength / 2 ** 20).toFixed(0)} MB${did}${this.mobil.fused ? '' : '; this browser does not fuse multiply-adds: bits differ from desktops’'}`;
+    const did = this.choosing && this.did ? `, muscles predicted ${(1000 * this.did.predicted_s).toFixed(2)} ms per tick, ${this.did.compacted} far people compact` : '';
+    element('told').textContent = `tick ${this.told.tick.toFixed(2)} ms, picture ${this.told.draw.toFixed(1)} ms, ${(1 + (this.crowd?.people.count ?? 0)).toLocaleString('en')} people, ${(this.mobil.library.memory.buffer.byteLength / 2 ** 20).toFixed(0)} MB${did}${this.mobil.fused ? '' : '; this browser does not fuse multiply-adds, so results differ from desktops in the last bits'}`;
   }
   run() {
     let last = performance.now(), told = 0;
@@ -228,7 +228,7 @@ class Page {
     };
     requestAnimationFrame(frame);
   }
-  // The next frame mostly fails alike: each line is said once.
+  // The next frame usually fails the same way, so each message is shown once.
   #failures = new Set();
   #failed(error) {
     if (this.#failures.has(error.message)) return;
@@ -244,24 +244,24 @@ class Page {
     slider('body', { id: 'mass', name: 'mass', holder: scene, key: 'mass', low: 30, high: 200, step: 1, unit: ' kg', act: anew });
     choice('body', { id: 'build', name: 'build', holder: scene, key: 'build', options: ['thin', 'average', 'athletic', 'heavy'], numbers: true, act: anew });
     slider('walk', { id: 'speed', name: 'speed', holder: scene, key: 'speed', low: 0, high: 8, step: 0.1, unit: ' km/h', act: walk });
-    slider('walk', { id: 'step-length', name: 'step length', title: '0: as people of that leg would', holder: scene, key: 'step', low: 0, high: 1.1, step: 0.01, unit: ' m', act: walk });
+    slider('walk', { id: 'step-length', name: 'step length', title: '0: usual for the leg length', holder: scene, key: 'step', low: 0, high: 1.1, step: 0.01, unit: ' m', act: walk });
     for (const n of this.mobil.style) {
       const unit = n.unit === '1' ? '' : ` ${n.unit}`, step = 10 ** Math.floor(Math.log10((n.high - n.low) / 50)), name = n.name.replace(/_(deg|h|m|cycle|n_per_m)$/, '').replaceAll('_', ' ');
       slider('style', { id: n.name, name, title: n.meaning, holder: scene.style, key: n.name, low: n.low, high: n.high, step, unit, usual: n.usual, act: walk });
     }
-    choice('walk', { id: 'ground', name: 'ground', title: 'what everybody walks on', holder: scene, key: 'ground', options: groundNames, numbers: true, act: () => this.grounded() });
+    choice('walk', { id: 'ground', name: 'ground', title: 'ground of all people', holder: scene, key: 'ground', options: groundNames, numbers: true, act: () => this.grounded() });
     toggle('walk', { id: 'slow', name: 'slow down', title: 'on slopes and stairs', holder: scene, key: 'slow', act: () => this.world.terrain.setSlowing(!!scene.slow) });
-    groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'how it is simulated', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
+    groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'method of deformation', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
     slider('muscles', { id: 'modes', name: 'modes', title: 'of modal muscles', holder: scene, key: 'modes', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'modal' && this.setMethod(i)); } });
-    choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: anew });
-    toggle('muscles', { id: 'inertia', name: 'inertia', title: 'muscles feel gravity and how their bones move', holder: scene, key: 'inertia', act: anew });
+    choice('muscles', { id: 'pull', name: 'pull', title: 'source of excitation; active muscles turn red', holder: scene, key: 'pull', options: ['none', 'by gait phase', 'by joint moments'], numbers: true, act: anew });
+    toggle('muscles', { id: 'inertia', name: 'inertia', title: 'apply gravity and the motion of bones to muscles', holder: scene, key: 'inertia', act: anew });
     toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.enable(this.person, FEATURES.forces, !!scene.forces || scene.pull === 2) });
     slider('crowd', { id: 'people', name: 'people', holder: scene, key: 'crowd', low: 0, high: 5000, step: 20, act: () => this.crowded() });
-    toggle('crowd', { id: 'clear', name: 'keep clear', title: 'all go their ways, step by step where nobody else is', holder: scene, key: 'clear', act: () => this.cleared() });
-    toggle('crowd', { id: 'choose', name: 'choose', title: 'each muscle by the cheapest method that this camera calls for', holder: scene, key: 'choose', act: () => this.chosen() });
-    slider('crowd', { id: 'tolerance', name: 'error', title: 'how many pixels a muscle may be off, where methods are chosen', holder: scene, key: 'tolerance', low: 0.25, high: 8, step: 0.25, unit: ' px', act: () => {} });
-    slider('crowd', { id: 'budget', name: 'budget', title: 'of muscles a tick; 0: none', holder: scene, key: 'budget', low: 0, high: 10, step: 0.1, unit: ' ms', act: () => {} });
-    toggle('crowd', { id: 'heat', name: 'show cost', title: 'where methods are chosen: grey nothing, blue cheap, red dear', holder: scene, key: 'heat', act: () => { if (!scene.heat) this.crowd?.clothes(); } });
+    toggle('crowd', { id: 'clear', name: 'keep clear', title: 'people walk in four directions and avoid each other', holder: scene, key: 'clear', act: () => this.cleared() });
+    toggle('crowd', { id: 'choose', name: 'choose', title: 'gives each muscle the cheapest method that is accurate enough for this camera', holder: scene, key: 'choose', act: () => this.chosen() });
+    slider('crowd', { id: 'tolerance', name: 'error', title: 'maximum error of a muscle in pixels, if methods are chosen', holder: scene, key: 'tolerance', low: 0.25, high: 8, step: 0.25, unit: ' px', act: () => {} });
+    slider('crowd', { id: 'budget', name: 'budget', title: 'time for muscles per tick; 0: unlimited', holder: scene, key: 'budget', low: 0, high: 10, step: 0.1, unit: ' ms', act: () => {} });
+    toggle('crowd', { id: 'heat', name: 'show cost', title: 'if methods are chosen: grey none, blue cheap, red expensive', holder: scene, key: 'heat', act: () => { if (!scene.heat) this.crowd?.clothes(); } });
     element('panel').addEventListener('submit', (event) => event.preventDefault());
     element('play').onclick = () => this.play(!this.paused);
     element('step').onclick = () => this.oneStep();
@@ -298,9 +298,9 @@ class Page {
       setTimeout(() => { element('link').textContent = 'Copy link'; }, 1500);
     } catch { /* the address bar has it */ }
   }
-  /** One stride, as glTF. */
+  /** Returns one stride as glTF. */
   glb() { return strideAsGlb(this.world, this.person, this.figure, this.#stride(), (ticks) => this.world.tick(ticks)); }
-  // How long the right leg's cycle lasts: until its phase is again what it is.
+  // Returns the duration of the right leg's cycle, until its phase has its current value again.
   #stride() {
     const before = this.world.save(), phase = () => this.world.read(c.MOBIL_FEET, this.person)[18];
     let turned = 0, last = phase(), ticks = 0;
@@ -328,7 +328,7 @@ async function start() {
   if (!canRun() || !webgl2 || query.has('poster')) {
     element('poster').hidden = false;
     document.querySelector('main').hidden = true;
-    element('poster').querySelector('p').textContent = `This page needs ${canRun() ? 'WebGL 2' : 'WebAssembly with SIMD'}, which this browser does not have. Here is what it shows elsewhere.`;
+    element('poster').querySelector('p').textContent = `This page needs ${canRun() ? 'WebGL 2' : 'WebAssembly with SIMD'}, which this browser does not have. This picture shows it in another browser.`;
     document.title = 'mobil: poster';
     return;
   }

@@ -1,4 +1,4 @@
-// Plots of the last seconds, and what accuracy costs: error over cost of every way to deform a muscle.
+// Plots of the last seconds, and of error over cost of every way to deform a muscle.
 import { columns, groups } from './trace.js';
 
 const span_s = 2.4, tint = ['#2f7ed8', '#e0812b', '#7a5cc4', '#3f9b57'];
@@ -78,7 +78,7 @@ export function drawTrace(trace, weight_n) {
     `Right bellies now: ${groups.map((g) => `${g} ${now(trace, `${g.replace(' ', '_')}_elongation_right_mm`)}`).join(', ')} millimetres longer than at rest`);
 }
 
-/** `curves`: of each group its ways, [{name, error_m, cost_us}]; `chosen`: of each the name of what it has, or ''. */
+/** `curves`: methods of each group, [{name, error_m, cost_us}]; `chosen`: name of each group's method now, or ''. */
 export function drawWays(curves, chosen) {
   const to = begin('ways'), { x, w, h, faint } = to;
   frame(to, 'Error, mm, over cost, µs', []);
@@ -92,7 +92,7 @@ export function drawWays(curves, chosen) {
     x.strokeStyle = x.fillStyle = tint[i];
     x.lineWidth = 1.2;
     x.beginPath();
-    let least = Infinity;  // through those that nothing cheaper beats
+    let least = Infinity;  // the line connects the Pareto frontier
     for (const way of [...ways].sort((a, b) => a.cost_us - b.cost_us)) {
       if (way.error_m >= least) continue;
       least = way.error_m;

@@ -1,5 +1,5 @@
-// The page's pictures: page.webp, a stride of it, and poster.jpg, which is shown where the page cannot run.
-// node record.mjs PLAYWRIGHT PAGE: the folder where tests/web/run installs playwright-core, and the built page.
+// Records the page's pictures: page.webp, a stride, and poster.jpg, which is shown if the page cannot run.
+// Usage: node record.mjs PLAYWRIGHT PAGE, the folder where tests/web/run installs playwright-core, and the built page.
 import { mkdtemp, rm } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';

@@ -1,4 +1,4 @@
-// What the page shows, as plain values, and as the address that holds them. What is usual is not written.
+// The scene as plain values, and as an address, which omits default values.
 export const usual = {
   height: 1.8, mass: 80, build: 2, speed: 5, step: 0, style: {},
   methods: ['modal', 'modal', 'modal', 'modal'], modes: 12, pull: 0, inertia: 0, forces: 1,
@@ -6,7 +6,7 @@ export const usual = {
 };
 export const methodNames = ['explicit_central', 'implicit_central', 'newmark', 'static', 'modal', 'finite', 'none'];
 
-/** From `?height=1.7&methods=explicit_central,explicit_central,newmark,none&style.arm_swing=1.2`; what is not a number, or unknown, stays as usual. */
+/** Reads `?height=1.7&methods=explicit_central,modal,newmark,none&style.arm_swing=1.2`; ignores unknown entries. */
 export function fromAddress(query) {
   const scene = structuredClone(usual);
   for (const [name, text] of new URLSearchParams(query)) {
@@ -31,7 +31,7 @@ export function toAddress(scene) {
   return query.toString();
 }
 
-/** Fields of mobil_person, or of mobil_walk where `bodyToo` is false. `numbers`: mobil.style. */
+/** Returns the fields of mobil_person, or of mobil_walk if `bodyToo` is false. `numbers`: mobil.style. */
 export function request(scene, numbers, bodyToo = true) {
   const body = bodyToo ? { height_m: scene.height, mass_kg: scene.mass, constitution: scene.build } : {};
   return {

@@ -1,11 +1,11 @@
-// Serves a folder of static files on this machine alone: node serve.mjs FOLDER [PORT]
+// Serves a folder of static files, on this machine only. Usage: node serve.mjs FOLDER [PORT]
 import http from 'node:http';
 import { readFile, stat } from 'node:fs/promises';
 import path from 'node:path';
 
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.jpg': 'image/jpeg' };
 
-/** Listens on `port` (0: any that is free); resolves to {port, close}. */
+/** Listens on `port` (0: any free one); resolves to {port, close}. */
 export async function serve(folder, port = 0) {
   const root = path.resolve(folder);
   const server = http.createServer(async (question, answer) => {

@@ -1,4 +1,4 @@
-// Ground, light and camera; the camera goes with whom it looks at.
+// Ground, light and camera, which follows the person.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
@@ -39,7 +39,7 @@ export class Stage {
     this.#resize();
   }
 
-  /** Ground instead of the level plane, or (null) the plane again. */
+  /** Replaces the level plane by `ground`, or (null) restores the plane. */
   stand(ground) {
     if (this.uneven) this.scene.remove(this.uneven);
     this.uneven = ground;
@@ -49,7 +49,7 @@ export class Stage {
     }
     this.ground.visible = this.grid.visible = !ground;
   }
-  /** The camera keeps its place beside (x, y, z), which is on the ground. */
+  /** Moves the camera with (x, y, z), a place on the ground. */
   follow(x, y, z) {
     const { target } = this.controls, moved = new THREE.Vector3(x - target.x, y - this.level_m, z - target.z);
     this.camera.position.add(moved);
@@ -64,7 +64,7 @@ export class Stage {
     this.controls.update();
     this.renderer.render(this.scene, this.camera);
   }
-  /** The camera as mobil_scene has it. */
+  /** Returns the camera's fields of mobil_scene. */
   viewpoint() {
     const gaze = this.camera.getWorldDirection(new THREE.Vector3()), high = Math.tan((this.camera.fov * Math.PI) / 360);
     return {

@@ -1,4 +1,4 @@
-// What one person's joints, ground and muscles did, frame by frame: for plots and for the CSV file.
+// Samples of one person's joints, ground reaction and muscles, frame by frame, for plots and the CSV file.
 import { constants as c } from 'mobil';
 
 export const groups = ['hamstrings', 'quadriceps', 'triceps surae', 'tibialis anterior'];

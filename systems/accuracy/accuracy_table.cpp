@@ -138,7 +138,7 @@ constexpr std::array<LevelCost, 4> measured_cost = {{
               {0.0F, 0.102F, 0.0711F, 0.0795F, 0.114F, 0.147F, 0.146F, 0.237F, 0.404F, 0.404F, 0.0F}},
     LevelCost{{0.0F, 0.0F, 0.0153F, 0.0177F, 0.02F, 0.0231F, 0.0268F, 0.0348F, 0.0415F, 0.0415F, 1.65F},
               {0.0F, 0.182F, 0.0905F, 0.104F, 0.118F, 0.165F, 0.241F, 0.458F, 0.988F, 0.988F, 0.0F}},
-    // Of another run, on an AMD EPYC, in which those above came out alike to 15 %.
+    // From another run, on an AMD EPYC, where the values above were within 15 %.
     LevelCost{{0.0F, 0.0F, 0.0167F, 0.0F, 0.0156F, 0.0183F, 0.0226F, 0.0304F, 0.0315F, 0.0495F, 0.0611F},
               {0.0F, 0.112F, 0.0765F, 0.186F, 0.119F, 0.172F, 0.178F, 0.225F, 0.284F, 0.426F, 0.521F}},
     LevelCost{{0.0F, 0.0F, 0.0236F, 0.0F, 0.0267F, 0.0306F, 0.0324F, 0.049F, 0.0678F, 0.0864F, 0.113F},

@@ -12,9 +12,9 @@ namespace {
 constexpr float reference_height_m = static_cast<float>(reference_body_height_m);
 constexpr std::array classes = {SpeedClass::slow, SpeedClass::free, SpeedClass::fast};
 
-/// Between the classes linearly; below the slowest as the slowest; beyond the fastest as it goes on, rising at most,
-/// and as the seventh power of speed besides: walks that are all but runs strike hard (lod_show_test measured
-/// it).
+/// Interpolates linearly between the classes and holds the value of the slowest class below it. Beyond the fastest
+/// class it extrapolates, rising or constant, and multiplies by the seventh power of speed. Walks close to running have
+/// hard heel strikes (measured by lod_show_test).
 float at_speed(const std::array<float, 3>& error, float speed_m_s) {
   if (speed_m_s <= speed_class_m_s[0]) return error[0];
   const std::size_t c = speed_m_s <= speed_class_m_s[1] ? 0 : 1;
@@ -102,7 +102,7 @@ void CostSpectrum::add(const LodTable& lod_table, const LevelCase& of, float siz
   float due_below = INFINITY;
   for (const std::uint8_t level : lod_table.by_cost(of)) {
     const float factor = lod_table.error_m(of, level) * size;
-    if (!(factor < due_below)) continue;  // dearer and no better
+    if (!(factor < due_below)) continue;  // more expensive but not more accurate
     const std::int64_t cost = lod_table.cost_ps(of, level);
     if (cost > before) add(due_below, cost - before);
     before = cost;
@@ -125,7 +125,7 @@ std::int64_t CostSpectrum::cost_at(float factor) const {
   return cost;
 }
 
-/// By the number's own bits: exponent and the first four of its fraction.
+/// Computes the bin from the exponent and the first four fraction bits of the number.
 std::size_t CostSpectrum::bin(float factor) {
   if (!(factor > min_factor)) return 0;
   if (!(factor < max_factor)) return bins - 1;
@@ -149,7 +149,7 @@ void MachineFactor::observe(double measured_s, double predicted_s) {
 
 double MachineFactor::pessimistic() const {
   constexpr double deviations =
-      3.3;  // 2.33 standard ones of a bell, each 1.25 mean absolute ones; and they are estimates
+      3.3;  // 2.33 standard deviations of a bell curve, each 1.25 mean absolute ones, and a margin for estimates
   return std::max(mean_, (mean_ + deviations * deviation_) / 1.1);
 }
 

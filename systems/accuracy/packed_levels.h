@@ -1,5 +1,5 @@
 #pragma once
-// Levels packed into a person's row, and other helpers that the parts of level of detail share.
+// Levels packed into a person's row, and other helpers shared by the parts of level of detail.
 
 #include <cmath>
 #include <cstdint>
@@ -16,15 +16,15 @@ inline bool positive(double value) {
   return value > 0 && std::isfinite(value);
 }
 
-/// Instead of a level: the caller chose, or Simulation refused; both are left alone.
+/// Special values of a level: forced by the caller, or refused by Simulation. Neither is changed.
 inline constexpr std::uint32_t forced_level = 15, refused_level = 14;
 
-/// Whether muscles of a choice have the lod_table of those that pull.
+/// Returns true if muscles of a choice use the LodTable of active muscles.
 inline bool pulls_alive(const LegMuscles& choice) {
   return has_activation(choice) && choice.finite_shape.value_or(true);
 }
-/// The level that a method is, or the one that it costs about as much as. What pulls and moves, but is not tuned, is no
-/// nearer to active tissue than static answers are.
+/// Returns the level of a method, or the level of about the same cost. An untuned moving belly of an active muscle
+/// counts as static, because its motion brings it no closer to active tissue.
 std::uint32_t level_of(const MuscleMethod& method, bool active);
 
 inline std::uint32_t level_at(const std::uint32_t* packed, std::uint32_t muscle) {
@@ -37,7 +37,7 @@ inline void set_level(std::uint32_t* packed, std::uint32_t muscle, std::uint32_t
 inline bool is_active(const LodState<float>& lod_state) {
   return (lod_state.effects & lod_active) != 0;
 }
-/// Which of the levels' figures are those of a person's muscle.
+/// Selects the level figures that apply to a person's muscle.
 inline LevelCase level_case(const LodState<float>& lod_state, std::uint32_t muscle, bool points) {
   return {muscle, lod_state.speed_step, (lod_state.effects & lod_inertia) != 0, points, is_active(lod_state)};
 }

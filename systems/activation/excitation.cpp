@@ -12,7 +12,7 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 void excite_all(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes<float>* member) {
   const Wide asked = load(clock.speed), zero = wide(0.0F);
-  const Wide moving = select(asked > zero, asked, zero);  // not where it is NaN
+  const Wide moving = select(asked > zero, asked, zero);  // false for NaN
   const Wide speed = clamp(moving, min_excitation_speed, max_excitation_speed);
   const Wide walks = min(moving * (1 / min_excitation_speed), 1.0F);
   Wide wave[excitation_terms];
@@ -37,7 +37,7 @@ void excite_all(const RowExcitation& row, const LegClock<Lanes<float>>& clock, L
   }
 }
 
-/// Of the legs that stand.
+/// Computes the clocks of the stance legs.
 void find_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                  const GaitState<Lanes<float>>& state, LegClock<Lanes<float>>& clock) {
   constexpr auto leg_g = static_cast<float>(9.81 * fraction::hip_height);

@@ -1,5 +1,5 @@
 #pragma once
-// From where legs are in their walk to how hard their muscles are asked to pull.
+// Excitation of muscles from the phase of their legs in the walk.
 
 #include <array>
 #include <cstddef>
@@ -14,18 +14,18 @@
 
 namespace mobil::inline v0_3 {
 
-/// How the members of a row are excited, in its order.
+/// Excitations of a row's members, in the order of the row.
 struct RowExcitation {
   std::array<MemberExcitation, max_row_members> member;
   std::size_t members;
 };
 RowExcitation row_excitation(Muscle muscle);
 
-/// Excitations of sixteen muscles' members, 0.01 to 1, as assets/muscles/excitation_curves.h has them. A
-/// speed that is NaN counts as standing; where the phase is none, the least.
+/// Computes excitations of sixteen muscles' members, 0.01 to 1, from assets/muscles/excitation_curves.h. A NaN speed
+/// counts as standing. A NaN phase gives the minimum excitation.
 void excite(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes<float>* member);
 
-/// Both legs' clocks of sixteen walkers.
+/// Writes the clocks of both legs of sixteen walkers.
 void set_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, PublishedLeg* posts);
 

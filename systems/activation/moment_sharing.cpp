@@ -45,7 +45,7 @@ HWY_INLINE Three solved(const Symmetric& s, const Three& b) {
   return {fnma(l_y, second, fnma(l_z, third, b.x * over_x)), second, third};
 }
 
-/// A member as it counts in a round: what it pulls with when all active, and how that over its volume is per arm · y.
+/// A member in one round: force at full activation, and activation per arm · y, which is that force over the volume.
 struct Pull {
   Wide active, per_y;
 };
@@ -54,7 +54,7 @@ HWY_INLINE Wide in_range(const Wide& x) {
   return min(max(x, wide(min_activation)), wide(max_activation));
 }
 
-/// The step, as far as it changes no activation by more than `most`.
+/// Returns the step, shortened so that no activation changes by more than `most`.
 HWY_INLINE Three shortened(const Three& step, const Wide& most, const Pull* pull, const Three* arm) {
   Wide farthest = most;
   for (std::size_t i = 0; i < leg_member_count; ++i) farthest = max(farthest, abs(pull[i].per_y * dot(arm[i], step)));
@@ -62,8 +62,8 @@ HWY_INLINE Three shortened(const Three& step, const Wide& most, const Pull* pull
   return {part * step.x, part * step.y, part * step.z};
 }
 
-/// The dual at y: its value, which is least where nothing is left; what is left of the moments, its slope downhill; and
-/// how fast that falls with y.
+/// The dual at y: its value, which is minimal where no moment is left; the moments left, which are its downhill slope;
+/// and how fast they decrease with y.
 struct Dual {
   Wide value;
   Three left;
@@ -93,7 +93,7 @@ HWY_INLINE Dual dual_at(const Three& y, const Three& moments, const Pull* pull, 
   return at;
 }
 
-/// The y at which nothing is left.
+/// Returns the y at which no moment is left.
 HWY_INLINE Three solve_dual(const Three& from, const Three& moments, const Pull* pull, const Three* arm, int steps) {
   const Wide zero = wide(0.0F);
   Three y = from;
@@ -103,12 +103,12 @@ HWY_INLINE Three solve_dual(const Three& from, const Three& moments, const Pull*
   for (int i = 0; i < steps; ++i) {
     const Three next = {y.x + step.x, y.y + step.y, y.z + step.z};
     const Dual at = dual_at(next, moments, pull, arm);
-    // Values differ by their rounding alone near the end; steps are small by then.
+    // Near the end values differ only by rounding, but steps are small by then.
     const WideMask better = at.value <= fma(wide(1e-6F), abs(least), least);
     y = chosen(better, next, y);
     least = select(better, at.value, least);
-    // Where all muscles are at an end of their range the reserves alone tell the slope, and steps are far too long;
-    // where they are to stay there, such steps are due.
+    // If all muscles are at an end of their range, only the reserves determine the slope, and steps are far too long.
+    // If the muscles stay there in the solution, such long steps are needed.
     reach = select(better, min(4.0F * reach, wide(1e6F)), reach * 0.4F);
     const Three shorter = {0.4F * step.x, 0.4F * step.y, 0.4F * step.z};
     step = chosen(better, shortened(solved(at.slope, at.left), reach, pull, arm), shorter);
@@ -148,7 +148,7 @@ void share_all(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m
     for (std::size_t i = 0; i < leg_member_count; ++i) {
       const Wide wanted = pull[i].per_y * dot(arm[i], y);
       asked[i] = fma(in_range(wanted), pull[i].active, passive[i]) / load(design.member[i].force_n);
-      force[i] = 0.5F * (force[i] + asked[i]);  // the longer a tendon, the less a fibre can: else rounds go to and fro
+      force[i] = 0.5F * (force[i] + asked[i]);  // undamped rounds oscillate: a longer tendon weakens the fibre
       full = full + select(wanted >= wide(max_activation), one, zero);
     }
   }

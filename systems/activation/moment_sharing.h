@@ -1,15 +1,5 @@
 #pragma once
-// Moments at a leg's joints shared among its muscles: of all activations from 0.01 to 1 that make them, those of least
-// Σ volume · activation² (Crowninshield & Brand, J. Biomech. 14, 1981, with the square; Happee & van der Helm, J.
-// Biomech. 28, 1995, for the volumes). Fibres count as they are at rest, at the length that the tendon leaves them at
-// the force that they are asked for: force over length and passive force are in it, force over speed is not.
-//
-// What muscles cannot make, or are not there for, is a reserve: at the hip iliopsoas and glutei together, 80 N m for
-// 0.67 l; at knee and ankle, all of whose muscles are there, 1 N m for 1 l.
-//
-// Three rounds for the fibres' lengths, from a fifth of their force; in each a number of Newton steps of the dual,
-// which has three unknowns and is convex, always. No step changes an activation by more than one; one that leads uphill
-// is taken back and shortened.
+// Distributes moments at a leg's joints among its muscles.
 
 #include <mobil/components/activation.h>
 #include <mobil/components/lanes.h>
@@ -22,8 +12,21 @@ struct LegMoments {
   F hip, knee, ankle;
 };
 
-/// Sixteen legs. By member: `path_m`, the path's length; `arm_m`. Writes `of_most`, force over the isometric one, of
-/// each tendon; what is left to the reserves; and how many are asked for all that they can. A NaN stays in its lane.
+/// Distributes the moments of sixteen legs. Out of all activations from 0.01 to 1 that produce the moments, it chooses
+/// those that minimize Σ volume · activation² (Crowninshield & Brand, J. Biomech. 14, 1981, with the square; Happee &
+/// van der Helm, J. Biomech. 28, 1995, for the volumes). Fibres are at rest, at the length that the tendon leaves them
+/// at the requested force. Force over length and passive force are included, force over speed is not.
+///
+/// Reserves supply the moments that the muscles cannot make. At the hip they stand for iliopsoas and glutei together,
+/// 80 N m for 0.67 l. At knee and ankle, where all muscles exist, they are 1 N m for 1 l.
+///
+/// Fibre lengths take three rounds, starting from a fifth of the isometric force. Each round runs a fixed number of
+/// Newton steps of the dual, which is convex with three unknowns. The first step changes no activation by more than
+/// one. This limit grows after each accepted step. A step that leads uphill is undone and shortened.
+///
+/// `path_m` is the path length and `arm_m` the moment arm of each member. `of_most` receives the force of each tendon
+/// over its isometric force, `reserve_nm` the moments left to the reserves, and `at_most` the number of members at full
+/// activation. A NaN stays in its lane.
 void share_moments(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m,
                    const LegMoments<Lanes<float>>* arm_m, const LegMoments<Lanes<float>>& moments_nm,
                    Lanes<float>* of_most, LegMoments<Lanes<float>>& reserve_nm, Lanes<std::uint32_t>& at_most);

@@ -12,15 +12,15 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 constexpr float fastest_per_s = 10, fibre_damping = 0.1F;
-constexpr float slow_rate = 9;  // a ninetieth of a second
+constexpr float slow_rate = 9;  // 1/90 s
 constexpr int steps_from_nearby = 4, steps_from_anywhere = 24;
 
-/// Of force over speed, where that is 0: 0.32113 · 8.149 / √(1 + 0.374²).
+/// Slope of force over speed at rest: 0.32113 · 8.149 / √(1 + 0.374²).
 constexpr float slope_at_rest = 2.4511F;
 
-/// One member: fibres of optimal length 1.
+/// One member, with fibres of optimal length 1.
 struct Fibre {
-  Wide height, tendon, path;  // height, the tendon's slack length and the path's over the optimal length
+  Wide height, tendon, path;  // height, slack length of the tendon and length of the path over the optimal length
   Wide over_tendon;           // 1 / tendon
   Wide activation;
 };
@@ -29,9 +29,8 @@ HWY_INLINE Wide cosine(const Fibre& of, const Wide& m) {
   return fibre_cosine(of.height / m);
 }
 
-/// What is left over of the fibre's pull at that length, and its slope, which is positive but on the falling side of
-/// active force at rest: there the bracket decides. `rate` over the fastest
-/// speed per length.
+/// Returns the fibre's pull minus the tendon's at length m, and its slope. The slope is positive except on the falling
+/// side of the active force at rest, where the bracket decides. `rate` is the speed over the maximum speed, per length.
 HWY_INLINE CurvePoint pull(const Fibre& of, const Wide& m, const Wide& before, const Wide& rate) {
   const Wide speed = (m - before) * rate;
   const CurvePoint active = active_force(m), passive = passive_force(m), by_speed = force_at_speed(speed);
@@ -45,9 +44,9 @@ HWY_INLINE CurvePoint pull(const Fibre& of, const Wide& m, const Wide& before, c
   return {fma(fibre, cos, -tendon.at), fma(stiffness, cos, fma(tendon.slope * of.over_tendon, over_cos, turning))};
 }
 
-/// The fibre's length, from `before`. It moves toward where the tendon would pass on what it pulls with now, and the
-/// farther, the stiffer the tendon is against what its speed costs (in a long tick, all the way): the first guess.
-/// Newton's steps from a stretched tendon, whose force grows so fast with its length, would be short ones.
+/// Returns the fibre's length, starting from `before`. The first guess moves toward the length at which the tendon
+/// balances the present pull. It moves farther the stiffer the tendon is compared with the resistance to speed, and all
+/// the way in a long tick. From a stretched tendon, Newton steps would be short: its force grows steeply.
 HWY_INLINE Wide solve(const Fibre& of, const Wide& before, float rate_per_length, int steps) {
   const Wide zero = wide(0.0F), rate = wide(rate_per_length);
   Wide low = shortest_fibre(of.height), high = wide(longest_fibre);
@@ -56,7 +55,7 @@ HWY_INLINE Wide solve(const Fibre& of, const Wide& before, float rate_per_length
   const Wide force = fma(cos, active, cos * min(passive_force(from).at, 1.0F));
   const Wide balanced = fibre_at(of.height, of.tendon, of.path, force);
   const Wide tendon = tendon_force(fnma(from, cos, of.path) * of.over_tendon).at;
-  // What the speed costs a length, by the slope of fibres that do not move; what the tendon gains on the whole way.
+  // Force lost to speed per length, by the slope of resting fibres, and force that the tendon gains over the whole way.
   const Wide costs = rate * fma(active, wide(slope_at_rest), wide(fibre_damping)) * abs(balanced - from);
   const Wide gains = abs(tendon - force);
   const bool slow = rate_per_length < slow_rate;
@@ -79,7 +78,7 @@ HWY_INLINE Wide risen(const Wide& activation, const Wide& excitation, float tick
   return fma(part, excitation - activation, activation);
 }
 
-/// NaN becomes the least: so a lane recovers.
+/// Clamps an activation. NaN becomes the minimum, so the lane recovers.
 HWY_INLINE Wide within_range(const Wide& x) {
   return select(x > wide(min_activation), min(x, max_activation), wide(min_activation));
 }
@@ -108,7 +107,7 @@ HWY_INLINE Fibre fibre_of(const MemberDesign<Lanes<float>>& design, const Wide& 
   return {over * load(design.height_m), over * slack, over * path, optimal / slack, wide(min_activation)};
 }
 
-/// `tick_s` 0: at rest.
+/// Advances all members by `tick_s`, or sets them to rest if it is 0.
 HWY_INLINE void contract_members(const MemberBlock& of, float tick_s, Activation<Lanes<float>>& activation,
                                  Musculotendon<Lanes<float>>& muscle) {
   const Wide zero = wide(0.0F);
@@ -152,7 +151,7 @@ void activate_for(const MemberBlock& of, const Lanes<float>* of_most, float tick
     const Wide force = max(load(of_most[i]), wide(0.0F));
     const Wide m = fibre_at(fibre.height, fibre.tendon, fibre.path, force), cos = cosine(fibre, m);
     const Wide speed = (m - load(of.state[i].fibre)) * rate;
-    // Who is asked for next to nothing need not keep pace with a tendon that goes slack.
+    // Fibres with almost no requested force need not keep up with a tendon that goes slack.
     const Wide drag = max(fibre_damping * speed, -force), by_speed = max(force_at_speed(speed).at, wide(0.25F));
     const Wide asked = within_range((force / cos - passive_force(m).at - drag) / (active_force(m).at * by_speed));
     store(asked, excitation[i]);

@@ -26,7 +26,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// What the host gave, and what choosing works in, which lies in the simulation's workspace.
+/// The host's settings and scratch memory of choosing, in the simulation's workspace.
 struct AvoidanceWork {
   explicit AvoidanceWork(std::pmr::memory_resource* memory) : tables({type_id<AvoidanceState<float>>()}, memory) {}
 
@@ -37,7 +37,7 @@ struct AvoidanceWork {
   AvoidanceReport report;
   ReservationBook book;
   std::vector<Chosen> chosen;             // by striker
-  std::vector<std::uint32_t> striker_of;  // by reservation, of who goes off it
+  std::vector<std::uint32_t> striker_of;  // by reservation: the striker that leaves it
   std::vector<char> gives_way;            // by striker
 
   static constexpr std::uint32_t nobody = 0xFFFFFFFFU;
@@ -65,8 +65,8 @@ const AvoidanceReport& Avoidance::report() const {
   return work().report;
 }
 
-/// What somebody begins with: they go on as they were asked to, on level ground; who is managed already as they wish,
-/// their shoulders as they are.
+/// Returns a walker's first state. A new walker wants the last request, on level ground. A managed one keeps the
+/// desired velocity and the turn of the shoulders.
 static AvoidanceState<float> first_course(const World& world, const AvoidanceOptions& options, Entity person) {
   const float height = world.get<BodySize>(person)->height_m;
   const auto before = world.get<AvoidanceState>(person);
@@ -121,15 +121,15 @@ Result<void> Avoidance::manage(std::span<const Entity> people) {
   return {};
 }
 
-/// How somebody wishes to walk where it is level; zeros: not at all.
+/// Returns the desired walk on level ground; zeros for a person who wants to stand.
 static LevelWalk level_wish(const AvoidanceState<float>& course, float height_m) {
   const auto usual = resolve_gait(height_m, {.speed_m_s = course.speed_m_s});
   if (!(course.speed_m_s > 0) || !usual) return {};
   return {course.speed_m_s, course.usual * usual->step_length_m};
 }
 
-/// Whether a slope alone has them walk slower than they wish is kept with their gait: then they go on from it as they
-/// wish, however that comes to an end (is_slowed).
+/// Stores with the gait whether a slope alone slows the walker below the desired speed. The walker then returns to that
+/// speed after the slope, however it ends (is_slowed).
 static void keep_level_wish(const AvoidanceState<float>& course, const Gait<float>& asked, float height_m,
                             Footing<Lanes<float>>& footing, std::size_t lane) {
   constexpr float hindered = 0.99F;
@@ -141,8 +141,8 @@ static void keep_level_wish(const AvoidanceState<float>& course, const Gait<floa
   footing.level_length_m[lane] = level.step_length_m;
 }
 
-/// The ground of who is slowed and avoids others no more, with what they wish now; nothing of who is not. Who wishes to
-/// stand goes on as they walk.
+/// Returns the footing of a slowed walker on release, with the desired velocity; nothing if the walker is not slowed. A
+/// walker who wants to stand keeps the current gait.
 static std::optional<Footing<float>> released_footing(const World& world, Entity person) {
   auto footing = world.get<Footing>(person);
   const auto asked = asked_body(world, person);
@@ -226,8 +226,8 @@ static float length_m(const GroundBox& way) {
   return std::hypot(way.high_x_m - way.low_x_m, way.high_z_m - way.low_z_m);
 }
 
-/// Of two who strike in one tick and whose new ways meet, the one with the lower draw goes; the other keeps to the
-/// reservation, which the first has kept clear of.
+/// Resolves conflicts of two walkers who strike in one tick and whose new ways meet. The one with the lower draw goes;
+/// the other keeps to the reservation, which the first has kept clear of.
 void AvoidanceWork::give_way(const Jobs& jobs, std::uint32_t tick) {
   const std::vector<Striker>& strikers = book.strikers();
   striker_of.assign(book.reservations(), nobody);
@@ -240,7 +240,7 @@ void AvoidanceWork::give_way(const Jobs& jobs, std::uint32_t tick) {
     };
     return draw(a) < draw(b);
   };
-  // Reservations are listed by where they begin, and new ways go on from there.
+  // The search finds reservations. A new way begins on its walker's reservation and can extend longest_m from there.
   float longest_m = 0;
   for (std::size_t i = 0; i < strikers.size(); ++i)
     if (chosen[i].trial != reserved) longest_m = std::max(longest_m, length_m(chosen[i].box));

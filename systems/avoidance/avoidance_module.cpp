@@ -13,7 +13,7 @@ namespace mobil::inline v0_3 {
 namespace {
 
 bool within(float value, float low, float high) {
-  return value >= low && value <= high;  // false where it is not a number
+  return value >= low && value <= high;  // false for NaN
 }
 
 void ease_walkers(const GaitState<Lanes<float>>&, AvoidanceState<Lanes<float>>& course, float tick_s) {
@@ -32,7 +32,7 @@ bool is_sound_course(const AvoidanceState<float>& course) {
          within(course.usual, 0, longest) && within(course.radius_m, 0, broadest_m) &&
          within(course.shoulders_m, 0, broadest_m) && within(course.waits_s, 0, for_ever_s) &&
          within(course.turn_rad, -round_rad, round_rad) && within(course.turn_to_rad, -round_rad, round_rad) &&
-         // so that it stays within that on its way
+         // the spring stays within that range on its way
          within(course.turn_rad + course.turn_rad_s / shoulder_spring_per_s, -round_rad, round_rad);
 }
 

@@ -1,16 +1,16 @@
 #pragma once
-// What avoiding others keeps on people's rows, as a module, and when it chooses.
+// The module of avoidance, and its phase.
 
 #include <mobil/engine/module.h>
 
 namespace mobil::inline v0_3 {
 
-/// The module; Simulation has it among its own.
+/// Returns the module; every Simulation has it.
 Module avoidance_module();
 
-/// Before the systems: who avoids others and is about to begin a step chooses it (Avoidance).
+/// Returns the phase before the systems in which walkers who avoid others choose their next step (Avoidance).
 Phase steps_chosen();
-/// Counts of Avoidance::report begin at 0.
+/// Resets the counts of Avoidance::report to 0.
 void begin_avoidance_report(const Frame& frame);
 
 }  // namespace mobil::inline v0_3

@@ -17,22 +17,22 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// How many people are foreseen, the nearest ones, and within what distance; where they are looked for at first, as
-/// where many are it is enough.
+/// Maximum number of foreseen people, nearest first, and the radius of the search, m. The smaller radius is searched
+/// first, which is enough among many people.
 constexpr std::size_t max_passers = 12;
 constexpr float sees_m = 6, sees_first_m = 2.5F;
-/// How much narrower gaps may be that somebody who stands starts into, m.
+/// Amount by which gaps can be narrower for a standing walker to start into, m.
 constexpr float squeezes_m = 0.06F;
-/// How much wider a berth those get who make no room themselves, m.
+/// Additional distance from people and discs, which make no room, m.
 constexpr float all_of_the_way_m = 0.15F;
-/// Who has stood so long presses on as far as people may overlap, and would rather step anywhere than stay, s.
+/// Waiting time at which a walker uses the full overlap, and after which staying costs more, s.
 constexpr float patience_s = 2;
-/// What turning costs; what speaks for passing on the right of who comes.
+/// Cost of turning; bonus for passing on the right of oncoming people.
 constexpr float of_turning = 0.15F, keeps_right = 0.05F;
-/// How near to a wall arms give way, m: who starts beside one sways. Who is nearer to anything
-/// comes no nearer but by rounding.
+/// Distance by which arms yield at a wall, m: a walker who starts next to one sways. A walker who is already too
+/// near comes no nearer, within rounding.
 constexpr float brushes_m = 0.03F, rounding_m = 2e-4F;
-/// How far ways are from the rectangle between their ends, m: they bend.
+/// Margin of a way around the rectangle between its ends, m: ways bend.
 constexpr float off_straight_m = 0.1F;
 
 float square(float x) {
@@ -46,7 +46,7 @@ struct Near {
   }
 };
 
-/// One choice: what the walker may do, and what each costs.
+/// One choice: the walker's trials and the cost of each.
 class WayChoice {
  public:
   WayChoice(const Surroundings& around, const Striker& striker, const HeelStrikePlace<float>& from,
@@ -61,7 +61,7 @@ class WayChoice {
         overlap_m_(around.overlap_m * std::min(course.waits_s * (1 / patience_s), 1.0F)) {
     tried_ways(broadcast(from), trials_.trial, around.book.instants(), ways_, end_);
     const std::size_t now = mine_.at(around.book.instant());
-    for (std::size_t s = 0; s < way_samples; ++s) {  // to the bit what others keep clear of
+    for (std::size_t s = 0; s < way_samples; ++s) {  // the same bits that others keep clear of
       ways_.x_m[s][reserved] = mine_.x_m[now + s];
       ways_.z_m[s][reserved] = mine_.z_m[now + s];
     }
@@ -80,7 +80,7 @@ class WayChoice {
     return best;
   }
 
-  /// What to ask of the gait for a trial.
+  /// Returns the gait request of a trial.
   Gait<float> gait(std::size_t l, const GaitStyle& style) const {
     const Trial<Lanes<float>>& trial = trials_.trial;
     Gait<float> gait = complete_gait(from_.height_m, trials_.kind[l] == TrialKind::go ? trial.speed_m_s[l] : 0,
@@ -107,7 +107,7 @@ class WayChoice {
   }
 
  private:
-  /// Trials may come as near to somebody as `apart_m`; or, where the reservation comes nearer, as near as that.
+  /// Closes trials that come nearer than `apart_m`, or nearer than the reservation where that is less.
   void keep_clear(const Lanes<float>& min_m2, float apart_m) {
     const float least = square(std::min(apart_m, std::max(std::sqrt(min_m2[reserved]) - rounding_m, 0.0F)));
     for (std::size_t l = 1; l < lane_count; ++l) open_[l] = min_m2[l] >= least ? open_[l] : 0;
@@ -122,7 +122,7 @@ class WayChoice {
     return box_of({box.low_x_m, box.low_z_m}, {box.high_x_m, box.high_z_m}, off_straight_m);
   }
 
-  /// Who avoids nobody turns no shoulders, and I do not for them.
+  /// Returns the distance to keep. Unmanaged people turn no shoulders, and managed people do not turn for them.
   float apart_from(const Reservation& reservation) const {
     return (reservation.yields ? mine_.radius_m : mine_.shoulders_m) + reservation.radius_m;
   }
@@ -134,7 +134,7 @@ class WayChoice {
     keep_clear(min_m2_, apart);
   }
 
-  /// Trials stay clear of those who are within reach, and the nearest are remembered.
+  /// Closes trials that meet people within reach, and stores the nearest people.
   void look_at_people() {
     box_ = reached();
     const float reach =
@@ -197,7 +197,7 @@ class WayChoice {
     }
   }
 
-  /// What meeting people, discs and walls costs on ways from here.
+  /// Adds the cost of meeting people, discs and walls on ways from here.
   void foresee(const Onward<Lanes<float>>& ways, float narrower_m, bool walls, Lanes<float>& cost) const {
     for (std::size_t i = 0; i < passing_; ++i) {
       Passer one = passer_[i];
@@ -219,7 +219,7 @@ class WayChoice {
     }
   }
 
-  /// Whether somebody comes from where the walker wants to go.
+  /// Returns true if a person ahead in the desired direction comes toward the walker.
   bool meets_anybody() const {
     const float x = wish_.x_m, z = wish_.z_m;
     constexpr float comes_m_s = 0.3F;
@@ -240,7 +240,7 @@ class WayChoice {
     }
   }
 
-  /// Where who stands would go at that pace, of sixteen headings; none: to stay costs less.
+  /// Returns the best of sixteen headings in which a standing walker starts at that pace; none if staying costs less.
   std::optional<float> wished_start(float pace_m_s) {
     Onward<Lanes<float>> ways;
     constexpr float apart = 2 * std::numbers::pi_v<float> / lane_count;
@@ -254,7 +254,7 @@ class WayChoice {
     cost_of_ways(ways, course_.speed_m_s, wish_, cost_);
     foresee(ways, squeezes_m, true, cost_);
     const bool meets = meets_anybody();
-    constexpr float max_patience = 2, impatience = 0.5F;  // who has waited would rather go anywhere
+    constexpr float max_patience = 2, impatience = 0.5F;  // a walker who has waited accepts any heading
     float least = square(course_.speed_m_s) + std::min(max_patience, impatience * course_.waits_s);
     std::size_t best = lane_count;
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -267,19 +267,19 @@ class WayChoice {
     return ways.heading_rad[best];
   }
 
-  /// Who stands does what comes nearest to the way that they would go.
+  /// Lets a standing walker do what is nearest to the desired start.
   void prefer_standing() {
     const Trial<Lanes<float>>& trial = trials_.trial;
     const float pace = trial.speed_m_s[1];
     const std::optional<float> there_rad = wished_start(pace);
-    const bool goes = there_rad.has_value();  // else they face where they want to go, and wait
+    const bool goes = there_rad.has_value();  // otherwise faces the desired heading, and waits
     const GroundPoint to = direction(there_rad.value_or(0)), go = {goes ? pace * to.x_m : 0, goes ? pace * to.z_m : 0};
     const float off = goes ? wrapped(*there_rad - from_.heading_rad) : trials_.wish_rad;
     const bool as_wished = go.x_m * wish_.x_m + go.z_m * wish_.z_m > 0.85F * pace;
     constexpr float of_turning_there = 0.05F, of_turning_little = 0.15F, of_turning_away = 0.2F;
     constexpr float of_turning_on_spot = 0.1F, of_slower = 0.3F;
-    constexpr float of_sidling = 0.3F;                    // where the way is open: to turn and walk is faster
-    constexpr float turns_from = 0.5F, min_off = 0.1F;    // rad; between them: if no step is open that leads there
+    constexpr float of_sidling = 0.3F;                    // if the way is open, because turning and walking is faster
+    constexpr float turns_from = 0.5F, min_off = 0.1F;    // rad; between them, only if no open step leads there
     constexpr float of_waiting_per_s = 0.3F, max_of_waiting = 1;
     const float of_staying = std::clamp(of_waiting_per_s * (course_.waits_s - patience_s), 0.0F, max_of_waiting);
     Lanes<float> speed, heading = end_.heading_rad, more{};
@@ -293,7 +293,7 @@ class WayChoice {
       if (kind == TrialKind::stay) more[l] = of_staying;
       if (kind == TrialKind::go) more[l] = of_slower * square(trial.speed_m_s[l] - pace);
       if (kind != TrialKind::turn) continue;
-      const bool there = std::fabs(off) > min_off && off * trial.turn_rad[l] > 0;  // to walk there from then on
+      const bool there = std::fabs(off) > min_off && off * trial.turn_rad[l] > 0;  // then walks there
       if (there) heading[l] = from_.heading_rad + off;
       if (there && !goes) {
         constexpr float of_facing_it = -0.01F;
@@ -315,14 +315,14 @@ class WayChoice {
   std::uint32_t me_;
   const HeelStrikePlace<float>& from_;
   const AvoidanceState<float>& course_;
-  GroundPoint wish_;  // where the walker wants to go, of length 1
+  GroundPoint wish_;  // desired direction, of length 1
   Trials trials_;
   WaySamples<Lanes<float>> ways_;
   StepEnd<Lanes<float>> end_;
   float overlap_m_;
   GroundPoint at_;  // at the book's next instant
   GroundBox box_;
-  Lanes<float> open_, cost_, min_m2_;  // open: 1 where a trial may be taken
+  Lanes<float> open_, cost_, min_m2_;  // open: 1 if the trial can be taken
   std::array<Passer, max_passers> passer_;
   std::size_t passing_ = 0;
 };
@@ -354,7 +354,7 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
   out.gait = out.as_reserved = before;
   out.under_way = from.speed_m_s <= 0 && from.length_before_m > 0;
   if (out.under_way) return;
-  if (from.speed_m_s <= 0 && course.speed_m_s <= 0) {  // stays, and turns
+  if (from.speed_m_s <= 0 && course.speed_m_s <= 0) {  // stays and turns
     out.gait = complete_gait(from.height_m, 0, 0, before.style);
     out.gait.heading_rad = course.heading_rad;
     return;

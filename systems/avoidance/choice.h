@@ -1,6 +1,5 @@
 #pragma once
-// Which step a walker takes at a heel strike: of those that are clear of everybody's reservations, the one that costs
-// least.
+// Choice of a walker's step at a heel strike: the cheapest of those that are clear of all reservations.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// What a choice looks at. Two may overlap by `overlap_m`: that much reservations may come nearer than both radii.
+/// Input of a choice. Reservations of two people can come nearer than both radii by `overlap_m`.
 struct Surroundings {
   const ReservationBook& book;
   std::span<const BoxedWall> walls;
@@ -21,22 +20,22 @@ struct Surroundings {
   float overlap_m;
 };
 
-/// What somebody chose: the trial and what to ask of the gait for it, or, if someone else goes first, `as_reserved`;
-/// where that leads, at the book's instants.
+/// A walker's choice: the trial and its gait request, or `as_reserved` if another walker goes first. Also contains the
+/// resulting way, at the book's instants.
 struct Chosen {
   std::size_t trial = reserved;
   TrialKind kind = TrialKind::stay;
-  bool under_way = false;  // of a step aside: nothing is asked
+  bool under_way = false;  // a step aside is under way: nothing is requested
   Gait<float> gait{}, as_reserved{};
   float duration_s = 0;
   std::array<float, way_samples> x_m{}, z_m{};
   GroundBox box{};
 };
 
-/// From any thread.
+/// Chooses a walker's next step. Callable from any thread.
 void choose_step(const Surroundings& around, const Striker& striker, Chosen& out);
 
-/// Whether two ways come nearer than that.
+/// Returns true if the two ways come nearer than `apart_m`.
 bool meet(const Chosen& a, const Chosen& b, float apart_m);
 
 }  // namespace mobil::inline v0_3

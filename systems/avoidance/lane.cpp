@@ -9,22 +9,22 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Lanes to either side, how far they are apart and how far to the side somebody belongs to one, m.
+/// Lanes to either side; their spacing, and the lateral distance within which a person belongs to one, m.
 constexpr int lanes_aside = 4, lanes_across = 2 * lanes_aside + 1;
 constexpr float lane_apart_m = 0.4F, lane_breadth_m = 0.7F;
-/// How far people are looked at, and how far ahead the walker is to be in the lane, m.
+/// Distance ahead within which people count, and at which the walker should be in the lane, m.
 constexpr float lanes_ahead_m = 7, joins_ahead_m = 1.5F;
-/// What an oncoming walker in the lane costs; changing to a lane, by the square of its distance, /m²; lanes to the left
-/// where many come, /m; a wall within wall_clear_m of the lane.
+/// Costs of an oncoming walker in the lane; of changing to a lane, by its squared distance, /m²; of lanes to the left
+/// among many oncoming walkers, /m; of a wall within wall_clear_m of the lane.
 constexpr float of_oncoming = 0.5F, of_changing = 0.1F, of_left = 1, of_wall = 0.3F, wall_clear_m = 0.35F;
-/// Where lanes are tried for walls, m ahead; a lane that a wall closes.
+/// Distance ahead at which lanes are tested for walls, m; cost of a lane that a wall closes.
 constexpr float tried_ahead_m = 0.8F, closed = 10;
-/// Keeping right counts fully from this sum of weights in the lane straight on and from this many oncoming walkers.
+/// Sum of weights in the lane straight ahead, and number of oncoming walkers, from which keeping right counts fully.
 constexpr float opposed = 0.2F, many_oncoming = 6;
-/// Sums are of whole numbers, so that the order of people does not matter.
+/// Sums are of integers, so that the order of people does not matter.
 constexpr float unit = 1.0F / 4096;
 
-/// By how much a heading into a lane is to the left of the way straight on, rad.
+/// Returns the angle of a heading into a lane to the left of the straight way, rad.
 float off_straight(int lane) {
   static const auto angles = [] {
     std::array<float, lanes_across> made{};
@@ -61,9 +61,9 @@ float lane_heading(const ReservationBook& book, std::span<const BoxedWall> walls
   int oncoming = 0;
   constexpr float half = 0.5F * lanes_ahead_m;
   book.near(at.x_m + half * ahead_x, at.z_m + half * ahead_z, mine, half, [&](const Nearby& other) {
-    constexpr float min_against = 0.3F;  // a cosine: people who cross do not count
+    constexpr float min_against = 0.3F;  // cosine; crossing people do not count
     const float against = -(other.faces_x * ahead_x + other.faces_z * ahead_z) - min_against;
-    if (other.reservation == me || !(against > 0 && against < 1)) return;  // so that the sum stays small
+    if (other.reservation == me || !(against > 0 && against < 1)) return;  // bounds the sum
     const float x = other.x_m - at.x_m, z = other.z_m - at.z_m;
     const float ahead = x * ahead_x + z * ahead_z, left = x * left_x + z * left_z;
     if (!(ahead >= 0 && ahead <= lanes_ahead_m)) return;
@@ -100,7 +100,7 @@ float lane_heading(const ReservationBook& book, std::span<const BoxedWall> walls
     }
   }
 
-  int best = lanes_aside;  // of equal ones the nearest, and of these the right one
+  int best = lanes_aside;  // of equal ones the nearest, then the right one
   for (int i = 1; i <= lanes_aside; ++i)
     for (const int lane : {lanes_aside - i, lanes_aside + i})
       if (cost[lane] < cost[best]) best = lane;

@@ -1,5 +1,5 @@
 #pragma once
-// Which lane a walker takes where others come the other way: between the wish and the next step.
+// Choice of a lane among oncoming people, between the desired velocity and the next step.
 
 #include <cstdint>
 #include <span>
@@ -10,12 +10,12 @@
 
 namespace mobil::inline v0_3 {
 
-/// The place of a wall that is nearest to `to`, m.
+/// Returns the point of a wall that is nearest to `to`, m.
 GroundPoint nearest_of(const Wall& wall, GroundPoint to);
 
-/// The heading, rad, of the walker whose reservation is `me` and who wants to go as `course` says: toward that lane,
-/// straight on or beside it, in which the fewest people come the other way. Where many come, lanes to the right cost
-/// less, so that the two flows part. No lane is behind a wall. From any thread.
+/// Returns the heading, rad, of the walker with reservation `me` and the desired velocity in `course`. It leads to the
+/// lane, straight ahead or to a side, with the fewest oncoming people. Among many oncoming people, lanes to the right
+/// cost less, so that the two flows part. Lanes behind walls are avoided. Callable from any thread.
 float lane_heading(const ReservationBook& book, std::span<const BoxedWall> walls, std::uint32_t me,
                    const AvoidanceState<float>& course);
 

@@ -13,17 +13,17 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// How often everybody is looked at, ticks.
+/// Ticks from one evaluation of a person to the next.
 constexpr std::uint32_t every_ticks = 8;
-/// The instants ahead at which it is seen who comes near: what takes half a second to turn is turned by then.
+/// Instants ahead at which neighbours are sought. A turn takes half a second and is finished by then.
 constexpr std::array<std::size_t, 3> looked_at = {0, 2, 4};
 /// The depth of shoulders with the arms, as a part of their breadth.
 constexpr float depth_part = 0.58F;
-/// What turns cost: a centimetre that is lacking; a turn; one the other way, for on the way there the shoulders are as
-/// broad as they can be.
+/// Costs of a missing metre, of a turn, and of a turn to the other side, because the shoulders are at their broadest on
+/// the way there.
 constexpr float of_lacking_per_m = 100, of_turning_per_rad = 1, of_the_other_way = 3;
 
-/// The turns that are weighed: the smaller ones first.
+/// Candidate turns, smaller ones first.
 struct Turn {
   float rad, sine, cosine;
 };
@@ -40,7 +40,7 @@ const std::array<Turn, 9>& turns() {
   return all;
 }
 
-/// Somebody near: toward where, and how much of the gap is the looker's.
+/// A person nearby: the direction to them, and the walker's part of the gap.
 struct Neighbour {
   float toward_x, toward_z, room_m;
   std::uint32_t who;
@@ -49,13 +49,13 @@ struct Neighbour {
     return room_m != other.room_m ? room_m < other.room_m : who < other.who;
   }
 };
-/// How far shoulders of half that breadth, which face (x, z), reach toward somebody, m: those of an ellipse.
+/// Returns how far shoulders of that half-breadth, facing (x, z), reach toward a person, m. They are an ellipse.
 float reach_of(float shoulders_m, float faces_x, float faces_z, const Neighbour& one) {
   const float ahead = one.toward_x * faces_x + one.toward_z * faces_z;
   const float aside = one.toward_x * faces_z - one.toward_z * faces_x;
   return shoulders_m * std::sqrt(aside * aside + depth_part * depth_part * ahead * ahead);
 }
-/// Who may come nearer than the shoulders are broad, and turns them then.
+/// Returns true if the person can come nearer than the shoulders are broad, and then turns them.
 bool narrows(const Reservation& reservation) {
   return reservation.shoulders_m > reservation.radius_m;
 }
@@ -104,7 +104,7 @@ class Narrowing {
     }
     const float nearest = std::sqrt(nearest2);
     if (nearest >= both || nearest <= 0) return;
-    // Both turn, each for their part of the gap; or the one who does.
+    // If both turn, each gets a part of the gap; otherwise the one who turns gets the rest.
     const float room = narrows(reservation) ? nearest * mine_.shoulders_m / both : nearest - reservation.shoulders_m;
     const Neighbour one = {x / nearest, z / nearest, room, reservation.who.index};
     if (count_ < near_.size()) {

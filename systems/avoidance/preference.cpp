@@ -9,7 +9,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float of_facing = 0.3F;
-/// What a meeting one second from now costs; how far ahead anybody looks, s; how far off a meeting is that counts most.
+/// Cost scale of a meeting; look-ahead, s; offset of the time to a meeting, which bounds its cost, s.
 constexpr float of_meeting = 1.5F, looks_ahead_s = 6.0F, soonest_s = 0.3F;
 
 void cost_block(const Onward<Lanes<float>>& ways, float speed, float heading_sine, float heading_cosine,

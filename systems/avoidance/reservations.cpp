@@ -13,7 +13,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Where somebody goes who avoids nobody: on as the step that is under way leads.
+/// Continues the way of a person who avoids no others in the direction of the step under way.
 void go_on(const WayInstants& at, Reservation& reservation) {
   const float x = reservation.x_m[0], z = reservation.z_m[0];
   for (std::size_t s = 1; s < way_samples; ++s) {
@@ -22,7 +22,7 @@ void go_on(const WayInstants& at, Reservation& reservation) {
   }
 }
 
-/// Of the way from foothold to foothold, or of the ground under the stance foot: of stairs the first, of slopes both.
+/// Returns the steepness between footholds, or of the ground under the stance foot. Stairs have the first, slopes both.
 float steepness_of(const Footing<Lanes<float>>& footing, std::size_t lane) {
   constexpr std::size_t stance = index(FootholdOf::stance), landing = index(FootholdOf::landing);
   constexpr float shortest_m = 0.2F;
@@ -45,7 +45,7 @@ void finish(Reservation& reservation) {
 
 void ReservationBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float shoulders_h) {
   every_ticks_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround(0.1F / tick_s)));
-  instant_ = (tick + every_ticks_) / every_ticks_;  // the first after the tick to come
+  instant_ = (tick + every_ticks_) / every_ticks_;  // the first after the coming tick
   first_tick_ = instant_ * every_ticks_ - tick;
   tick_s_ = tick_s;
   list(world);
@@ -63,9 +63,9 @@ void ReservationBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick
   sort();
 }
 
-/// All walkers' rows, each with a reservation of its own.
+/// Lists the rows of all walkers, each with its own reservation.
 void ReservationBook::list(World& world) {
-  if (reservations_.size() > 2 * seen_.size() + 4096) {  // most are of people who have gone
+  if (reservations_.size() > 2 * seen_.size() + 4096) {  // most belong to removed people
     reservations_.clear();
     std::ranges::fill(reservation_of_, none);
   }
@@ -112,8 +112,8 @@ void ReservationBook::remake(BlockOfReservations& at, float shoulders_h) {
     reservation.ground_m = ground ? ground.at(table, at.block).height_m[index(FootholdOf::stance)][l] : 0;
     reservation.steepness = ground ? steepness_of(ground.at(table, at.block), l) : 0;
     if (courses && units.of(state.time_s[l]) + units.per_tick >= units.step(plan.duration_s[l])) at.striking |= 1U << l;
-    // Of who avoids nobody the reservation leads straight on from its first instant: it is made anew at each, so that
-    // it follows from the world and not from when somebody looked.
+    // The reservation of a person who avoids no others leads straight ahead from its first instant. It is remade at
+    // each instant, so that it follows from the world and not from the time of reading.
     const bool lasts = courses || reservation.first == instant_;
     if (reservation.source == source && reservation.who == entities[l] && lasts) continue;
     reservation.source = source;
@@ -143,7 +143,7 @@ void ReservationBook::remake(BlockOfReservations& at, float shoulders_h) {
   }
 }
 
-/// By cells of the ground: a counting sort.
+/// Sorts neighbours by cells of the ground, with a counting sort.
 void ReservationBook::sort() {
   buckets_ = std::bit_ceil(2 * seen_.size() + 1);
   starts_.assign(buckets_ + 2, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Everybody's reservation, and who is near whom.
+// Reservations of all walkers, and search for neighbours.
 
 #include <algorithm>
 #include <array>
@@ -27,24 +27,24 @@ struct GroundBox {
   }
 };
 
-/// The rectangle between two points, and so much more on every side.
+/// Returns the rectangle between two points, extended by `more_m` on every side.
 inline GroundBox box_of(GroundPoint a, GroundPoint b, float more_m) {
   return {std::min(a.x_m, b.x_m) - more_m, std::max(a.x_m, b.x_m) + more_m, std::min(a.z_m, b.z_m) - more_m,
           std::max(a.z_m, b.z_m) + more_m};
 }
 
-/// A wall and what is round it, by which most are passed over.
+/// A wall and its bounding box, by which most walls are skipped.
 struct BoxedWall {
   Wall wall;
   GroundBox box;
 };
 
-/// Where somebody is at the instants from `first` on, and then stays; which way they face and how fast they go as their
-/// step ends.
+/// A person's place at each instant from `first` on, after which the person stays. Also the direction in which the
+/// person faces and the velocity at the end of the step.
 struct Reservation {
-  /// Of reservations that were made up to that many instants ago a whole row of way_samples is still there.
+  /// Stored samples. From each of the first way_samples instants a full row of way_samples remains.
   static constexpr std::size_t kept = 2 * way_samples;
-  /// What it was made from.
+  /// Values from which the reservation was made.
   struct Source {
     std::uint32_t generation, steps;
     float line_x_m, line_z_m, heading_rad, duration_s, speed_m_s, bend_next_per_m;
@@ -56,8 +56,8 @@ struct Reservation {
   Source source;
   GroundBox box;
   float faces_x, faces_z, x_m_s, z_m_s, radius_m, shoulders_m;
-  float ground_m, steepness;  // height of the ground under the stance foot; how steep it is there, m per m
-  bool yields;                // avoids others too
+  float ground_m, steepness;  // ground under the stance foot: height; steepness, m per m
+  bool yields;                // avoids others
   std::array<float, kept> x_m, z_m;
 
   std::size_t at(std::uint32_t instant) const {
@@ -66,8 +66,8 @@ struct Reservation {
   }
 };
 
-/// What is looked at first of who is near: of a reservation, where they are at the book's instant and which way they
-/// face. Fifty-six bytes, in the order of the ground, where a reservation has half a kilobyte.
+/// Data of a neighbour that is read first: place at the book's instant, and direction of facing. It has 56 bytes,
+/// sorted by place, where a reservation has half a kilobyte.
 struct Nearby {
   std::int32_t cell_x, cell_z;
   std::uint32_t reservation, who;  // who: the entity's index
@@ -75,14 +75,14 @@ struct Nearby {
   float x_m, z_m, faces_x, faces_z, ground_m, steepness;
 };
 
-/// A walker whose next step begins in the tick to come.
+/// A walker whose next step begins in the coming tick.
 struct Striker {
   Table* table;
   std::uint32_t block, lane, reservation;
 };
 
-/// A block of walkers: where their reservations' numbers begin in the book; lanes that begin a step in the tick to
-/// come.
+/// A block of walkers: index of its first reservation number in the book, and lanes that begin a step in the coming
+/// tick.
 struct BlockOfReservations {
   Table* table;
   std::uint32_t block, first, striking;
@@ -91,28 +91,28 @@ struct BlockOfReservations {
 /// The reservations of all walkers.
 class ReservationBook {
  public:
-  /// Goes over all walkers: makes reservations anew where steps have begun since or anything else has changed.
+  /// Remakes the reservations of walkers whose step is new or whose source has changed.
   void refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float shoulders_h);
 
-  /// The next instant of reservations, all after the tick to come.
+  /// Returns the next instant of reservations, which is after the coming tick.
   std::uint32_t instant() const { return instant_; }
   WayInstants instants() const {
     return {static_cast<float>(first_tick_) * tick_s_, static_cast<float>(every_ticks_) * tick_s_};
   }
-  /// Those who avoid others and are about to begin a step, in the order of their rows.
+  /// Returns the walkers who avoid others and are about to begin a step, in the order of their rows.
   const std::vector<Striker>& strikers() const { return strikers_; }
   std::size_t people() const { return seen_.size(); }
   std::size_t reservations() const { return reservations_.size(); }
-  /// The greatest half breadth of anybody, shoulders counted, m.
+  /// Returns the greatest half-breadth of all people, shoulders included, m.
   float broadest_m() const { return broadest_m_; }
   const Reservation& reservation(std::uint32_t number) const { return reservations_[number]; }
-  /// All walkers' blocks; the reservation of somebody in one.
+  /// Return the blocks of all walkers, and the reservation number of a lane in one.
   std::span<const BlockOfReservations> blocks() const { return blocks_; }
   std::uint32_t reservation_in(const BlockOfReservations& at, std::size_t lane) const { return seen_[at.first + lane]; }
 
-  /// `f(const Nearby&)` for all whose reservations come within `reach_m` of a place, and some more, but for those on
-  /// other floors than `whose`: on a bridge, below it. On another floor is who is another_floor_m higher or lower than
-  /// the slope of either leads to. From any thread.
+  /// Calls `f(const Nearby&)` for all people whose reservations come within `reach_m` of a place, and for some others.
+  /// Skips people on other floors than `whose`, for example below a bridge: those who are another_floor_m higher or
+  /// lower than either slope leads to. Callable from any thread.
   template <class F>
   void near(float x_m, float z_m, const Reservation& whose, float reach_m, const F& of_all) const {
     if (seen_.empty()) return;
@@ -128,7 +128,7 @@ class ReservationBook {
     const float reach = reach_m + longest_m_;
     const std::int32_t low_x = cell(x_m - reach), high_x = cell(x_m + reach);
     const std::int32_t low_z = cell(z_m - reach), high_z = cell(z_m + reach);
-    constexpr double max_cells = 4096;  // more of them take longer than everybody one after the other
+    constexpr double max_cells = 4096;  // beyond this, a scan of all people is faster
     const double wide = 1.0 + high_x - low_x, deep = 1.0 + high_z - low_z;
     if (wide * deep > max_cells) {
       for (const Nearby& one : sorted_) f(one);
@@ -147,7 +147,7 @@ class ReservationBook {
   static constexpr float cell_m = 1.5F, another_floor_m = 1.5F;
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-  /// Of any number, also of NaN: a snapshot may have put anybody anywhere.
+  /// Accepts any number, also NaN, because a snapshot can contain any place.
   static std::int32_t cell(float m) {
     constexpr float most = 1e8F;
     return static_cast<std::int32_t>(std::floor(std::fmin(std::fmax(m * (1 / cell_m), -most), most)));
@@ -160,7 +160,7 @@ class ReservationBook {
   void remake(BlockOfReservations& at, float shoulders_h);
   void sort();
 
-  std::uint32_t instant_ = 0, first_tick_ = 0, every_ticks_ = 1;  // first_tick_: how many ahead the instant is
+  std::uint32_t instant_ = 0, first_tick_ = 0, every_ticks_ = 1;  // first_tick_: ticks until the instant
   float tick_s_ = 0;
   std::vector<Reservation> reservations_;
   std::vector<std::uint32_t> reservation_of_;  // by entity index

@@ -16,11 +16,11 @@ using namespace step_limits;
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float beside[] = {0, 12 * pi / 180, -12 * pi / 180, 27 * pi / 180, -27 * pi / 180};
-/// The slowest walk, m/s at a leg of leg_m.
+/// Slowest walk, m/s, with a leg of leg_m.
 constexpr float slowest = 0.3F;
-/// How long steps are, of the walker's own, where there is no room for those.
+/// Length of short steps, for lack of room, relative to the walker's own.
 constexpr float short_step = 0.5F;
-/// Nobody turns on the spot for less, rad.
+/// Minimum turn on the spot, rad.
 constexpr float min_turn = 0.1F;
 
 void put(Trials& trials, std::size_t lane, TrialKind kind, const Trial<float>& trial) {
@@ -48,7 +48,7 @@ Trials make_trials(const HeelStrikePlace<float>& at, const AvoidanceState<float>
     const float slower = std::max(now - max_slower * scale, least);
     const float last = now > last_speed * scale ? std::max(now - max_slower * scale, last_speed * scale) : 0;
     const float wanted = std::max(std::min(course.speed_m_s, now + max_faster * scale), slower);
-    const float straight_on = 0.70F * at.advance_m * at.bend_per_m;  // as systems/gait/next_foot-inl.h has it
+    const float straight_on = 0.70F * at.advance_m * at.bend_per_m;  // as in systems/gait/next_foot-inl.h
     put(trials, reserved, last > 0 ? TrialKind::go : TrialKind::stay, {last, straight_on, 1, 0, 0});
     std::size_t lane = 1;
     for (const float speed : {wanted, 0.5F * (wanted + slower), slower}) {

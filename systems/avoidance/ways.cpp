@@ -19,7 +19,7 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float gravity = 9.81F;
 
-/// One step as the hips go: along the line, by the phase of the step.
+/// One step of the hips: along the line, by the phase of the step.
 struct Way {
   Line line;
   Wide duration, rate_from, rate_to;
@@ -42,14 +42,14 @@ HWY_INLINE Wide when(const WideMask& mask, const Wide& value) {
   return select(mask, value, wide(0.0F));
 }
 
-/// Instants since a heel strike, in whole units of a clock: those of reservations are then the same whenever they are
-/// asked for.
+/// Instants since a heel strike, in integer clock units. Those of reservations then do not depend on the time of
+/// computing.
 struct Instants {
   Wide first;
   float every, unit_s;
 };
 
-/// The samples from `start` on, of who takes the step; after its end they stay there.
+/// Samples the way from `start` on in lanes that take the step. After its end they stay there.
 HWY_NOINLINE void sample(const Way& way, const Instants& instants, const Wide& start, const WideMask& takes,
                          WaySamples<Lanes<float>>& out) {
   const Wide begins = select(takes, start, wide(1e9F)), per_s = 1.0F / way.duration;
@@ -60,7 +60,7 @@ HWY_NOINLINE void sample(const Way& way, const Instants& instants, const Wide& s
     if (!any(begun)) continue;
     const Wide part = since * per_s;
     Ground at = end;
-    if (any(begun & (part < 1.0F))) {  // the dearest by far, and half of the steps are over
+    if (any(begun & (part < 1.0F))) {  // the dearest part by far, and half of the steps are over
       const Ground on = place_on(way, clamp(part, 0.0F, 1.0F));
       at = {select(part < 1.0F, on.left, end.left), select(part < 1.0F, on.forward, end.forward)};
     }
@@ -117,7 +117,7 @@ HWY_INLINE Line line_from(const HeelStrikePlace<Lanes<float>>& at, const Wide& l
   return line;
 }
 
-/// A step to that strike, and where it leads.
+/// Takes a step to that strike and returns its way. `at` becomes the state at the strike.
 HWY_NOINLINE Way take_step(HeelStrikePlace<Lanes<float>>& at, const StrikeAhead& to, const Wide& turn,
                            const Wide& slant) {
   const Wide zero = wide(0.0F);
@@ -138,7 +138,7 @@ HWY_NOINLINE Way take_step(HeelStrikePlace<Lanes<float>>& at, const StrikeAhead&
       {load(at.height_m), to.length, to.speed, 2.0F * load(at.half_width_m), bend, shift, load(at.lands_left)}, turn);
   way.line = line_from(at, to.length, next, slant);
   store_quintic({load(at.hips_m), load(at.advance_m), zero}, {to.length + to.hips, to.advance, zero}, way.along);
-  // Who stood has come along no chord.
+  // A walker who stood has not moved along a chord.
   const Wide heading = load(at.heading_rad);
   way.rest_from = when(from_stands, 0.5F * (load(at.shift_before_m) + shift));
   way.rest_to = when(to_stands, 0.5F * (shift + next.shift));
@@ -168,14 +168,14 @@ HWY_NOINLINE Way take_step(HeelStrikePlace<Lanes<float>>& at, const StrikeAhead&
   return way;
 }
 
-/// From there on, the quickest stop.
+/// Samples the quickest stop from there on.
 HWY_NOINLINE void stop(HeelStrikePlace<Lanes<float>>& at, const Instants& instants, Wide start,
                        WaySamples<Lanes<float>>& out) {
   const Wide zero = wide(0.0F);
   store(wide(1.0F), at.usual);
   const Wide leg = static_cast<float>(fraction::thigh + fraction::shank) * load(at.height_m);
   const Wide scale = sqrt(leg / step_limits::leg_m), last = step_limits::last_speed * scale;
-  for (int step = 0; step < 4; ++step) {  // from the greatest speed three
+  for (int step = 0; step < 4; ++step) {  // three from the greatest speed
     const Wide speed = load(at.speed_m_s);
     const WideMask goes = (speed > 0.0F) | (load(at.length_before_m) > 0.0F);
     if (!any(goes)) return;
@@ -232,7 +232,7 @@ void tried_block(const HeelStrikePlace<Lanes<float>>& from, const Trial<Lanes<fl
   store(ends.left, end.x_m);
   store(ends.forward, end.z_m);
   store(to.speed, end.speed_m_s);
-  // The foot that lands turns the line further while it bears.
+  // The landing foot turns the line further while it bears.
   store(fma((1.0F - slope_at_end) * to.length, load(at.bend_per_m), load(at.heading_rad)), end.heading_rad);
   store(load(at.bend_per_m) * to.length, end.bend_rad);
   store(to.length, end.step_length_m);
@@ -288,7 +288,7 @@ float usual_hips(float speed) {
     }
     return parts;
   }();
-  // Of any number, also of NaN.
+  // Accepts any number, also NaN.
   const float at = std::fmin(std::fmax(speed * (1 / every), 0.0F), static_cast<float>(table.size() - 2));
   const auto k = static_cast<std::size_t>(at);
   const float part = at - static_cast<float>(k);
@@ -305,7 +305,7 @@ void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float
                   const GaitState<Lanes<float>>& state, HeelStrikePlace<Lanes<float>>& next) {
   GaitState<Lanes<float>> then = state;
   then.time_s = plan.duration_s;
-  advance_gait(plan, then, 0);  // a tick of no length: to the strike
+  advance_gait(plan, then, 0);  // a tick of zero length: to the strike
   next.height_m = size.height_m;
   next.speed_m_s = plan.to.speed_m_s;
   next.pace_hz = plan.to.pace_hz;

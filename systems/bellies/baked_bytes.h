@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and arrays of them in bytes and out again.
+// Writes numbers and arrays to bytes and reads them back.
 
 #include <cmath>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Appends.
+/// Appends numbers to `bytes`.
 class BakeWriter {
  public:
   template <class T>
@@ -34,7 +34,7 @@ class BakeWriter {
   }
 };
 
-/// Takes; once there are too few bytes, or a number is not finite, nothing is sound any more.
+/// Reads numbers. After too few bytes or a number that is not finite, the reader stays unsound.
 class BakeReader {
  public:
   explicit BakeReader(std::span<const std::byte> in) : in_(in) {}
@@ -45,7 +45,7 @@ class BakeReader {
     sound_ = in_.take(number) && finite(number) && sound_;
     return sound_ ? number : T{};
   }
-  /// At most `most`.
+  /// Reads a number of at most `most`.
   std::uint32_t take_up_to(std::uint32_t most) {
     const auto number = take<std::uint32_t>();
     sound_ = sound_ && number <= most;
@@ -64,7 +64,7 @@ class BakeReader {
   }
   bool sound() const { return sound_; }
   void refuse() { sound_ = false; }
-  /// Sound, and nothing is left.
+  /// Returns true if the reader is sound and no bytes are left.
   bool whole() const { return sound_ && in_.whole(); }
 
  private:

@@ -15,11 +15,11 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
-// Some 5 mm sideways per g; what lies on the shank is held more tightly.
+constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // across over along; bodies in range have 0.44 to 3.06
+// About 5 mm sideways per g. Muscles on the shank are held more tightly.
 constexpr double thigh_hz = 7, shank_hz = 12;
 
-/// Of the critical step: the consistent mass is lighter where it matters.
+/// Returns the mass for the critical step. The consistent mass is lighter in the relevant modes.
 Mass stepped_mass(const LegMuscles& choice) {
   return choice.method == Method::implicit_central ? Mass::consistent : Mass::lumped;
 }
@@ -28,7 +28,7 @@ Strain strain_of(const LegMuscles& choice) {
   return choice.method == Method::finite ? Strain::finite : Strain::small;
 }
 
-/// A member of a group, on its own: what is long and thin.
+/// Returns true for single members of a group, which are long and thin.
 bool is_single(Muscle muscle) {
   return static_cast<std::size_t>(muscle) >= muscle_group_count;
 }
@@ -123,7 +123,7 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
 
 double foundation_of(const LegMuscles& choice, Muscle muscle) {
   if (choice.foundation_hz) return *choice.foundation_hz;
-  // What a pull by force makes of a belly is tabulated without.
+  // The belly's response to a force is tabulated without a foundation.
   if ((is_single(muscle) || has_activation(choice)) && (choice.drive == Drive::displacement || choice.inertia))
     return muscle_row(muscle).drawn.along == LegBone::shank ? shank_hz : thigh_hz;
   return choice.inertia ? thigh_hz : 0;
@@ -174,7 +174,7 @@ Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, c
     made->axial = tabulate_axial_stiffness(shape->terms, shape->kernel.far_share, lowest_ratio, highest_ratio);
   }
   if (!known) {
-    // Groups are held sideways with inertia alone, and settle under the load of the moment then.
+    // Groups are held sideways only if they have inertia, and then settle under the load at that instant.
     const bool held = is_single(muscle);
     const bool as_alike =
         alike != nullptr && (!held || foundation_of(alike->choice, muscle) == foundation_of(choice, muscle));
@@ -223,7 +223,7 @@ std::shared_ptr<const FiniteShape> BellyLibrary::finite_shape(const BellyTemplat
 
 BellyLibrary::SolverKey BellyLibrary::solver_key(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
                                                  const BellyScale<float>& scale) {
-  // The operator over S depends on S / l and, where there is mass in it, on S·l; ICD's is the mass alone.
+  // The operator over S depends on S / l and, if it contains mass, on S·l. The operator of ICD is only the mass.
   const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
   const bool massive = method == Method::newmark || shape.shape->options.foundation_hz > 0;
   const double ratio = method == Method::implicit_central

@@ -1,5 +1,5 @@
 #pragma once
-// What people share whose muscles are chosen alike: meshes, factorised operators, bases; each made once.
+// Data shared by people whose muscles are chosen alike: meshes, factorised operators and bases, each built once.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,29 +20,29 @@
 
 namespace mobil::inline v0_3 {
 
-/// Steps of a method that a tick may take.
+/// Maximum number of steps of a method in a tick.
 inline constexpr std::uint32_t max_steps = 1'000'000;
 
-/// Templates, solvers and bases, made when they are first asked for and kept. Solvers and bases are those of bodies in
-/// the middle of a range of sizes: what one gets depends on one's own size alone.
+/// Templates, solvers and bases, built when first requested and then kept. Solvers and bases belong to a body in the
+/// middle of a range of sizes, so a body's result depends only on its own size.
 class BellyLibrary {
  public:
-  /// What a muscle of that size and choice (in range) shares with others. Errors: a `dt_s` above its critical step,
-  /// which names the limit.
+  /// Returns the shared data of a muscle of this size and choice (in range). Error: a `dt_s` above its critical step,
+  /// with the limit in the message.
   Result<SharedBelly> shared(Muscle muscle, const LegMuscles& choice, const BellyScale<float>& scale, double tick_s);
-  /// The same with what is its own.
+  /// Returns the shared data together with the body's own.
   Result<Belly> belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s);
-  /// A choice's tissue and effects, once each: all but which muscles and by what method.
+  /// Returns the single shared copy of a choice's tissue and effects, without muscles, method and modal options.
   std::shared_ptr<const LegMuscles> choice(const LegMuscles& choice);
-  /// A choice with muscles and method, once each.
+  /// Returns the single shared copy of a choice including muscles and method.
   std::shared_ptr<const LegMuscles> whole_choice(const LegMuscles& choice);
-  /// Makes all that bodies of usual size share: templates and bases by jobs, solvers one after the other. Errors: as
-  /// above.
+  /// Builds all shared data for bodies of usual size: templates and bases in parallel jobs, solvers one after the
+  /// other. Errors: as for `shared`.
   Result<void> prepare(const LegMuscles& choice, double tick_s, const Jobs& jobs);
 
-  /// All templates, solvers and bases that there are, as bytes; and those that such bytes hold taken in, where they
-  /// are not there yet: the same bits as made here. Errors of `load`, in one line, nothing having changed: bytes that
-  /// were cut or altered, or baked by another version or kind of processor.
+  /// `bake` serializes all templates, solvers and bases. `load` adds those that are missing, with the same bits as if
+  /// built here. A failed `load` returns a one-line error and changes nothing: bytes that were cut or altered, or baked
+  /// by another version or kind of processor.
   std::vector<std::byte> bake() const;
   Result<void> load(std::span<const std::byte> baked);
 
@@ -54,7 +54,7 @@ class BellyLibrary {
     const BellyTemplate* shape;
     std::shared_ptr<const BellySolver> solver;
   };
-  /// Made with max_modes; the others are the first ones of those.
+  /// The middle of the range of bodies that a basis serves, with max_modes. Smaller bases are its first modes.
   struct BasisKey {
     double ratio, product;  // the centre of the range of bodies that it serves
     bool operator==(const BasisKey&) const = default;
@@ -65,16 +65,16 @@ class BellyLibrary {
     double middle_ratio, middle_product;
     std::shared_ptr<const ModalBasis> whole;
     std::vector<std::shared_ptr<const ModalBasis>> cut;
-    bool given = false;  // by `prepare` or `load`
+    bool given = false;  // provided by `prepare` or `load`
   };
 
-  /// What takes long to find of a template.
+  /// Tables of a template that are expensive to compute.
   struct ShapeTables {
     CriticalSteps critical_steps;
     AxialStiffness axial;
     StaticStretch stretch;
   };
-  /// What bytes hold; solvers by the number of their template here.
+  /// Data read from bytes. A solver refers to its template by index here.
   struct Loaded {
     std::vector<std::unique_ptr<BellyTemplate>> templates;
     std::vector<std::pair<std::uint32_t, BellySolver>> solvers;
@@ -83,12 +83,12 @@ class BellyLibrary {
 
   Result<const BellyTemplate*> shape(Muscle muscle, const LegMuscles& choice);
   std::shared_ptr<const FiniteShape> finite_shape(const BellyTemplate& shape);
-  /// The template, or null; and one that differs in what the tissue itself does not depend on, or null.
+  /// Returns the template or null, and a template with the same tissue or null.
   std::pair<const BellyTemplate*, const BellyTemplate*> find_shape(Muscle muscle, const LegMuscles& choice) const;
   static Result<std::unique_ptr<BellyTemplate>> make_shape(Muscle muscle, const LegMuscles& choice,
                                                            const BellyTemplate* alike,
                                                            std::optional<ShapeTables> known = std::nullopt);
-  /// What a solver is for: a template, a method, a step, and the middle of the range of sizes.
+  /// Key of a solver: template, method, step, and the middle of the range of sizes.
   struct SolverKey {
     const BellyTemplate* shape;
     Method method;
@@ -119,26 +119,26 @@ class BellyLibrary {
   std::vector<Basis> bases_;
 };
 
-/// Of bellies against their templates, what people of usual build have: across over along, and across times along. One
-/// person in a thousand is beyond; with modes of the usual mesh those are prepared for too.
+/// Usual sizes of bellies relative to their templates: ratio is across over along, product is across times along. One
+/// person in a thousand is outside. With modes of the usual mesh, `prepare` covers rare people as well.
 namespace usual_sizes {
 inline constexpr double min_ratio = 0.80, max_ratio = 1.26, min_product = 0.6, max_product = 1.3;
-inline constexpr double rare_ratio = 1.05;  // times more or less
+inline constexpr double rare_ratio = 1.05;  // margin beyond either end
 }  // namespace usual_sizes
-/// The fewest equal steps of a tick that are no longer than dt_s, up to rounding.
+/// Returns the minimum number of equal steps of a tick that are no longer than dt_s, up to rounding.
 std::uint32_t steps_of(double tick_s, double dt_s);
-/// Whether a choice is in range, as far as that does not take a body to say.
+/// Fails if a choice is out of range, as far as this can be checked without a body.
 Result<void> check_choice(const LegMuscles& choice, double tick_s);
-/// What a modal belly's basis depends on of a choice, but for how many modes it has; all else is as in a
-/// LegMuscles{}.
+/// Returns the parts of a choice on which a modal belly's basis depends, without the number of modes. All other fields
+/// are those of LegMuscles{}.
 LegMuscles basis_choice(const LegMuscles& choice, Muscle muscle);
-/// Of one that is, whether modal bellies can be so.
+/// Fails if a choice in range does not allow modal bellies.
 Result<void> check_modal(const LegMuscles& choice);
-/// Of a choice in range: one muscle's sideways foundation, Hz.
+/// Returns one muscle's sideways foundation, Hz, for a choice in range.
 double foundation_of(const LegMuscles& choice, Muscle muscle);
 bool same_tissue(const LegMuscles& a, const LegMuscles& b);
-/// The middle of the range of sizes that `value` is in, ranges going from 1 / width to width times their middle. By
-/// multiplication alone: the same on every machine.
+/// Returns the middle of the range of sizes that contains `value`. Ranges extend from 1 / width to width times their
+/// middle. Uses only multiplications and divisions in a fixed order, so the result is the same on every machine.
 double middle_of_range(double value, double width);
 
 }  // namespace mobil::inline v0_3

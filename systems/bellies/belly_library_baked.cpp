@@ -1,6 +1,6 @@
-// What a library has made as bytes: header (magic, maker, length, seal), then counts, templates, solvers, bases. Of a
-// template only what takes long to find is kept, of solvers and bases the arrays; how long these are follows from the
-// choice, so that no altered length can lead astray.
+// Contents of a library as bytes: header (magic, maker, length, seal), then counts, templates, solvers, bases. A
+// template stores only the tables that are expensive to compute, solvers and bases only their arrays. The lengths of
+// these arrays follow from the choice, so an altered length cannot mislead the reader.
 #include <algorithm>
 #include <cstring>
 
@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::uint64_t magic = 0x346b626c69626f6d;  // "mobilbk4", little-endian
 constexpr std::size_t header_bytes = 32;
-constexpr double any_tick_s = 1;  // a choice without a step of its own is in range at any tick
+constexpr double any_tick_s = 1;  // a choice without its own step is in range at any tick
 
 void write(BakeWriter& out, Muscle muscle, const LegMuscles& choice) {
   out.put(static_cast<std::uint32_t>(muscle));
   for (const std::uint64_t word : leg_muscles_words(choice)) out.put(word);
 }
 
-/// Which muscle, and what is chosen of it.
+/// A muscle and its choice.
 struct Chosen {
   Muscle muscle{};
   LegMuscles choice;
@@ -48,7 +48,7 @@ Chosen read_chosen(BakeReader& in) {
   return {muscle, choice};
 }
 
-/// A table's arguments: ascending.
+/// Reads the arguments of a table, which must ascend.
 void read_ascending(BakeReader& in, std::vector<double>& values, std::size_t length) {
   in(values, length);
   if (values.empty() || !std::is_sorted(values.begin(), values.end()) || !(values.front() > 0)) in.refuse();
@@ -117,7 +117,7 @@ BellySolver read_solver(BakeReader& in, const Cells& cells) {
     in.refuse();
   each_array(solver, cells, [&](auto& array, std::size_t length) {
     if (in.sound()) in(array, length);
-    // Couplings lie within the factor; the arrays that follow are as long as they say.
+    // Couplings are within the factor. The arrays that follow have the lengths that they state.
     for (std::uint32_t n = 0; in.sound() && n < factor.before.size() && n < factor.after.size(); ++n) {
       if (factor.before[n] > n || factor.after[n] >= factor.nodes - n) in.refuse();
     }
@@ -156,8 +156,8 @@ std::uint64_t number_at(std::span<const std::byte> bytes, std::size_t word) {
 
 }  // namespace
 
-/// What the bits of a file depend on: the muscles' meshes, and what a small belly comes out as here. Another version of
-/// the library, or a processor that computes otherwise, has another one.
+/// Returns a hash of everything that determines the bits of a file: the muscles' meshes, and the results for a small
+/// belly on this machine. Another version of the library, or a processor that computes differently, has another value.
 std::uint64_t BellyLibrary::maker() {
   static const std::uint64_t maker = find_maker();
   return maker;

@@ -11,8 +11,8 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr double ratio_step = 1.1;    // between the middles of ranges of slenderness: twelve modes serve such a range
-constexpr double product_step = 1.5;  // between those of size, which the foundation alone goes by
+constexpr double ratio_step = 1.1;    // between the middles of ranges of slenderness, each of which twelve modes cover
+constexpr double product_step = 1.5;  // between the middles of ranges of size, which matter only for the foundation
 
 }  // namespace
 
@@ -51,7 +51,7 @@ BellyLibrary::BasisKey BellyLibrary::basis_key(const LegMuscles& choice, Muscle 
 
 std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& choice, Muscle muscle) {
   std::vector<BasisKey> keys;
-  const bool fine = choice.modal.cells[2] > ModalOptions{}.cells[2];  // a basis takes half a second and more
+  const bool fine = choice.modal.cells[2] > ModalOptions{}.cells[2];  // such a basis takes half a second or more
   const double beyond = fine ? 1 : usual_sizes::rare_ratio, max_ratio = usual_sizes::max_ratio * beyond;
   for (double ratio = usual_sizes::min_ratio / beyond;; ratio *= ratio_step) {
     const double at_ratio = std::min(ratio, max_ratio);
@@ -98,7 +98,7 @@ Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMus
     return make_modal_basis(*mesh, choice.material, choice.element, options);
   };
   auto whole = make(max_modes);
-  if (!whole) whole = make(choice.modal.modes);  // a small mesh may not have so many
+  if (!whole) whole = make(choice.modal.modes);  // a small mesh cannot have that many
   if (!whole) return tl::unexpected(whole.error());
   Basis made{muscle, choice, key.ratio, key.product, std::make_shared<const ModalBasis>(std::move(*whole)), {}};
   cut(made, choice.modal.modes);

@@ -1,4 +1,4 @@
-// What bodies of usual build share, made before it is needed.
+// Builds the shared data of bodies of usual build ahead of time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// A part that jobs make, of that muscle: it, or why not.
+/// Result of a job for a muscle: the built part or an error.
 template <class T>
 struct Wanted {
   Muscle muscle;
@@ -59,7 +59,7 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
       keys.push_back(key);
     }
   }
-  // The dearest first.
+  // Most expensive jobs first.
   in_parallel(jobs, bases.size() + shapes.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i < bases.size()) {
@@ -83,7 +83,7 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
   return {};
 }
 
-/// A body that a fixed step is too long for has its own refusal.
+/// Ignores failures: a body whose critical step is below a fixed step gets its own error later.
 void BellyLibrary::prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s) {
   const bool solves =
       choice.method == Method::statics || choice.method == Method::implicit_central || choice.method == Method::newmark;

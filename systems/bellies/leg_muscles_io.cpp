@@ -9,7 +9,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Calls f with each field. A field that is not named here is a compile error.
+/// Calls f with each field. A field missing here is a compile error.
 template <class Choice, class F>
 constexpr void each_field(Choice& choice, F&& f) {
   auto& [muscles, drive, method, modal, material, element, mass, damping, stiffness_damping, inertia, line_motion,
@@ -63,7 +63,7 @@ struct Reader {
   std::size_t next = 0;
   bool sound = true;
 
-  /// The next word, which may be `most`.
+  /// Reads the next word, whose maximum is `most`.
   std::uint64_t take(std::uint64_t most) {
     const std::uint64_t word = words[next++];
     sound = sound && word <= most;
@@ -109,7 +109,7 @@ std::optional<LegMuscles> choice_of(const LegMusclesWords& words) {
 }
 
 std::uint64_t hash_of(const LegMuscles& choice) {
-  // Words that came later count where they are set, so that choices without them have the hash they always had.
+  // Words added later count only if nonzero, so choices without them keep their earlier hash.
   constexpr std::size_t first_words = 27;
   const LegMusclesWords words = leg_muscles_words(choice);
   std::uint64_t hash = 1;

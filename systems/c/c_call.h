@@ -1,6 +1,6 @@
 #pragma once
-// What every call of the C interface goes through: the simulation behind the handle, structs of any version, people as
-// ids, host's axes, and failures as a code with a line.
+// Common parts of all C calls: the simulation behind a handle, structs of any version, people by id, axes of the host,
+// and errors as a code with a message.
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@
 
 namespace mobil::inline v0_3::c {
 
-/// The host's memory.
+/// Memory resource that calls the host's functions.
 class HostMemory final : public std::pmr::memory_resource {
  public:
   explicit HostMemory(const mobil_memory& host) : host_(host) {}
@@ -53,7 +53,7 @@ class HostMemory final : public std::pmr::memory_resource {
   mobil_memory host_;
 };
 
-/// The axes and the unit of length that places come and go in.
+/// Axes and unit of length of the host. Converts positions and directions from and to them.
 struct HostAxes {
   PoseAxes axes = PoseAxes::y_up;
   float units_per_m = 1;
@@ -77,17 +77,17 @@ struct HostAxes {
   }
 };
 
-/// The PoseAxes of MOBIL_AXES_…, or nothing.
+/// Returns the PoseAxes of a MOBIL_AXES_… value; nothing for other values.
 std::optional<PoseAxes> pose_axes(int axes);
 
 int code_of(Status status);
 
-/// Why a call was refused: the line that mobil_message gives. Nothing is thrown, for not everywhere can one be.
+/// The message of a refused call, for mobil_message. Its functions do not throw: some callers cannot catch.
 struct Line {
   const char* call = "";
   char text[512] = "";
 
-  /// Keeps the line, and returns the code.
+  /// Stores the message and returns the code.
   int refuse(int code, std::string_view what) noexcept;
   int refuse(const Error& error, std::string_view who = {}) noexcept;
   int refuse_null(const char* what) noexcept;
@@ -96,7 +96,7 @@ inline std::string person_number(std::size_t i) {
   return fmt::format("person {}: ", i);
 }
 
-/// A struct's usual values.
+/// Returns the defaults of a struct.
 template <class S>
 S usual();
 template <>
@@ -136,14 +136,14 @@ mobil_avoidance_counts usual();
 template <>
 mobil_terrain_counts usual();
 
-/// Sizes that a struct may say it has.
+/// Returns true for valid values of a struct's `size`.
 constexpr bool is_struct_size(std::size_t size) {
   return size >= sizeof size && size <= 4096 && size % 4 == 0;
 }
 std::string unfilled(const char* name, std::size_t size);
 std::string from_the_future(const char* name, std::size_t known);
 
-/// A struct as the caller knows it, of an older or newer header: what it lacks is usual.
+/// Reads a caller's struct of an older or newer header. Fields that it lacks have their defaults.
 template <class S>
 int read_struct(Line& line, const void* given, const char* name, S& out) {
   static_assert(std::is_trivially_copyable_v<S>);
@@ -159,7 +159,7 @@ int read_struct(Line& line, const void* given, const char* name, S& out) {
     return line.refuse(MOBIL_STRUCT, from_the_future(name, sizeof out));
   return MOBIL_OK;
 }
-/// The other way round: as much of a struct as the caller knows; its size stays.
+/// Writes the fields of a struct that the caller's header has. Its `size` stays.
 template <class S>
 int write_struct(Line& line, const S& from, void* given, const char* name) {
   if (given == nullptr) return line.refuse_null(name);
@@ -171,7 +171,7 @@ int write_struct(Line& line, const S& from, void* given, const char* name) {
   return MOBIL_OK;
 }
 
-/// One of an enumeration's values.
+/// Converts an integer to an enumeration value from 0 to `last`.
 template <class E>
 int one_of(Line& line, int value, E last, const char* what, E& out) {
   if (value < 0 || value > static_cast<int>(last))
@@ -188,14 +188,14 @@ inline mobil_id id_of(Entity entity) {
   return {entity.index, entity.generation};
 }
 
-/// Row i of the caller's memory; `close`: bytes of one where no stride is given.
+/// Returns row i of the caller's memory. With stride 0 rows are `close` bytes apart.
 template <class T>
 T* row_at(T* rows, std::size_t i, std::size_t stride, std::size_t close) {
   using Byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
   return reinterpret_cast<T*>(reinterpret_cast<Byte*>(rows) + i * (stride == 0 ? close : stride));
 }
 
-/// How far apart structs lie, as the caller knows them.
+/// Determines the stride of the caller's structs; 0 becomes their size.
 template <class S>
 int struct_stride(Line& line, const S* rows, std::size_t count, const char* name, std::size_t& stride) {
   if (count == 0) return MOBIL_OK;
@@ -208,16 +208,16 @@ int struct_stride(Line& line, const S* rows, std::size_t count, const char* name
   return line.refuse(MOBIL_REFUSED, fmt::format("{} lie {} bytes apart and are {} long", name, stride, size));
 }
 
-/// How far apart rows of so many floats lie; `stride` 0: close together.
+/// Determines the stride of rows of floats; 0 means tightly packed.
 int row_stride(Line& line, const void* rows, std::size_t count, std::size_t floats, const char* name,
                std::size_t& stride);
 
-/// A stream of the caller's, `close` bytes apart where no stride is given; without bytes where it is left out.
+/// Makes a stream in the caller's memory, empty if null. With stride 0 vertices are `close` bytes apart.
 int stream_of(Line& line, void* memory, std::size_t stride, std::size_t bytes, std::size_t close, const char* name,
               VertexStream& to);
-/// Triangles for the host: of mirrored axes the second and the third corner change places.
+/// Writes triangles for the host. For mirrored axes the second and third corners are swapped.
 void wind(std::span<const std::uint32_t> index, bool mirrored, unsigned int* out);
-/// Vertices from `begin` up to `end` of a stream that was written, in the host's axes.
+/// Converts vertices [begin, end) of a written stream to the host's axes.
 template <class F>
 void turn_vertices(const VertexStream& stream, std::size_t begin, std::size_t end, std::size_t floats,
                    const F& convert) {
@@ -231,7 +231,7 @@ void turn_vertices(const VertexStream& stream, std::size_t begin, std::size_t en
   }
 }
 
-/// Vertices of ours into a stream, if there is one, in the host's axes.
+/// Writes vertices to a stream in the host's axes, unless the stream is empty.
 template <class F>
 void write_vertices(std::span<const Vec3<float>> from, const VertexStream& to, const F& convert) {
   for (std::size_t v = 0; v < from.size() && !to.bytes.empty(); ++v) {
@@ -245,7 +245,7 @@ int muscle_set(Line& line, unsigned int bits, MuscleSet& out);
 int muscle_number(Line& line, int muscle, Muscle& out);
 int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& out);
 
-/// MOBIL_OK, or why not.
+/// Returns MOBIL_OK, or stores the error and returns its code.
 template <class T>
 int code_of(Line& line, const Result<T>& done) {
   return done ? int{MOBIL_OK} : line.refuse(done.error());
@@ -253,11 +253,11 @@ int code_of(Line& line, const Result<T>& done) {
 
 }  // namespace mobil::inline v0_3::c
 
-/// What a mobil_sim* points to.
+/// The object behind a mobil_sim*.
 struct mobil_sim {
   explicit mobil_sim(const mobil_memory& host) : memory(host) {}
 
-  mobil::c::HostMemory memory;  // goes after everything that lives in it
+  mobil::c::HostMemory memory;  // destroyed after everything that it allocated
   std::optional<mobil::Threads> threads;
   mobil::Jobs jobs;  // the host's, or those of `threads`
   std::optional<mobil::Simulation> simulation;
@@ -268,9 +268,9 @@ struct mobil_sim {
   mobil::SkinTables skin_tables;
   mobil::SkinWriter skin_writer;
   mobil::c::Line line;
-  mobil_heights ground = nullptr;  // of terrain, and what it is called with
+  mobil_heights ground = nullptr;  // the host's function of heights, and its argument
   void* ground_user = nullptr;
-  // What calls work in.
+  // Scratch memory of calls.
   std::vector<mobil::Entity> people;
   std::vector<float> row;
   std::vector<mobil::Root> roots;
@@ -279,22 +279,22 @@ struct mobil_sim {
   std::vector<mobil_id> ground_of;
 
   mobil::Simulation& world() { return *simulation; }
-  /// `people` become those named.
+  /// Stores the people of `ids` in `people`.
   int name_people(const mobil_id* ids, std::size_t count);
-  /// Each of `people` is one.
+  /// Checks that all of `people` exist.
   int check_people();
-  /// Each of them is one, and is named once from now on.
+  /// Checks that all of `people` exist, and removes duplicates.
   int people_once();
 };
 
 namespace mobil::inline v0_3::c {
 
-/// A function of the host's ended a tick.
+/// Thrown if a function of the host ended a tick.
 struct Stopped : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Runs a call, f(sim), which returns its code.
+/// Runs f(sim), which returns a code, and converts exceptions to codes.
 template <class F>
 int call(const mobil_sim* asked, const char* name, F f) noexcept {
   if (asked == nullptr) return MOBIL_REFUSED;

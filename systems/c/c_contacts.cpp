@@ -1,4 +1,4 @@
-// Muscles kept out of each other in the host's buffers.
+// Contacts of muscles in the host's buffers.
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-/// What was written for one target, in our axes; where it lies does not matter.
+/// Vertices written for one target, in the library's axes, at any origin.
 struct Written {
   VertexStream positions, normals;
   std::vector<Vec3<float>> position, normal;

@@ -1,4 +1,4 @@
-// A skin mesh of the host's own, in the host's buffers.
+// Custom skins in the host's buffers.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ struct mobil_custom_skin {
   mobil::BodySkin bare;
   mobil::CustomSkin own;
   float height_m = 0;
-  bool mirrored = false;  // the host's axes: triangles turn round
+  bool mirrored = false;  // the host's axes are mirrored, so triangles change their winding
 };
 
 namespace {
@@ -27,9 +27,9 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-constexpr float furthest_m = 5;  // of a leg's vertex from the origin between the feet
+constexpr float furthest_m = 5;  // maximum distance of a leg's vertex from the origin between the feet
 
-/// A skin's vertices, close together.
+/// A skin's vertices, tightly packed.
 struct Vertices {
   std::vector<Vec3<float>> position, normal;
 
@@ -38,7 +38,7 @@ struct Vertices {
   VertexStream normals() { return {std::as_writable_bytes(std::span(normal))}; }
 };
 
-/// In our axes, what its triangles name. Errors: what is null, or no triangle of such vertices.
+/// Converts a mesh to the library's axes, without unused vertices. Errors: null, bad indices, a vertex too far away.
 int mesh_of(mobil_sim& s, const mobil_leg_mesh& given, SurfaceMesh& to) {
   if (given.positions == nullptr) return s.line.refuse_null("positions");
   if (given.indices == nullptr) return s.line.refuse_null("indices");
@@ -60,11 +60,11 @@ int mesh_of(mobil_sim& s, const mobil_leg_mesh& given, SurfaceMesh& to) {
                            fmt::format("index {} is of vertex {}; there are {}", i, given.indices[i], given.vertices));
   }
   wind({given.indices, given.index_count}, s.axes.mirrored(), to.triangle.data());
-  drop_unused(to);  // which would count for where the leg ends
+  drop_unused(to);  // unused vertices would change the computed end of the leg
   return MOBIL_OK;
 }
 
-/// Where the skin stands, over muscles at rest.
+/// Computes the skin of a standing body over muscles at rest.
 Result<Vertices> standing(const BodySkin& skin, const Body& body, const mobil_surfaces* surfaces) {
   std::array<std::vector<Vec3<float>>, 2> of_side;
   if (surfaces != nullptr) {
@@ -81,7 +81,7 @@ Result<Vertices> standing(const BodySkin& skin, const Body& body, const mobil_su
   return at;
 }
 
-/// One target: the body's skin beneath, and what follows it.
+/// One target: the body's skin and the custom skin that follows it.
 struct Following {
   PosedSkin posed;
   Vertices beneath, own;
@@ -181,7 +181,7 @@ int mobil_write_custom_skin(mobil_sim* sim, const mobil_custom_skin* skin, const
   });
 }
 
-// Old names, which go in 0.5.
+// Deprecated names, removed in 0.5.
 int mobil_bind_own_skin(mobil_sim* sim, mobil_id like, const mobil_leg_mesh* mesh, mobil_custom_skin** out) {
   return mobil_bind_custom_skin(sim, like, mesh, out);
 }

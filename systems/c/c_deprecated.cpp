@@ -1,4 +1,4 @@
-// Names that go in 0.5, by those that take their place.
+// Deprecated names, removed in 0.5, implemented by their replacements.
 
 #include "systems/c/c_call.h"
 
@@ -7,7 +7,7 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-/// Those of them who have that state become full.
+/// Changes those people who have the given state to full.
 int make_full(mobil_sim* sim, const char* name, const mobil_id* ids, std::size_t count, PersonState state,
               float within_m) {
   return call(sim, name, [&](mobil_sim& s) {

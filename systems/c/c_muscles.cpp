@@ -1,4 +1,4 @@
-// Leg muscles: chosen, changed, excited, prepared.
+// Leg muscles: choice, changes, excitation, preparation.
 
 #include <mobil/muscle_library.h>
 #include <mobil/muscle_table.h>
@@ -7,7 +7,7 @@
 namespace mobil::inline v0_3::c {
 namespace {
 
-/// What mobil_method and mobil_muscles both say of a method.
+/// Converts the fields of a method that mobil_method and mobil_muscles have in common.
 template <class S>
 int method_of(Line& line, const S& given, MuscleMethod& to) {
   if (const int code = one_of(line, given.method, last_method, "method", to.method)) return code;

@@ -1,4 +1,4 @@
-// People: who they are, how they walk, where they are, and how much of them there is.
+// People: bodies, walks, positions and states.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ using namespace mobil::c;
 
 constexpr int all_of_a_walk = MOBIL_SPEED | MOBIL_STEP_LENGTH | MOBIL_STEP_FREQUENCY | MOBIL_STYLE | MOBIL_HEADING;
 
-/// The caller's numbers in the place of usual ones.
+/// Replaces the defaults of a style by the caller's numbers.
 int style_of(Line& line, const float* style, std::size_t count, GaitStyle& out) {
   if (count == 0) return MOBIL_OK;
   if (style == nullptr) return line.refuse_null("style");
@@ -40,7 +40,7 @@ int check_given(Line& line, int given) {
   return line.refuse(MOBIL_REFUSED, fmt::format("given {:#x} has bits that are none of MOBIL_SPEED, …", given));
 }
 
-/// What is said of speed, step length and step frequency, in a GaitRequest or a GaitChange.
+/// Sets the given ones of speed, step length and step frequency in a GaitRequest or a GaitChange.
 template <class From, class To>
 void say_pace(const From& from, To& to) {
   if ((from.given & MOBIL_SPEED) != 0) to.speed_m_s = from.speed_m_s;
@@ -48,7 +48,7 @@ void say_pace(const From& from, To& to) {
   if ((from.given & MOBIL_STEP_FREQUENCY) != 0) to.step_frequency_hz = from.step_frequency_hz;
 }
 
-// Where older structs have padding nothing is read.
+// `sex` must not be in the padding of older structs.
 static_assert(sizeof(void*) != 8 || offsetof(mobil_person, sex) >= 88);
 
 int request_of(mobil_sim& sim, const mobil_person& person, SpawnRequest& to) {
@@ -69,7 +69,7 @@ int request_of(mobil_sim& sim, const mobil_person& person, SpawnRequest& to) {
   return MOBIL_OK;
 }
 
-/// Posed people come one by one: where one cannot, those before go again.
+/// Spawns posed people one by one. If one is refused, removes those before.
 int spawn_posed(mobil_sim& sim, std::span<const SpawnRequest> asked, const LegMuscles* muscles, mobil_id* out) {
   Simulation& world = sim.world();
   sim.people.clear();
@@ -110,7 +110,7 @@ int change_of(Line& line, const mobil_walk& walk, std::size_t person, WalkChange
   return MOBIL_OK;
 }
 
-/// All of them can walk so, or nobody is changed.
+/// Changes the walks of people, all or none.
 int change_all(mobil_sim& sim, std::span<const WalkChange> changes) {
   Simulation& world = sim.world();
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -355,7 +355,7 @@ int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const flo
   return call(sim, "mobil_set_poses", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
     if (const int code = row_stride(s.line, poses, count, std::size_t{7} * segment_count, "poses", stride)) return code;
-    // All are looked at before one is taken.
+    // The first pass checks all poses, the second sets them.
     for (const bool take : {false, true}) {
       for (std::size_t i = 0; i < count; ++i) {
         const Pose<float> pose = pose_from(s.axes, row_at(poses, i, stride, 0));

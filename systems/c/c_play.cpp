@@ -1,4 +1,4 @@
-// What a game plays by: events of steps, root motion, walks read back, people put elsewhere.
+// Step events, root motion, present walks and placing of people.
 
 #include <algorithm>
 #include <string>
@@ -13,7 +13,7 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-/// Without MOBIL_STYLE's numbers.
+/// Converts a gait without its style.
 mobil_walk walk_of(const Gait<float>& gait) {
   auto walk = usual<mobil_walk>();
   walk.given = gait.speed_m_s > 0 ? MOBIL_SPEED | MOBIL_STEP_LENGTH | MOBIL_HEADING : MOBIL_SPEED | MOBIL_HEADING;
@@ -46,7 +46,7 @@ mobil_root root_to(const HostAxes& axes, const Root& ours) {
   return to;
 }
 
-/// The roots of `sim.people` into memory of the simulation's.
+/// Writes the roots of `sim.people` to `sim.roots`.
 int read(mobil_sim& sim, double ahead_s) {
   sim.roots.resize(sim.people.size());
   const auto done = sim.world().roots(sim.people, sim.roots, ahead_s);

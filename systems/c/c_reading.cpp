@@ -1,4 +1,4 @@
-// What became of people: poses at any instant, and rows as floats.
+// Reads poses at any instant, and rows as floats.
 
 #include <array>
 
@@ -13,7 +13,7 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-/// Puts floats one after the other.
+/// Writes floats one after the other.
 struct FloatWriter {
   const HostAxes& axes;
   float* at;
@@ -83,7 +83,7 @@ void put(const Musculotendon<float>& m, FloatWriter& to) {
   for (const float value : {m.fibre_m, m.tendon_m, m.pennation_rad, m.force_n, m.belly_m}) to.put(value);
 }
 
-/// One kind of row: how many floats, and of an entity into floats.
+/// A kind of row: its number of floats, and the function that writes an entity's row.
 struct RowKind {
   int floats;
   Result<void> (*read)(const Simulation&, Entity, FloatWriter&);
@@ -97,7 +97,7 @@ constexpr RowKind row_kind(int floats) {
             return {};
           }};
 }
-// In the order of MOBIL_JOINTS and of MOBIL_LINE.
+// In the order of the enumerations from MOBIL_JOINTS and MOBIL_LINE.
 constexpr std::array<RowKind, MOBIL_ROWS> row_kinds = {row_kind<JointAngles>(13),    row_kind<Feet>(20),
                                                        row_kind<CentreOfMass>(3),    row_kind<GaitState>(3),
                                                        row_kind<GroundReaction>(12), row_kind<JointMoments>(6)};
@@ -105,7 +105,7 @@ constexpr std::array<RowKind, MOBIL_NODES> muscle_row_kinds = {row_kind<LineOfAc
                                                                row_kind<BellyReport>(5), row_kind<Activation>(2),
                                                                row_kind<Musculotendon>(5)};
 
-/// The caller's rows, once all floats of `s.row` are there.
+/// Copies the rows in `s.row` to the caller.
 int hand_over(mobil_sim& s, std::size_t count, std::size_t floats, float* out, std::size_t stride) {
   const std::size_t close = floats * sizeof(float);
   if (stride != 0 && stride < close)
@@ -144,7 +144,7 @@ int read_nodes(mobil_sim& s, std::size_t count, float* out, std::size_t stride) 
   return hand_over(s, count, floats, out, stride);
 }
 
-/// `people` become their muscles of that number and side.
+/// Stores the muscles of people, of that number and side, in `s.people`.
 int name_muscles(mobil_sim& s, const mobil_id* ids, std::size_t count, int muscle, int side) {
   if (const int code = s.name_people(ids, count)) return code;
   Muscle of{};
@@ -216,7 +216,7 @@ int mobil_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_p
     constexpr std::array<std::size_t, 3> form_bytes = {28, 48, 32};
     const std::size_t one = form_bytes[static_cast<std::size_t>(as.form)];
     const std::size_t number = segments.empty() ? segment_count : segments.size();
-    // From the first segment of one person to the end of the last one's.
+    // Bytes of one person, from the first segment to the end of the last one.
     const std::size_t person = (number - 1) * (segment_stride == 0 ? one : segment_stride) + one;
     const std::size_t apart = stride == 0 ? person : stride;
     const std::span bytes(static_cast<std::byte*>(out), (count - 1) * apart + person);

@@ -1,4 +1,4 @@
-// A world: made, advanced, saved, and what it costs.
+// Simulations: creation, time, snapshots and cost.
 
 #include <mobil/version.h>
 
@@ -10,7 +10,7 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-/// As much of a struct's usual values as the caller has room for, its own size first.
+/// Writes the defaults of the fields that the caller's struct has, with its own `size`.
 template <class S>
 int fill(void* filled, std::size_t size) {
   S values = usual<S>();

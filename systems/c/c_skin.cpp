@@ -15,14 +15,14 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-/// Null for none such.
+/// Returns a skin mesh; null for an unknown sex or detail.
 const SkinMesh* mesh_of(int sex, int detail) {
   if (sex < 0 || sex > static_cast<int>(Sex::woman) || detail < 0 || detail >= static_cast<int>(skin_details))
     return nullptr;
   return &skin_mesh(static_cast<Sex>(sex), static_cast<SkinDetail>(detail));
 }
 
-/// A number of it; 0, too, where there is no memory for it.
+/// Returns a count of a skin mesh; 0 for an unknown mesh or without memory.
 template <class Count>
 std::size_t count_of(int sex, int detail, Count count) noexcept try {
   const SkinMesh* const mesh = mesh_of(sex, detail);

@@ -1,5 +1,5 @@
 #pragma once
-// What the calls of skins share.
+// Common parts of the calls for skins.
 
 #include <array>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace mobil::inline v0_3::c {
 
-/// A person's pose, and muscles' vertices in our axes, from the world's origin.
+/// A person's pose, and vertices of muscles in the library's axes, relative to the world's origin.
 struct PosedSkin {
   Pose<float> pose;
   std::array<std::vector<Vec3<float>>, 2> of_side;
 };
 
-/// All of a target but its shape and streams; `posed` must live as long as the request. `sex`: of the triangles, below
-/// 0 any.
+/// Makes a request from a target, without shape and streams. `posed` must live as long as the request. `sex` is that of
+/// the triangles; a negative value allows any.
 int skin_person(mobil_sim& s, const mobil_skin_target& as, int sex, PosedSkin& posed, SkinRequest& to);
 int skin_streams(mobil_sim& s, const mobil_skin_target& as, VertexStream& positions, VertexStream& normals);
 

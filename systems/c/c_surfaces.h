@@ -1,16 +1,16 @@
 #pragma once
-// What a mobil_surfaces* points to.
+// The object behind a mobil_surfaces*.
 
 #include <mobil/systems/surfaces/body_surfaces.h>
 #include "systems/c/c_call.h"
 
 struct mobil_surfaces {
   mobil::BodySurfaces bound;
-  mobil::MuscleSet muscles;  // that drive them, and the cells of their meshes
+  mobil::MuscleSet muscles;  // driving muscles, and the cells of their meshes
   mobil::Cells cells;
-  bool mirrored = false;  // the host's axes: triangles turn round
+  bool mirrored = false;  // the host's axes are mirrored, so triangles change their winding
 
-  /// What people have who are to show them.
+  /// Returns the muscles that people with these surfaces must have.
   mobil::LegMuscles choice() const {
     mobil::LegMuscles of;
     of.muscles = muscles;

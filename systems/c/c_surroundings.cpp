@@ -1,4 +1,4 @@
-// Others, walls and ground.
+// Collision avoidance, obstacles and ground.
 
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-/// Before anybody is changed: that all of them can be.
+/// Checks that all people can be managed or released, before any of them is.
 int check_avoiders(mobil_sim& sim, bool on) {
   for (std::size_t i = 0; i < sim.people.size(); ++i) {
     const Entity person = sim.people[i];
@@ -31,7 +31,7 @@ int check_avoiders(mobil_sim& sim, bool on) {
   return MOBIL_OK;
 }
 
-/// All of them, or none. Who avoids others already keeps their wish.
+/// Manages or releases people, all or none. Managed people who are managed again keep their desired velocity.
 int set_avoiding(mobil_sim& sim, bool on) {
   std::vector<Entity> changes;
   for (const Entity person : sim.people)
@@ -46,7 +46,7 @@ GroundPoint ground_point(const HostAxes& axes, const float* theirs) {
   return {at.x, at.z};
 }
 
-/// A height along the host's axis up, and a normal.
+/// Converts a row of height along the host's up axis and normal. A normal that does not point up gives NaN.
 TerrainHeight height_from(const HostAxes& axes, const float* theirs) {
   const Vec3<float> n = axes.direction_from(theirs + 1);
   const float height_m = theirs[0] / axes.units_per_m;
@@ -55,7 +55,7 @@ TerrainHeight height_from(const HostAxes& axes, const float* theirs) {
   return {height_m, -n.x / n.y, -n.z / n.y};
 }
 
-/// The answers of the host's function.
+/// Resolves queries by the host's function.
 void ask_host(mobil_sim& sim, std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
   std::vector<float>& places = sim.row;
   std::vector<float>& ground = sim.ground_row;

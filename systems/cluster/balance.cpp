@@ -7,7 +7,7 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::size_t max_moves = 4;
-constexpr std::uint64_t worth = 20;  // parts of the mean
+constexpr std::uint64_t worth = 20;  // a move must gain 1/20 of the mean load
 
 }  // namespace
 
@@ -31,7 +31,7 @@ std::vector<ShardMove> plan_moves(std::span<const int> owner, std::span<const st
     const auto heavy = std::ranges::max_element(load), light = std::ranges::min_element(load);
     const int from = static_cast<int>(heavy - load.begin()), to = static_cast<int>(light - load.begin());
     std::size_t best = now.size();
-    std::uint64_t least = *heavy;  // of the larger of the two loads afterwards
+    std::uint64_t least = *heavy;  // minimum of the larger load after the move
     for (std::size_t s = 0; s < now.size(); ++s) {
       if (now[s] != from || cost[s] > *heavy) continue;
       const std::uint64_t larger = std::max(*heavy - cost[s], *light + cost[s]);

@@ -1,5 +1,5 @@
 #pragma once
-// Which rank has which shard, and which move so that all ranks have about as much to do.
+// Assigns shards to ranks, and plans moves that balance the load.
 
 #include <cstdint>
 #include <span>
@@ -12,10 +12,10 @@ struct ShardMove {
   int from = 0, to = 0;
 };
 
-/// At the beginning: by turns.
+/// Returns the initial rank of each shard, round robin.
 std::vector<int> first_owners(std::uint32_t shards, int ranks);
-/// What moves, given what each shard cost (any unit): from the rank with most to that with least, as long as the most
-/// falls by a twentieth of the mean; at most four. The same for the same numbers.
+/// Plans up to four moves from the cost of each shard (any unit): from the rank with the highest load to the lowest,
+/// while that reduces the highest load by 1/20 of the mean. The result depends on the arguments only.
 std::vector<ShardMove> plan_moves(std::span<const int> owner, std::span<const std::uint64_t> cost, int ranks);
 
 }  // namespace mobil::inline v0_3

@@ -85,7 +85,7 @@ Result<void> Cluster::populate() {
   return ranks_->agree(own);
 }
 
-/// From the last snapshot that all ranks can read.
+/// Restores the last snapshot that all ranks can read.
 Result<void> Cluster::restore() {
   std::vector<SavedRun> whole;
   Result<void> own;
@@ -141,7 +141,7 @@ Result<void> Cluster::restore_from(const SavedRun& run) {
   return ranks_->agree(own);
 }
 
-/// Written before anybody acts on them; what is being repeated lies in the log already.
+/// Returns the commands of this tick. The first rank logs new ones before any rank executes them.
 std::span<const std::byte> Cluster::commands_of_tick(std::span<const std::byte> commands) {
   if (!ranks_->first()) return ranks_->take_commands(ticks_);
   if (report_.replayed < replay_.size()) {
@@ -209,8 +209,8 @@ Result<void> Cluster::save() {
   return {};
 }
 
-/// The commands from here on go to a new log, which begins with those still to be repeated. It is complete before the
-/// index is written, so every snapshot has its log. The old log is used until then.
+/// Starts a new log with the commands still to be repeated, then writes the index. Every complete snapshot therefore
+/// has its log. The old log is used until then.
 void Cluster::write_snapshot(std::uint64_t hash, Result<void>& own) {
   auto log = CommandLog::begin(options_.folder, ticks_, std::span(replay_).subspan(report_.replayed));
   if (!log) {
@@ -222,7 +222,7 @@ void Cluster::write_snapshot(std::uint64_t hash, Result<void>& own) {
   if (own) log_ = std::move(*log);
 }
 
-/// All ranks know all costs, and come to the same plan.
+/// Moves shards between ranks. All ranks compute the same plan from the costs of all shards.
 void Cluster::balance() {
   ranks_->sum(cost_us_);
   for (const ShardMove& move : plan_moves(owner_, cost_us_, ranks_->count())) {

@@ -10,17 +10,17 @@
 
 namespace mobil::inline v0_3 {
 
-/// What is on its way.
+/// Messages in transit.
 struct LocalRanks::Post {
   struct Letter {
     std::vector<std::byte> bytes;
-    std::uint64_t looks = 0;  // that find nothing before it arrives
+    std::uint64_t looks = 0;  // remaining `take` calls before it arrives
   };
 
   std::mutex mutex;
   std::map<std::tuple<int, int, Channel>, std::deque<Letter>> box;  // by sender, receiver, channel
   std::uint64_t seed = 0, sent = 0;
-  std::string stopped;  // empty: not
+  std::string stopped;  // message of `stop`; empty before
 };
 
 class LocalRanks::End : public Transport {

@@ -30,7 +30,7 @@ bool first_by_environment() {
 #ifdef MOBIL_HAS_MPI
 namespace {
 
-/// MPI counts bytes in an int: what is longer goes in pieces, the last of which is shorter than this.
+/// Maximum size of a piece, because MPI counts bytes in an int. The last piece of a message is shorter than this.
 constexpr std::size_t piece_bytes = std::size_t{1} << 30;
 
 class MpiTransport : public Transport {
@@ -43,11 +43,11 @@ class MpiTransport : public Transport {
     MPI_Comm_size(ranks_of_ours_, &ranks_);
     coming_.resize(static_cast<std::size_t>(ranks_) * channel_count);
   }
-  /// After an exception nobody can end in order: the others wait for this rank.
+  /// Ends all ranks during an exception, because the others would wait for this rank.
   ~MpiTransport() override {
     if (std::uncaught_exceptions() > 0) stop("cluster: a rank ends by an exception");
     for (Sent& one : sent_) MPI_Waitall(static_cast<int>(one.pieces.size()), one.pieces.data(), MPI_STATUSES_IGNORE);
-    // Signs of life that nobody waited for are taken all the same: some MPIs complain of what is left.
+    // Receives remaining heartbeats, because some MPIs report unreceived messages.
     std::vector<std::byte> left;
     for (int from = 0; from < ranks_; ++from) {
       while (take(from, Channel::beat, left)) {
@@ -76,7 +76,7 @@ class MpiTransport : public Transport {
     }
   }
 
-  /// A long message comes in while this rank goes on looking: nothing here waits for its sender.
+  /// Receives long messages in pieces over several calls, without waiting for the sender.
   bool take(int from, Channel channel, std::vector<std::byte>& bytes) override {
     Coming& coming = coming_[static_cast<std::size_t>(from) * channel_count + static_cast<std::size_t>(channel)];
     for (;;) {
@@ -96,7 +96,7 @@ class MpiTransport : public Transport {
       MPI_Test(&coming.request, &done, MPI_STATUS_IGNORE);
       if (done == 0) return false;
       coming.on_its_way = false;
-      if (coming.bytes.size() - coming.at == piece_bytes) continue;  // more of it follows
+      if (coming.bytes.size() - coming.at == piece_bytes) continue;  // a further piece follows
       bytes.swap(coming.bytes);
       coming.bytes.clear();
       return true;
@@ -118,12 +118,12 @@ class MpiTransport : public Transport {
 
   struct Coming {
     std::vector<std::byte> bytes;
-    std::size_t at = 0;  // of the piece that is on its way
+    std::size_t at = 0;  // start of the piece in transit
     MPI_Request request = MPI_REQUEST_NULL;
     bool on_its_way = false;
   };
 
-  /// For the memory: fresh pages cost more than what is copied into them.
+  /// Reuses buffers of sent messages, because new pages cost more than copying into them.
   void keep_what_arrived() {
     for (auto one = sent_.begin(); one != sent_.end();) {
       int done = 0;

@@ -16,7 +16,7 @@ struct Numbered {
   Entity entity;
 };
 
-/// Decisions must follow from state alone.
+/// Fixes the machine factor, so that decisions depend on state alone.
 LodOptions choosing(const LegMuscles& muscles) {
   LodOptions options;
   options.machine_factor = 1;
@@ -74,7 +74,7 @@ Result<void> PeopleShard::apply(std::span<const std::byte> commands) {
   if (!reader.whole()) return fail("people's commands are no whole number of commands; make them of PersonCommand");
   for (const PersonCommand& command : all) {
     if (command.wish != Wish::look && shard_of(command.number, options_.shards) != shard_) continue;
-    const bool counts = command.wish != Wish::look || shard_ == 0;  // all shards are asked to look: one tells
+    const bool counts = command.wish != Wish::look || shard_ == 0;  // all shards execute `look`, and only one counts it
     refused_ += obey(command) || !counts ? 0 : 1;
   }
   return {};
@@ -152,7 +152,7 @@ void PeopleShard::tick() {
   simulation_.tick();
 }
 
-/// With who has which number: two people may not change places unnoticed.
+/// Adds a hash of each number with its person, so that a swap of two people changes the sum.
 std::uint64_t PeopleShard::state_sum() const {
   std::uint64_t sum = simulation_.state_sum();
   for (const auto& [number, entity] : people_) {

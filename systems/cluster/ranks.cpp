@@ -13,8 +13,8 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-// Who waits looks, then lets others have the processor between looks, then naps as well: a nap of 20 us is one of 100
-// and more where timers are coarse, and long messages need both sides to look.
+// A waiting rank first polls, then yields the processor between polls, then sleeps as well. A sleep of 20 us takes 100
+// us or more with coarse timers, and long messages need both sides to poll.
 constexpr int looks_at_once = 200;
 constexpr double before_naps_s = 2e-3;
 constexpr auto nap = std::chrono::microseconds(20);
@@ -30,7 +30,7 @@ std::span<const std::byte> bytes_of(const std::string& text) {
 
 }  // namespace
 
-/// The children in a binomial tree with the first rank at its root.
+/// Finds the children in a binomial tree with the first rank at its root.
 Ranks::Ranks(Transport& transport, double silence_s)
     : transport_(transport), silence_s_(silence_s), said_(Steady::now()) {
   heard_.resize(static_cast<std::size_t>(count()), {0, Steady::now()});
@@ -48,13 +48,13 @@ void Ranks::post(int to, Channel channel, const Message& message) {
   transport_.send(to, channel, out_);
 }
 
-/// What came in, on its way to others.
+/// Forwards the received message.
 void Ranks::hand_on(int to, Channel channel) {
   bytes_sent_ += in_.size();
   transport_.send(to, channel, in_);
 }
 
-/// Good until the next one is waited for.
+/// Waits for a message. It is valid until the next call.
 Message Ranks::wait(int from, Channel channel, MessageKind kind) {
   const auto start = Steady::now();
   for (int looks = 0;; ++looks) {
@@ -114,7 +114,7 @@ std::uint64_t Ranks::most(std::uint64_t value) {
   return value;
 }
 
-/// The first rank's message, down the tree.
+/// Sends the first rank's message down the tree.
 Message Ranks::hand_down(const Message& message, Channel channel) {
   const Message all = first() ? message : wait(parent(), channel, message.kind);
   for (auto child = children_.rbegin(); child != children_.rend(); ++child)
@@ -203,15 +203,15 @@ void Ranks::listen() {
   }
 }
 
-/// The first rank hears everybody and names who is silent; others can tell of the first one alone, and give it time to
-/// name somebody else.
+/// Stops all ranks if one has been silent for too long. The first rank receives all heartbeats and names the silent
+/// rank. Others can detect only the first one, and wait 3 times longer, so that it can name another rank.
 void Ranks::look_for_silence(double waiting_s, int from) {
   const double limit = limit_s();
   if (waiting_s < limit) return;
   if (first()) {
     const auto oldest = std::ranges::min_element(heard_, {}, &Heard::when);
     const double silent_s = seconds_since(oldest->when);
-    if (silent_s < limit) return;  // all say that they are alive: one of them works long
+    if (silent_s < limit) return;  // all ranks are alive, and one of them works long
     stop(
         fmt::format("cluster: rank {} has been silent for {:.1f} s, since about tick {}; the run stops, --resume goes "
                     "on from the last snapshot",

@@ -50,7 +50,7 @@ Result<std::vector<std::byte>> read_bytes(const fs::path& path) {
   return bytes;
 }
 
-/// Ticks of the snapshots in a folder, whole or not, the last first.
+/// Returns the ticks of the snapshots in a folder, complete or not, the last first.
 std::vector<std::uint32_t> snapshot_ticks(const fs::path& folder) {
   std::vector<std::uint32_t> ticks;
   std::error_code error;
@@ -66,8 +66,8 @@ std::vector<std::uint32_t> snapshot_ticks(const fs::path& folder) {
   return ticks;
 }
 
-/// Whole under its name, or not at all. The name meanwhile is the file's own: ranks on other machines may have the same
-/// process number, and each file has one writer.
+/// Writes a file under a temporary name and renames it, so that it is complete or missing. Each file has one writer, so
+/// the temporary name needs no process id, which can be the same on other machines.
 Result<void> write_whole(const fs::path& path, std::span<const std::byte> bytes) {
   fs::path meanwhile = path;
   meanwhile += ".new";
@@ -81,7 +81,7 @@ Result<void> write_whole(const fs::path& path, std::span<const std::byte> bytes)
   return fail(fmt::format("{}: cannot be written; choose a folder that is writable and has space", path.string()));
 }
 
-/// What is ours in it, and the folder itself where nothing else is there.
+/// Removes the files of a snapshot, and its folder if that is then empty.
 void remove_snapshot(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> ours;
@@ -169,7 +169,7 @@ Result<std::vector<SavedRun>> whole_snapshots(const fs::path& folder) {
   for (const std::uint32_t tick : snapshot_ticks(folder)) {
     const fs::path path = snapshot_folder(folder, tick) / "index";
     const auto sealed = read_bytes(path);
-    if (!sealed) continue;  // it was being written
+    if (!sealed) continue;  // incomplete record
     const auto message = open_message(*sealed, MessageKind::index);
     auto run = message ? unpack_run(message->bytes) : tl::unexpected(message.error());
     if (run && run->tick == tick)
@@ -231,7 +231,7 @@ Result<CommandLog> CommandLog::resume(const fs::path& folder, std::uint32_t tick
     while (!left.empty()) {
       const std::size_t at = bytes->size() - left.size();
       const auto message = take_message(left);
-      if (!message && message.error().status == Status::missing) break;  // it was being written
+      if (!message && message.error().status == Status::missing) break;  // incomplete record
       const auto next = tick + static_cast<std::uint32_t>(logged.size());
       if (!message || message->kind != MessageKind::commands || message->tick > next)
         return fail(

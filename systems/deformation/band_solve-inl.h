@@ -1,5 +1,5 @@
-// Both halves of a banded solution, the same factor for all lanes, one register of lanes at a time. For inclusion
-// inside Highway's targets only.
+// Forward and backward half of a banded solution with one factor for all lanes, one register of lanes at a time. For
+// inclusion only inside Highway's targets.
 
 #if defined(MOBIL_SYSTEMS_DEFORMATION_BAND_SOLVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_DEFORMATION_BAND_SOLVE_INL_H_
@@ -24,8 +24,8 @@ HWY_INLINE void store_vector(const Vector& a, float* p) {
   hn::Store(a.z, d, p + 2 * lane_count);
 }
 
-/// ∑ block·(node's vector) over `count` nodes from `p` on, `p` moving by `stride`. Blocks are 3×3, or with one
-/// component a number; `block` moves on past them.
+/// Returns ∑ block·(node's vector) over `count` nodes from `p` on, with `p` advancing by `stride`. Blocks are 3×3, or
+/// single numbers with one component. `block` advances past them.
 template <std::uint32_t components>
 HWY_INLINE Vector sum_couplings(std::uint32_t count, const float* p, std::ptrdiff_t stride, const float*& block) {
   const float* q = block;
@@ -71,8 +71,8 @@ HWY_INLINE Vector sum_couplings(std::uint32_t count, const float* p, std::ptrdif
   }
 }
 
-/// G·y = r: node by node, `right(n)` is r and `y` (of the factor's first node on) is written. n counts from the
-/// factor's first node. Returns |y|².
+/// Solves G·y = r node by node. `right(n)` returns r, and `y` is written from the factor's first node on. n counts from
+/// that node. Returns |y|².
 template <std::uint32_t components, class Right>
 HWY_INLINE V solve_forward(const BandFactor& factor, float* y, Right&& right) {
   const float* block = factor.forward.data();
@@ -101,7 +101,7 @@ HWY_INLINE V solve_forward(const BandFactor& factor, float* y, Right&& right) {
   return square;
 }
 
-/// Gᵀ·z = y in place, nodes descending; `take(n, z)` is called with each.
+/// Solves Gᵀ·z = y in place, nodes descending, and calls `take(n, z)` for each.
 template <std::uint32_t components, class Take>
 HWY_INLINE void solve_backward(const BandFactor& factor, float* y, Take&& take) {
   const float* block = factor.backward.data();

@@ -1,5 +1,5 @@
 #pragma once
-// One muscle's belly: what it shares with others, and what is its own.
+// One muscle's belly: shared data and its own.
 
 #include <cstdint>
 #include <memory>
@@ -18,33 +18,33 @@ namespace mobil::inline v0_3 {
 
 struct MuscleLines;  // systems/lines/muscle_lines.h
 
-/// What all people share whose muscles of a kind are alike but for size.
+/// Data shared by all people whose muscles of a kind differ only in size.
 struct BellyTemplate {
   LegMuscles choice;
   Muscle muscle{};
   std::shared_ptr<const MuscleTemplate> shape;
   std::shared_ptr<const MuscleLines> lines;
   AxialStiffness axial;
-  StaticStretch stretch;                      // of the template's own size
-  std::shared_ptr<const FiniteShape> finite;  // made when first asked for
+  StaticStretch stretch;                      // for the template's own size
+  std::shared_ptr<const FiniteShape> finite;  // built on first request
 };
 
-/// What muscles of one choice and about one size share. Those of alike ones share a table.
+/// Data shared by muscles of one choice and about one size. Muscles with equal data share a table.
 struct SharedBelly {
   const BellyTemplate* shape = nullptr;
-  std::uint32_t steps = 1;                     // a tick
-  std::shared_ptr<const BellySolver> solver;   // of ICD, CAA and static
-  std::shared_ptr<const BellySolver> resting;  // of the shape that a belly with inertia begins with; else null
-  std::shared_ptr<const ModalBasis> basis;     // of modal
-  std::shared_ptr<const FiniteShape> finite;   // of who shows finite strain, or steps it and pulls
+  std::uint32_t steps = 1;                     // per tick
+  std::shared_ptr<const BellySolver> solver;   // for ICD, CAA and static
+  std::shared_ptr<const BellySolver> resting;  // for the first shape of a belly with inertia; otherwise null
+  std::shared_ptr<const ModalBasis> basis;     // for modal
+  std::shared_ptr<const FiniteShape> finite;   // for shown finite strain, or stepped finite strain with activation
 
   friend bool operator==(const SharedBelly&, const SharedBelly&) = default;
 };
 
-/// One muscle of one person.
+/// The belly of one muscle of one person.
 struct Belly : SharedBelly {
   MusclePlan plan;
-  std::shared_ptr<const ModalBelly> motions;  // of modal: this body's own
+  std::shared_ptr<const ModalBelly> motions;  // for modal: this body's own
   std::vector<float> motion, rest_shape;      // and its rows, ModalMotion and ModalShape
 };
 

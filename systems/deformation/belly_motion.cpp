@@ -58,8 +58,8 @@ void solve_static(const StaticBelly& belly, const BellyLoad& load, int solutions
 
 std::vector<float> static_velocity(const StaticBelly& belly, const BellyLoad& load,
                                    const std::vector<float>& displacement) {
-  constexpr float least = 1e-6F;  // of what drives the far face, m or N, that a shape in proportion to it is scaled by
-  // To what is ten times as large a shape is not scaled up: what a solution has left over would grow as much.
+  constexpr float least = 1e-6F;  // minimum drive of the far face, m or N, for scaling a shape in proportion
+  // A shape is not scaled up ten times or more, because its remaining error would grow as much.
   const bool scales = std::abs(load.to) > std::max(least, 0.1F * std::abs(load.from));
   std::vector<float> before = displacement;
   if (scales) {
@@ -77,7 +77,7 @@ std::vector<float> static_velocity(const StaticBelly& belly, const BellyLoad& lo
 BellyMotion stretched(const Belly& belly, const LineOfAction<float>& line, const BellyLoad& load) {
   const auto& [across, along] = belly.plan.scale;
   const float per_metre = load.far_end == FarEnd::held ? 1.0F : 1 / line.stiffness_n_per_m;
-  // Where it is held, the line's lengthening or what its tendon leaves of that.
+  // For a held end: elongation of the line, or the part of it that its tendon leaves.
   const float length = load.far_end == FarEnd::held ? load.to : line.length_m - line.rest_length_m;
   const float speed = per_metre * (load.to - load.from) / load.tick_s;
   const std::size_t width = nodal_width(belly.shape->shape->mesh.cells);
@@ -124,7 +124,7 @@ void add_fade(const World& world, Entity muscle, float tick_s, BellyMotion& moti
 
 std::vector<float> fade_between(const BellyMotion& before, const BellyMotion& after) {
   constexpr float min_m = 1e-5F;
-  constexpr float top = 4.0F / 27;  // of x(1 − x)²
+  constexpr float top = 4.0F / 27;  // maximum of x(1 − x)²
   const std::size_t width = before.displacement.size();
   std::vector<float> fade(2 * width);
   bool seen = false, finite = true;

@@ -1,5 +1,5 @@
-// The elastic force on a node, and what else the methods share, one register of lanes at a time. For inclusion inside
-// Highway's targets only.
+// The elastic force on a node, and other parts common to the methods, one register of lanes at a time. For inclusion
+// only inside Highway's targets.
 
 #if defined(MOBIL_SYSTEMS_DEFORMATION_ELASTIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_DEFORMATION_ELASTIC_INL_H_
@@ -17,16 +17,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-// The kernels work through one register of lanes at a time, a whole tick long: nine sums, three displacements and a
-// coefficient then fit the sixteen registers of AVX2.
+// Kernels process one register of lanes at a time, for a whole tick. Nine sums, three displacements and a coefficient
+// then fit into the sixteen registers of AVX2.
 using V = hn::Vec<FloatTag>;
 inline constexpr FloatTag d;
 inline constexpr std::size_t node_stride = 3 * lane_count;
 
 using Vector = Vec3<V>;
 
-/// A value that is used several times, loaded once. gcc would fold the load into every use, and loads, not arithmetic,
-/// would then bound the kernel.
+/// Loads a value that is used several times. gcc would fold the load into every use, and then loads, not arithmetic,
+/// would limit the kernel.
 HWY_INLINE V load_once(const float* p) {
   V value = hn::Load(d, p);
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC_ACTUAL
@@ -39,8 +39,8 @@ HWY_INLINE V lanes_or_zero(const Lanes<float>* lanes, std::size_t first_lane) {
   return lanes == nullptr ? hn::Zero(d) : hn::Load(d, lanes->lane + first_lane);
 }
 
-/// Factors of A, B and C for each lane, and of the mass. S²/l goes in two parts: a slender belly bends some ten
-/// thousand times more easily than it stretches, so that the three terms must cancel to all the digits there are.
+/// Factors of A, B and C for each lane, and of the mass. S²/l is split into two parts: a slender belly bends about ten
+/// thousand times more easily than it stretches, so the three terms must cancel to full precision.
 struct Factors {
   V a, b, c, c_rest;
   V mass;
@@ -64,7 +64,7 @@ HWY_INLINE const float* coefficients(const KernelArrays& kernel, std::uint32_t p
          kernel.plane_pair[plane] * words<stiffness>;
 }
 
-/// Nine partial sums of a node's force. Individual: those of A (x y z), B and C; shared: those of x, y and z.
+/// Nine partial sums of a node's force. Individual: sums of A (x y z), B and C. Shared: sums of x, y and z.
 struct Sums {
   V a0, a1, a2, b0, b1, b2, c0, c1, c2;
 };
@@ -118,7 +118,7 @@ HWY_INLINE const float* add_planes(const float* plane, const float* last_plane, 
   return q;
 }
 
-/// (K·u) of node (i, j, k), k > 0, in N. `coefficient` points at its row and moves on to the next one.
+/// Returns (K·u) of node (i, j, k), k > 0, in N. `coefficient` points to its row and advances to the next one.
 template <Stiffness stiffness>
 HWY_INLINE Vector elastic_force(const Cells& cells, std::uint32_t i, std::uint32_t j, std::uint32_t k, const float* u,
                                 const Factors& factor, const float*& coefficient) {
@@ -149,7 +149,7 @@ HWY_INLINE Vector elastic_force(const Cells& cells, std::uint32_t i, std::uint32
   }
 }
 
-/// The acceleration that gravity and the frame's motion give the nodes, for one register of lanes and one moment.
+/// Acceleration of the nodes by gravity and the frame's motion, for one register of lanes at one instant.
 struct FrameField {
   Vector constant, x, y, z;  // rows of the gradient, over the template's rest positions
 
@@ -161,7 +161,7 @@ struct FrameField {
   }
 };
 
-/// The field at the fraction `part` of the tick.
+/// Returns the field at the fraction `part` of the tick.
 HWY_INLINE FrameField frame_field(const FrameLoad<Lanes<float>>& load, const BellyScale<Lanes<float>>& scale, V part,
                                   std::size_t first_lane) {
   const auto between = [&](const Lanes<float>& from, const Lanes<float>& to) HWY_ATTR {

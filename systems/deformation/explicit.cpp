@@ -1,5 +1,27 @@
 #include "systems/deformation/deformation.h"
 
+// Explicit central differences (ECD) with lumped mass and damping, sixteen bellies a block, with Δt = tick / substeps:
+//
+//   vₙ₊½ = keep·vₙ₋½ + push·(aₙ − ω²·uₙ) + push·M⁻¹·(fₙ − K·(uₙ + β·vₙ₋½)),   uₙ₊₁ = uₙ + Δt·vₙ₊½
+//   keep = (1 − αΔt/2)/(1 + αΔt/2),   push = Δt/(1 + αΔt/2),   M = S²·l·M₁,   K = l·A + S·B + (S²/l)·C
+//
+// This uses displacement u, velocity v half a step back, frame acceleration a, fascia's foundation ω (x and y only),
+// traction f on the far face, mass damping α and stiffness damping β. S across and l along are the sizes of each lane.
+// M₁ is diagonal, so no system is solved. A held far face is placed by its drive at n + 1 instead.
+//
+// A displacement or velocity column is node-major. Lanes are bellies; nodes count x, y, then z from the origin face:
+//
+//   float            lane 0  lane 1  lane 2  …  lane 15
+//     0   node 0  x [  .       .       .          .   ]  origin face: zero, never written
+//    16           y [  .       .       .          .   ]
+//    32           z [  .       .       .          .   ]
+//    48   node 1  x [  .       .       .          .   ]  48 = node_stride
+//     …
+//         node N  z [  .       .       .          .   ]  insertion (far) face
+//                   |<- vector_lanes ->|                 one register: 4, 8 or 16 lanes, for a whole tick
+//
+// Each coefficient of K is broadcast to all lanes. Lanes differ only by their factors l, S, S²/l and S²·l.
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
@@ -20,14 +42,14 @@ struct ExplicitBellies {
   const KernelArrays& kernel;
   const Cells& cells;
   float *u, *v;
-  const float* strained;  // what K multiplies: u, or with stiffness damping u + β·v
+  const float* strained;  // operand of K: u, or u + β·v with stiffness damping
   Factors factor;
   V keep, push, step;  // (1 − αΔt/2)/(1 + αΔt/2), Δt/(S²·l·(1 + αΔt/2)), Δt
 };
 
-/// Velocities of the planes of nodes from `first` to `last`, in one of the three ways of the far face (inner planes:
-/// free, no load). With `energy`, adds uₙᵀ·K·uₙ₊₁ of these nodes to `work`. `end` is the traction's total, or, of a
-/// held face, its next displacement along z.
+/// Updates the velocities of the node planes from `first` to `last`, in one of the three ways of the far face. Inner
+/// planes are free and without load. With `energy`, adds uₙᵀ·K·uₙ₊₁ of these nodes to `work`. `end` is the total
+/// traction or, for a held face, its next displacement along z.
 template <Stiffness stiffness, FarEnd way, bool loaded, bool energy>
 HWY_NOINLINE void advance_velocity(const ExplicitBellies& belly, std::uint32_t first, std::uint32_t last, const Vector& end,
                                    V& work) {
@@ -70,13 +92,13 @@ HWY_NOINLINE void advance_velocity(const ExplicitBellies& belly, std::uint32_t f
   work = sum;
 }
 
-/// One substep. `end`: traction at its start; of a held face, the displacement at its end.
+/// Advances one substep. `end` is the traction at its start or, for a held face, the displacement at its end.
 template <Stiffness stiffness, FarEnd far_end, bool energy>
 HWY_INLINE void substep(const ExplicitBellies& belly, const Vector& end, V& work) {
   const Cells& cells = belly.cells;
   advance_velocity<stiffness, FarEnd::free, false, energy>(belly, 1, cells[2] - 1, end, work);
   V unused = work;
-  if constexpr (far_end != FarEnd::held || energy) {  // one plane: its work costs too little for a version without
+  if constexpr (far_end != FarEnd::held || energy) {  // one plane: its work is too cheap for a version without it
     advance_velocity<stiffness, far_end, true, true>(belly, cells[2], cells[2], end, energy ? work : unused);
   }
   const std::size_t far = node_stride * first_insertion_node(cells), past = node_stride * node_count(cells);
@@ -89,7 +111,7 @@ HWY_INLINE void substep(const ExplicitBellies& belly, const Vector& end, V& work
   }
 }
 
-/// Holds the far face sideways, and a held one at the tick's start and speed along z.
+/// Holds the far face sideways, and sets position and speed along z of a held one at the tick's start.
 template <FarEnd far_end>
 HWY_INLINE void hold_far_face(const ExplicitBellies& belly, V from_z, V speed_z) {
   const std::size_t past = node_stride * node_count(belly.cells);
@@ -105,8 +127,8 @@ HWY_INLINE void hold_far_face(const ExplicitBellies& belly, V from_z, V speed_z)
   }
 }
 
-/// Velocities after the damping, the frame's field and the sideways foundation of one substep: v ← keep·v +
-/// push·(field − ω²·u), push = Δt/(1 + αΔt/2). What is left is the elastic part.
+/// Applies damping, frame field and sideways foundation of one substep to the velocities: v ← keep·v + push·(field −
+/// ω²·u), push = Δt/(1 + αΔt/2). Only the elastic part remains.
 template <FarEnd far_end>
 HWY_NOINLINE void push_masses(const ExplicitBellies& belly, const FrameField& field, V push, V foundation) {
   const Cells& cells = belly.cells;

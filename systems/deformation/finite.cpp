@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// A plane of nodes: where its forces are summed, its mean displacement sideways, and what acts on that mean.
+/// A plane of nodes: sums of its forces, its mean sideways displacement, and the force on that mean.
 struct FinitePlane {
   float* force;
   V mean[2], on_mean[2];
@@ -31,16 +31,16 @@ struct FiniteBellies {
   const Cells& cells;
   FarEnd way;
   FiniteLaw law;
-  V keep, push, push_over_mass, step, foundation;  // push: Δt', over S²·l as well; ω²
-  bool pushed;                                     // by a field or a foundation
+  V keep, push, push_over_mass, step, foundation;  // push: Δt', also over S²·l; foundation: ω²
+  bool pushed;                                     // has a field or a foundation
   float *u, *v;
-  float* mean;  // sideways, of each plane: x, y
+  float* mean;  // sideways, for each plane: x, y
   FinitePlane low, high;
   std::size_t first_lane;
 };
 
-/// What drives a substep: the field at its start, the end's traction at its start or, of a held end, its displacement
-/// at the substep's end and its speed.
+/// Inputs of a substep: the field and the end's traction at its start or, for a held end, displacement at the substep's
+/// end and its speed.
 struct FiniteSubstep {
   FrameField field;
   Vector end;
@@ -88,14 +88,15 @@ FiniteLaw law_of(const MuscleTemplate& muscle, const Factors& size) {
   return law;
 }
 
-/// Damping, 1/s: the muscle's, or, where fibres pull, that of tuned bellies.
+/// Returns the damping, 1/s: the muscle's, or with activation that of tuned bellies.
 V damping_of(const MuscleTemplate& muscle, const Lanes<float>* activation, std::size_t first_lane) {
   if (activation == nullptr) return hn::Set(d, static_cast<float>(muscle.options.damping_per_s));
   constexpr auto slack = static_cast<float>(tuned_damping_per_s(0)), taut = static_cast<float>(tuned_damping_per_s(1));
   return mul_add(hn::Set(d, taut - slack), hn::Load(d, activation->lane + first_lane), hn::Set(d, slack));
 }
 
-/// What fibres pull with: activation, what slackness adds (pulling_activation), and the stretch that they pull about.
+/// Sets the drive of fibres: activation, effect of slackness (pulling_activation), and the stretch about which they
+/// pull.
 void set_activity(FiniteBellies& belly, V elongation, const Lanes<float>* activation) {
   const FiniteTissue& tissue = belly.muscle.finite.tissue;
   const V one = hn::Set(d, 1.0F);
@@ -109,7 +110,7 @@ void set_activity(FiniteBellies& belly, V elongation, const Lanes<float>* activa
   belly.law.share_at_none = neg_mul_add(hn::Set(d, belly.law.slope), mean, one);
 }
 
-/// The mean displacement sideways of plane `k`.
+/// Computes the mean sideways displacement of plane `k`.
 void find_mean(const FiniteBellies& belly, std::uint32_t k) {
   const std::uint32_t nodes = plane_nodes(belly.cells);
   V mean[2] = {hn::Zero(d), hn::Zero(d)};
@@ -122,7 +123,7 @@ void find_mean(const FiniteBellies& belly, std::uint32_t k) {
   for (std::size_t c = 0; c < 2; ++c) hn::Store(mean[c], d, belly.mean + (2 * k + c) * lane_count);
 }
 
-/// Plane `k` before the elements below it.
+/// Prepares plane `k` before the elements below it.
 HWY_INLINE void begin_plane(const FiniteBellies& belly, std::uint32_t k, FinitePlane& plane) {
   for (std::size_t c = 0; c < 2; ++c) {
     plane.mean[c] = hn::Load(d, belly.mean + (2 * k + c) * lane_count);
@@ -135,14 +136,14 @@ HWY_INLINE void clear_forces(const FiniteBellies& belly, const FinitePlane& plan
   for (std::size_t at = 0; at < past; at += lane_count) hn::Store(hn::Zero(d), d, plane.force + at);
 }
 
-/// Nodes of plane `k`, which is `belly.low`, a substep on; finds their mean.
+/// Advances the nodes of plane `k`, which is `belly.low`, by a substep and computes their mean.
 template <FarEnd way, bool loaded>
 HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const FiniteSubstep& now) {
   const std::uint32_t nodes = plane_nodes(belly.cells), n = k * nodes;
   float* u = belly.u + node_stride * n;
   float* v = belly.v + node_stride * n;
   const float* force = belly.low.force;
-  // What stores might change, as far as the compiler knows, is read once.
+  // Values that stores could change, as far as the compiler can see, are read once.
   const float *const inverse_mass = &belly.muscle.kernel.inverse_mass[n],
                      *const far_share = belly.muscle.kernel.far_share.data(),
                      *const rest_m = &belly.muscle.kernel.rest_m[3 * std::size_t{n}],
@@ -184,7 +185,7 @@ HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const 
   for (std::size_t c = 0; c < 2; ++c) hn::Store(mean[c], d, belly.mean + (2 * k + c) * lane_count);
 }
 
-/// The far face where the end has it.
+/// Places the far face as its end requires.
 HWY_INLINE void hold_plane(const FiniteBellies& belly, bool along, V place_z, V speed_z) {
   const std::size_t past = node_stride * node_count(belly.cells);
   for (std::size_t at = node_stride * first_insertion_node(belly.cells); at < past; at += node_stride) {
@@ -198,14 +199,14 @@ HWY_INLINE void hold_plane(const FiniteBellies& belly, bool along, V place_z, V 
   }
 }
 
-/// Adds the forces of the elements between the planes k and k + 1; no others are on the upper one yet, nor on the
-/// first plane.
+/// Adds the forces of the elements between planes k and k + 1. The upper plane, and the first plane, have no other
+/// forces yet.
 template <bool energy>
 HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V& work) {
   const std::uint32_t nodes = plane_nodes(belly.cells), count = belly.cells[0] * belly.cells[1];
   const FiniteKernelElement* const layer_element = belly.muscle.finite.element.data() + std::size_t{k} * count;
   const float* const u = belly.u + node_stride * nodes * k;
-  constexpr std::uint32_t together = 4;  // as many as stay in the nearest cache
+  constexpr std::uint32_t together = 4;  // as many as fit into the first-level cache
   ElementState state[together];
   const bool is_small = belly.cells[0] == 2 && belly.cells[1] == 2;
   static_assert(together == small_layer);

@@ -1,5 +1,5 @@
-// Forces and energy of one-point elements at finite strain, one register of lanes at a time. For inclusion inside
-// Highway's targets only.
+// Forces and energy of one-point elements at finite strain, one register of lanes at a time. For inclusion only inside
+// Highway's targets.
 
 #if defined(MOBIL_SYSTEMS_DEFORMATION_FINITE_ELEMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_DEFORMATION_FINITE_ELEMENT_INL_H_
@@ -15,27 +15,27 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// What elements of a register of lanes have in common during one tick.
+/// Values common to the elements of a register of lanes during one tick.
 struct FiniteLaw {
-  Factors size;                 // a: l, b: S, c: S²/l, mass: S²·l
+  Factors size;                 // l, S, S²/l and S²·l (mass)
   V over_across, over_along;    // 1/S, 1/l
   V over_volume;                // 1/(S²·l)
   V across2, along2;            // S², l²
   V shear_across, shear_along;  // shear modulus times l and S²/l
-  V active_pa;                  // times the activation that pulls
+  V active_pa;                  // times the pulling activation
   V share_at_none;              // active share = max(least, slope·λ + this)
   float shear_pa, bulk_pa, passive_pa, slope, min_share, passive_slope, passive_start, linear_slope;
 };
 
-inline constexpr float min_stretch2 = 0.01F;  // λ² of fibres, which divides
+inline constexpr float min_stretch2 = 0.01F;  // minimum λ² of fibres, which is a divisor
 
-/// Fibres' nominal stress at the stretch λ: active and passive, Pa.
+/// Nominal stress of fibres at the stretch λ: active and passive, Pa.
 struct FibreStress {
-  V share, exponent, curved, series;  // exponent z ≥ 0; curved: what of it the series takes
+  V share, exponent, curved, series;  // exponent z ≥ 0; curved: its part within the series
   V stress_pa;
 };
 
-/// Of several elements side by side, so that none waits for another's.
+/// Computes the stress of several elements side by side, so that none waits for the result of another.
 template <std::size_t n>
 HWY_INLINE void find_fibre_stress(const FiniteLaw& law, const V (&stretch)[n], FibreStress (&of)[n]) {
   for (std::size_t i = 0; i < n; ++i)
@@ -62,7 +62,7 @@ HWY_INLINE FibreStress fibre_stress(const FiniteLaw& law, V stretch) {
   return of[0];
 }
 
-/// ∫ stress over the stretch, Pa, up to a constant that depends on the lane alone.
+/// Returns ∫ stress over the stretch, Pa, up to a constant that depends only on the lane.
 HWY_INLINE V fibre_energy(const FiniteLaw& law, V stretch, const FibreStress& f) {
   const V floor_at = hn::Div(hn::Sub(hn::Set(d, law.min_share), law.share_at_none), hn::Set(d, law.slope));
   const V below = hn::Min(hn::Sub(stretch, floor_at), hn::Zero(d));
@@ -78,35 +78,35 @@ HWY_INLINE V fibre_energy(const FiniteLaw& law, V stretch, const FibreStress& f)
   return mul_add(law.active_pa, active, passive);
 }
 
-/// What the elements of a layer have in common: twice how much the mean of its upper plane is aside of the lower one's,
-/// and what acts on the lower one's; on the upper one's the same acts with the other sign.
+/// Values common to the elements of a layer: twice the sideways distance between the means of its upper and lower
+/// plane, and the force on the lower mean. The force on the upper mean is the opposite.
 struct FiniteLayer {
   V sway[2], on_mean[2];
 };
 
-/// Sums over an element's corners, where ξ, η, ζ = ±1, of one component times what they are named for.
+/// Sums over an element's corners, where ξ, η, ζ = ±1, of one component times the product in their names.
 struct CornerSums {
   V xi, eta, zeta, eta_zeta, xi_zeta, xi_eta, xi_eta_zeta;
 };
 
-/// The same over the four corners of a face.
+/// Sums over the four corners of a face.
 struct FaceSums {
   V one, xi, eta, xi_eta;
 };
 
-/// Of a face's corners, in the order of Hexahedron.
+/// Returns the sums of a face's corners, in the order of Hexahedron.
 HWY_INLINE FaceSums face_sums(V a, V b, V c, V e) {
   const V near = hn::Add(a, b), far = hn::Add(e, c), near_xi = hn::Sub(b, a), far_xi = hn::Sub(c, e);
   return {hn::Add(near, far), hn::Add(near_xi, far_xi), hn::Sub(far, near), hn::Sub(far_xi, near_xi)};
 }
-/// Of an element's lower and upper face.
+/// Returns the sums of an element from those of its lower and upper face.
 HWY_INLINE CornerSums corner_sums(const FaceSums& low, const FaceSums& high) {
   return {hn::Add(low.xi, high.xi),        hn::Add(low.eta, high.eta), hn::Sub(high.one, low.one),
           hn::Sub(high.eta, low.eta),      hn::Sub(high.xi, low.xi),   hn::Add(low.xi_eta, high.xi_eta),
           hn::Sub(high.xi_eta, low.xi_eta)};
 }
 
-/// What each corner of a face has of each sum, times what it is named for there.
+/// Values at the corners of a face: all sums, each times the product in its name at that corner.
 struct FaceCorners {
   V corner[4];
 };
@@ -115,7 +115,7 @@ HWY_INLINE FaceCorners face_corners(const FaceSums& sum) {
   const V near_xi = hn::Sub(sum.xi, sum.xi_eta), far_xi = hn::Add(sum.xi, sum.xi_eta);
   return {hn::Sub(near, near_xi), hn::Add(near, near_xi), hn::Add(far, far_xi), hn::Sub(far, far_xi)};
 }
-/// The same of an element's lower face and its upper one.
+/// Return the values at the corners of an element's lower and upper face.
 HWY_INLINE FaceCorners low_corners(const CornerSums& sum) {
   return face_corners({hn::Neg(sum.zeta), hn::Sub(sum.xi, sum.xi_zeta), hn::Sub(sum.eta, sum.eta_zeta),
                        hn::Sub(sum.xi_eta, sum.xi_eta_zeta)});
@@ -125,18 +125,18 @@ HWY_INLINE FaceCorners high_corners(const CornerSums& sum) {
       {sum.zeta, hn::Add(sum.xi, sum.xi_zeta), hn::Add(sum.eta, sum.eta_zeta), hn::Add(sum.xi_eta, sum.xi_eta_zeta)});
 }
 
-/// One element between its nodes' displacements and their forces, which are worked on in passes over the elements of a
-/// layer: within a pass none waits for another, and each pass is a function of its own, which has all registers to
-/// itself. The gradient of the displacement by row, m of the body over m of the template, and
-/// then what acts on it, N·m; hourglass patterns, m, and their stiffness, N/m.
+/// One element between its nodes' displacements and their forces. It is processed in passes over the elements of a
+/// layer: within a pass no element waits for another, and each pass is a separate function with all registers.
+/// `gradient` is the displacement's gradient by row, m of the body over m of the template, and later the force on it,
+/// N·m. `hourglass` contains the hourglass patterns, m, and `stiffness` theirs, N/m.
 struct ElementState {
   V gradient[3][3], hourglass[3][4], stiffness;
-  V along[3], now2, rest2;  // the fibre, m over m of the template, and the squares of its length now and at rest
-  V pull;                   // what its tension adds to the gradient's, over `along`, N·m
+  V along[3], now2, rest2;  // fibre, m over m of the template; squares of its present and rest length
+  V pull;                   // force of its tension on the gradient, over `along`, N·m
 };
 
-/// One row of how an element is deformed, of the sums of that component of its nodes' displacements. Returns the
-/// gradient's part along the fibre.
+/// Computes one row of an element's deformation from the sums of that component of its nodes' displacements. Returns
+/// the gradient's part along the fibre.
 HWY_INLINE V gather_row(const FiniteKernelElement& element, const CornerSums& sum, V (&gradient)[3],
                         V (&hourglass)[4]) {
   V g[3];
@@ -161,7 +161,7 @@ HWY_INLINE V gather_row(const FiniteKernelElement& element, const CornerSums& su
   return mul_add(g[0], hn::Set(d, fibre[0]), mul_add(g[1], hn::Set(d, fibre[1]), hn::Mul(g[2], hn::Set(d, fibre[2]))));
 }
 
-/// How long fibres of some elements are, of what gather_row returned.
+/// Computes the fibre lengths of several elements from the results of gather_row.
 HWY_NOINLINE inline void stretch_fibres(const FiniteLaw& law, const FiniteKernelElement* element, std::uint32_t some,
                                         const FiniteLayer& layer, ElementState* state) {
   for (; some > 0; --some, ++element, ++state) {
@@ -181,7 +181,7 @@ HWY_NOINLINE inline void stretch_fibres(const FiniteLaw& law, const FiniteKernel
   }
 }
 
-/// What fibres of `n` elements pull with.
+/// Computes the pull of the fibres of `n` elements.
 template <std::size_t n>
 HWY_NOINLINE inline void pull_fibres(const FiniteLaw& law, const FiniteKernelElement* element, ElementState* state) {
   V over_lengths[n], stretch[n];
@@ -196,11 +196,11 @@ HWY_NOINLINE inline void pull_fibres(const FiniteLaw& law, const FiniteKernelEle
   }
 }
 
-/// From how an element is deformed to what acts on that, by row; what its fibres do to the means of its two planes is
-/// added to the layer's. With `energy`, adds its energy (J), less that of its fibres at λ = 1, to `work`.
+/// Computes the forces on an element's deformation, by row. The force of its fibres on the means of its two planes is
+/// added to the layer's. With `energy`, adds its energy (J), minus that of its fibres at λ = 1, to `work`.
 ///
-/// Instead of the deformation gradient F, whose columns are F·e over the body's sizes S, S and l, it has A with those
-/// columns times the sizes: A = diag(S, S, l) + gradient, so that J = det A/(S²·l), and what acts on the gradient is
+/// The deformation gradient F has columns F·e over the body's sizes S, S and l. A has those columns times the sizes
+/// instead: A = diag(S, S, l) + gradient, so J = det A/(S²·l). The force on the gradient is
 ///   V·(p·cof A + μ·A·diag(l, l, S²/l)) + fibres' share, p = κ'(J − 1) − μ, V the template's volume.
 template <bool energy>
 HWY_INLINE void stress_element(const FiniteLaw& law, const FiniteKernelElement& element, ElementState& state,
@@ -233,7 +233,7 @@ HWY_INLINE void stress_element(const FiniteLaw& law, const FiniteKernelElement& 
   const V stiffness = mul_add(hn::Set(d, element.hourglass_across), law.size.a,
                               hn::Mul(hn::Set(d, element.hourglass_along), law.size.c));
   if constexpr (energy) {
-    // μ/2 (I₁ − 3) − μ(J − 1) without the cancelling: with G = F − 1, μ(|G|²/2 − (J − 1 − tr G)).
+    // μ/2 (I₁ − 3) − μ(J − 1) without cancellation: with G = F − 1, μ(|G|²/2 − (J − 1 − tr G)).
     V G[3][3];
     for (std::size_t r = 0; r < 3; ++r) {
       for (std::size_t c = 0; c < 3; ++c)
@@ -278,7 +278,7 @@ HWY_NOINLINE void stress_elements(const FiniteLaw& law, const FiniteKernelElemen
   for (std::uint32_t e = 0; e < some; ++e) stress_element<energy>(law, element[e], state[e], layer, at_rest, work);
 }
 
-/// The sums over its corners that an element's forces are, N, one component.
+/// Returns an element's forces as sums over its corners, N, one component.
 HWY_INLINE CornerSums force_sums(const FiniteKernelElement& element, const ElementState& state, std::size_t r) {
   V on[3] = {state.gradient[r][0], state.gradient[r][1], state.gradient[r][2]}, on_pattern[4];
   for (std::size_t m = 0; m < 4; ++m) {

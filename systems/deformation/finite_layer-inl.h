@@ -1,5 +1,5 @@
-// How elements of a layer read the displacements of its two planes and add to their forces, one register of lanes at a
-// time. For inclusion inside Highway's targets only.
+// Exchange between the elements of a layer and its two planes: elements read displacements and add forces, one register
+// of lanes at a time. For inclusion only inside Highway's targets.
 
 #if defined(MOBIL_SYSTEMS_DEFORMATION_FINITE_LAYER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_DEFORMATION_FINITE_LAYER_INL_H_
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// `u`: displacements of the nodes from the lower plane's first on.
+/// Reads an element's deformation. `u` contains displacements of the nodes from the lower plane's first one on.
 HWY_NOINLINE inline void gather_element(const FiniteKernelElement& element, const float* u, ElementState& state) {
   for (std::size_t r = 0; r < 3; ++r, u += lane_count) {
     const auto face = [&](const std::uint32_t* node) HWY_ATTR {
@@ -31,7 +31,7 @@ HWY_NOINLINE inline void gather_element(const FiniteKernelElement& element, cons
   }
 }
 
-/// Adds an element's forces to its nodes' in the planes below and above it; `plane`: nodes of one plane.
+/// Adds an element's forces to its nodes' in the planes below and above it. `plane` is the number of nodes in a plane.
 HWY_NOINLINE inline void scatter_element(const FiniteKernelElement& element, std::uint32_t plane,
                                          const ElementState& state, float* low, float* high) {
   for (std::size_t r = 0; r < 3; ++r) {
@@ -48,15 +48,15 @@ HWY_NOINLINE inline void scatter_element(const FiniteKernelElement& element, std
   }
 }
 
-// A layer of two by two elements, as nearly all bellies have it: both planes are read and written once a component, and
-// are in registers in between, which AVX-512 has enough of.
+// Nearly all bellies have layers of two by two elements. For these, both planes are read and written once per
+// component, and stay in registers in between. AVX-512 has enough registers for that.
 inline constexpr std::size_t small_layer = 4, small_plane = 9;  // elements, nodes
 
-/// The node of its plane at the corner `a` of a face of the element e.
+/// Returns the node of its plane at corner `a` of a face of element e.
 constexpr std::size_t small_node(std::size_t e, std::size_t a) {
   return (e / 2 + (a == 2 || a == 3 ? 1 : 0)) * 3 + e % 2 + (a == 1 || a == 2 ? 1 : 0);
 }
-/// Whether no element before e has that node.
+/// Returns true if no element before e has that node.
 constexpr bool is_first_there(std::size_t e, std::size_t a) {
   for (std::size_t before = 0; before < e; ++before)
     for (std::size_t b = 0; b < 4; ++b)
@@ -74,7 +74,7 @@ HWY_INLINE void gather_small_element(const FiniteKernelElement* element, std::si
       gather_row(element[e], corner_sums(face(low), face(high)), state[e].gradient[r], state[e].hourglass[r]);
 }
 
-/// As gather_element, of a whole layer.
+/// Reads the deformation of a whole layer, as gather_element does for one element.
 HWY_NOINLINE inline void gather_small_layer(const FiniteKernelElement* element, const float* u, ElementState* state) {
   for (std::size_t r = 0; r < 3; ++r, u += lane_count) {
     V low[small_plane], high[small_plane];
@@ -101,7 +101,7 @@ HWY_INLINE void scatter_small_element(const FiniteKernelElement* element, const 
   }
 }
 
-/// As scatter_element, of a whole layer; sets the upper plane's forces instead of adding to them.
+/// Adds a layer's forces to those of the lower plane and sets those of the upper one, unlike scatter_element.
 HWY_NOINLINE inline void scatter_small_layer(const FiniteKernelElement* element, const ElementState* state, float* low,
                                              float* high) {
   for (std::size_t r = 0; r < 3; ++r, low += lane_count, high += lane_count) {

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// 0 to 1 as the activation is (activation_root).
+/// Maps activation to 0 to 1 (activation_root).
 HWY_INLINE Wide root_of(const Wide& activation) {
   constexpr float offset = static_cast<float>(activation_offset);
   const float least = 0.1F, most = 1.00498756F;  // √offset, √(1 + offset)
@@ -45,7 +45,7 @@ void blend_all(const ShapeBlock& block, ShapeBlend& blend) {
   store(moved - within, blend.beyond_m);
 }
 
-/// Of an end, which moves as one.
+/// Moves the nodes of an end, all by the same distance.
 HWY_INLINE void move_end(std::size_t first, std::size_t count, const Wide& along, const float* computed, float* shown) {
   for (std::size_t at = first * lane_count; at < (first + count) * lane_count; at += 3 * lane_count) {
     for (std::size_t c = 0; c < 2 * lane_count; c += lane_count) store(load(computed + at + c), shown + at + c);
@@ -53,7 +53,8 @@ HWY_INLINE void move_end(std::size_t first, std::size_t count, const Wide& along
   }
 }
 
-/// Of a point between the ends along one axis: `vector` times the row's numbers, and the belly drawn out by `drawn_m`.
+/// Moves a point between the ends along one axis, by `vector` times the row's numbers and the belly's stretch
+/// `drawn_m`.
 HWY_INLINE void move_point(const float* row, const Wide* vector, float drawn, const Wide& drawn_m,
                            const float* computed, float* shown) {
   Wide sum = fma(wide(row[0]), vector[0], load(computed));

@@ -1,6 +1,6 @@
 #pragma once
-// The shape of a belly at finite strain in place of the linear static one, on top of what a method computes: it keeps
-// its volume, and where it pulls it is short and thick. Vibration passes through.
+// Finite-strain shape of a belly, added to a method's result instead of the linear static shape. The belly keeps its
+// volume and is short and thick when active. Vibration passes through.
 
 #include <mobil/components/activation.h>
 #include <mobil/components/lanes.h>
@@ -10,7 +10,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// What sixteen bellies are to look like at a tick's end. `activation` may be null: relaxed.
+/// Inputs of the shape of sixteen bellies at a tick's end. `activation` can be null: relaxed.
 struct ShapeBlock {
   const FiniteShape& shape;
   const BellyScale<Lanes<float>>& scale;
@@ -18,20 +18,20 @@ struct ShapeBlock {
   const Lanes<float>* activation;
 };
 
-/// How much of each vector there is, at the template's size; and what of the far end's displacement (m) is within the
-/// tables' range, and what is left over, which the method's own statics go on to show.
+/// Amounts of the shape's modes at the template's size, the part of the far end's displacement (m) within the tables'
+/// range, and the rest, which the method's own static solution still shows.
 struct ShapeBlend {
   Lanes<float> vector[shape_modes], within_m, beyond_m;
 };
 ShapeBlend blend_of(const ShapeBlock& block);
 
-/// `shown` = `computed` + shape, three a control point × 16 (they may be the same). `in_place_of_linear`: less the
-/// linear static answer to `within_m`, which is in `computed`, as a body of the template's slenderness has it. A NaN
-/// stays in its lane.
+/// Writes `shown` = `computed` + shape, three numbers per control point × 16 (the two can be the same). With
+/// `in_place_of_linear` it subtracts the linear static solution for `within_m` that `computed` contains, for a body of
+/// the template's slenderness. A NaN stays in its lane.
 void add_shape(const ShapeBlock& block, const ShapeBlend& blend, bool in_place_of_linear, const float* computed,
                float* shown);
 
-/// Volume that the shown control points of `control` enclose over that at rest, into the report.
+/// Writes to the report the volume enclosed by the shown control points of `control` over that at rest.
 void report_volume(const MuscleTemplate& control, const BellyScale<Lanes<float>>& scale, const float* shown,
                    Lanes<float>& volume_ratio);
 

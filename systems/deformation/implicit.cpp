@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// One step of a tick in numbers and its far face.
+/// Parameters of one step of a tick and of its far face.
 struct Step {
   float dt, alpha, beta, foundation;
   V far_from, far_to, far_speed;  // of a held face along z
@@ -32,7 +32,7 @@ HWY_INLINE void set_far_z(const Bellies& belly, float* x, V value) {
   }
 }
 
-/// Writes f(component, offset) for every offset from the second plane of nodes on, components x, y, z in turn.
+/// Calls f(component, offset) for each offset from the second plane of nodes on, components x, y, z in turn.
 template <class F>
 HWY_INLINE void for_each_component(const Bellies& belly, std::uint32_t past_node, F&& f) {
   for (std::size_t at = node_stride * belly.first; at < node_stride * past_node; at += node_stride) {
@@ -42,7 +42,7 @@ HWY_INLINE void for_each_component(const Bellies& belly, std::uint32_t past_node
   }
 }
 
-/// Constant average acceleration, for the change of velocity from vₙ to the step's mean.
+/// Advances a step of constant average acceleration, solved for the change of velocity from vₙ to the step's mean.
 template <Stiffness stiffness, Mass mass>
 HWY_NOINLINE void step_newmark(const Bellies& belly, const Step& step, bool exact) {
   const bool held = belly.end == FarEnd::held;
@@ -73,7 +73,7 @@ HWY_NOINLINE void step_newmark(const Bellies& belly, const Step& step, bool exac
   if (held) set_far_z(belly, belly.u, step.far_to);
 }
 
-/// Implicit (consistent-mass) central differences.
+/// Advances a step of implicit (consistent-mass) central differences.
 template <Stiffness stiffness>
 HWY_NOINLINE void step_implicit(const Bellies& belly, const Step& step) {
   const bool held = belly.end == FarEnd::held;
@@ -105,7 +105,7 @@ HWY_NOINLINE void step_implicit(const Bellies& belly, const Step& step) {
   const auto held_sideways = [&](std::uint32_t n) { return sliding && n + belly.first >= far; };
   solve_forward<1>(belly.solver.factor, belly.residual + from,
                    [&](std::uint32_t n) HWY_ATTR { return load_vector(belly.residual + from + node_stride * n); });
-  if (sliding) {  // x and y end one plane earlier, and their factor with them
+  if (sliding) {  // x and y, and their factor, end one plane earlier
     for (std::size_t at = node_stride * far; at < node_stride * node_count(belly.cells); at += node_stride) {
       hn::Store(hn::Zero(d), d, belly.residual + at);
       hn::Store(hn::Zero(d), d, belly.residual + at + lane_count);
@@ -131,7 +131,7 @@ HWY_NOINLINE void step_implicit(const Bellies& belly, const Step& step) {
 
 template <Stiffness stiffness, Mass mass>
 HWY_NOINLINE void step_static(const Bellies& belly, const Step& step, bool exact) {
-  if (exact) {  // anew: what K·u rounds off would be some per mille of a slender belly's bending, tick by tick
+  if (exact) {  // from zero: rounding of K·u would add some per mille of a slender belly's bending per tick
     for_each_component(belly, belly.past,
                        [&](std::size_t, std::size_t at) HWY_ATTR { hn::Store(hn::Zero(d), d, belly.u + at); });
   }
@@ -149,7 +149,7 @@ HWY_NOINLINE void step_static(const Bellies& belly, const Step& step, bool exact
   solve<stiffness, mass>(belly, {sideways, sideways, hn::Zero(d), hn::Set(d, 1.0F)}, exact, 1, belly.u);
 }
 
-/// ½·vᵀ·M·v with the consistent mass.
+/// Reports ½·vᵀ·M·v with the consistent mass.
 HWY_NOINLINE void report_consistent_kinetic_energy(const Bellies& belly) {
   Bellies all = belly;
   all.past = node_count(belly.cells);
@@ -164,7 +164,7 @@ HWY_NOINLINE void report_consistent_kinetic_energy(const Bellies& belly) {
             belly.block.report.kinetic_energy_j.lane + belly.first_lane);
 }
 
-/// ½·uₙᵀ·K·uₙ₊₁ from uₙ₊₁ and the velocity between them.
+/// Reports ½·uₙᵀ·K·uₙ₊₁ from uₙ₊₁ and the velocity between them.
 template <Stiffness stiffness>
 HWY_NOINLINE void report_strain_across_step(const Bellies& belly, const Step& step) {
   const Cells cells = belly.cells;

@@ -1,7 +1,7 @@
 #pragma once
-// A way to deform bellies as one value: what it puts on a muscle's row, how a belly begins and goes on in it, and its
-// systems. Each has a file of its own here (method_stepped, method_static, method_modal, method_finite) and a row in
-// `deformation_methods`. What all muscles have whatever their method is systems/muscles/muscle_parts.h.
+// Interface of a deformation method: its parts of a muscle's row, the beginning and continuation of a belly, and its
+// systems. Each method has a file here (method_stepped, method_static, method_modal, method_finite) and a row in
+// `deformation_methods`. Parts common to all methods are in systems/muscles/muscle_parts.h.
 
 #include <cstdint>
 #include <optional>
@@ -18,24 +18,24 @@
 
 namespace mobil::inline v0_3 {
 
-/// What a muscle's parts follow from. Muscles of one kind share a table.
+/// Properties that determine a muscle's parts. Muscles of one kind share a table.
 struct MuscleKind {
   Muscle muscle{};
-  MuscleMethod method{};  // as it is
+  MuscleMethod method{};  // current method
   FarEnd far_end = FarEnd::held;
   bool inertia = false, line_motion = false;  // effects
   ExcitationSource activation = ExcitationSource::none;
-  bool fading = false;          // a change of method has left something over
-  std::uint32_t steps = 1;      // a tick
-  Shared<LegMuscles> choice{};  // tissue and effects; muscles and method are as in a LegMuscles{}
+  bool fading = false;          // the last change of method still fades
+  std::uint32_t steps = 1;      // per tick
+  Shared<LegMuscles> choice{};  // tissue and effects; muscles and method as in LegMuscles{}
   Shared<MuscleLines> lines{};
-  Shared<MuscleTemplate> shape{};  // whose nodes are the control points; null without
-  Shared<BellySolver> solver{};    // null where the method has none
-  Shared<ModalBasis> basis{};      // of modal, else null
-  Shared<FiniteShape> finite{};    // of who shows finite strain, else null
+  Shared<MuscleTemplate> shape{};  // its nodes are the control points; null without them
+  Shared<BellySolver> solver{};    // null if the method has none
+  Shared<ModalBasis> basis{};      // of modal, otherwise null
+  Shared<FiniteShape> finite{};    // for finite strain, otherwise null
 };
 
-/// The belly that a muscle is about to become. `load` is the last tick's.
+/// The belly that a muscle is about to get. `load` is that of the last tick.
 struct NextBelly {
   const Belly& belly;
   const LegMuscles& choice;
@@ -43,9 +43,9 @@ struct NextBelly {
   const BellyLoad& load;
 };
 
-/// What a muscle was: what its method computed, what it showed, and whether its control points were placed. `apart`:
-/// what it showed was no motion of the belly, for a change before this one still faded, or finite strain or the end's
-/// place came or went. Handed over as motion that would ring, and grow from change to change.
+/// Former state of a muscle: motion computed by its method, shown motion, and `seen` if its control points were placed.
+/// `apart` is true if the shown motion was not the belly's own: an earlier change still faded, or finite strain or the
+/// end's position appeared or disappeared. As motion it would make the belly ring, more at each change.
 struct PastBelly {
   BellyMotion computed, shown;
   bool seen = false, apart = false;
@@ -53,42 +53,42 @@ struct PastBelly {
   const BellyMotion& motion() const { return apart ? computed : shown; }
 };
 
-/// What a belly begins with: displacement and velocity of its control points, the state of a modal one, and what
-/// fades (mobil/components/fade.h). Empty where there is no such thing, or where it stays as it is.
+/// Initial state of a belly: displacement and velocity of its control points, state of a modal belly, and fading
+/// difference (mobil/components/fade.h). A vector is empty if the method has no such state or keeps it.
 struct Beginning {
   std::vector<float> displacement, velocity, state, fade;
 };
 
 struct DeformationMethod {
   Method method;
-  /// Its systems, and every part that they need and no other method has.
+  /// Returns its systems, and all parts that they need and no other method has.
   Module (*module)();
-  /// The parts that a muscle of that kind has because of its method, besides its control points'.
+  /// Adds the parts that this method gives a muscle of that kind, other than those of its control points.
   void (*parts)(const MuscleKind& kind, std::vector<ComponentId>& parts);
-  /// Whether a table's parts are this method's: its resources are set in `kind`. Fills in method, steps.
+  /// Returns true if a table's parts are this method's, and sets method and steps. The resources in `kind` must be set.
   bool (*recognise)(const Archetype& key, MuscleKind& kind);
-  /// What its control points do between ticks: displacement and velocity. Nothing where that cannot be told.
+  /// Returns displacement and velocity of the control points between ticks, or nothing if they cannot be determined.
   std::optional<BellyMotion> (*computed)(const World& world, Entity muscle, float tick_s, LastReducedBelly& last);
-  /// Under its line's length and what loads it, so that it does not ring: at rest, or, where it `moves`, at the speed
-  /// that its loads have.
+  /// Returns an initial state under the line's length and the loads that does not ring: at rest, or with `moves` at the
+  /// velocity of its loads.
   Beginning (*begin)(const NextBelly& next, bool moves);
-  /// The static answer to what drives its end alone, and how that moves.
+  /// Returns the static solution for the drive of the end alone, with its velocity.
   BellyMotion (*at_rest)(const NextBelly& next);
-  /// Going on from what was shown; `keeps`: the state of the modal belly stays as it is.
+  /// Continues from the shown motion. With `keeps` the state of the modal belly stays unchanged.
   Beginning (*go_on)(const NextBelly& next, const PastBelly& past, bool keeps);
 };
 
-/// `at_rest` of methods that displace nodes: the template's shape drawn out, with finite strain the one that it
-/// replaces.
+/// Implements `at_rest` for methods that displace nodes: the template's stretched shape, or with finite strain the
+/// shape that finite strain replaces.
 BellyMotion stretched_at_rest(const NextBelly& next);
 
-/// `computed` and `go_on` of methods whose state is how their nodes move.
+/// Implement `computed` and `go_on` for methods whose state is the motion of their nodes.
 std::optional<BellyMotion> nodal_motion(const World& world, Entity muscle, float tick_s, LastReducedBelly& last);
 Beginning go_on_as_nodes(const NextBelly& next, const PastBelly& past, bool keeps);
 
-/// One a Method, but for Method::none.
+/// Returns one entry per Method, without Method::none.
 std::span<const DeformationMethod> deformation_methods();
-/// Null for Method::none.
+/// Returns null for Method::none.
 const DeformationMethod* deformation_method(Method method);
 
 }  // namespace mobil::inline v0_3

@@ -25,7 +25,7 @@ void deform(Shared<MuscleTemplate> shape, TagValue<FiniteSteps> steps, float tic
   deform_finite({*shape, scale, displacement.data, velocity.data, report, Stiffness::individual, frame.block},
                 {shape->options.far_end, end}, activation.block == nullptr ? nullptr : &activation.block->activation,
                 static_cast<std::uint32_t>(steps.value), tick_s, scratch.data);
-  // Thrown that far a belly may come to rest turned inside out.
+  // A belly deformed this far can come to rest inside out.
   constexpr float min_volume = 0.5F, max_volume = 2.0F;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     float& volume = report.volume_ratio[lane];
@@ -57,13 +57,13 @@ bool recognise(const Archetype& key, MuscleKind& kind) {
   return kind.steps == steps->value;
 }
 
-/// A linear displacement with sections between the ends as wide as their plane's stretch along leaves them.
+/// Returns a linear displacement in which sections between the ends have the width that their axial stretch leaves.
 std::vector<float> keep_volume(const MuscleTemplate& shape, const BellyScale<float>& scale, std::vector<float> linear) {
   const std::size_t nodes = plane_nodes(shape.mesh.cells), last = shape.mesh.cells[2];
   const std::span<const float> rest = shape.kernel.rest_m;
   for (std::size_t k = 1; k < last; ++k) {
     const auto low = plane_mean(rest, k - 1, nodes), high = plane_mean(rest, k + 1, nodes);
-    // The means along of what has not been changed: only x and y are.
+    // The axial means are unchanged, because only x and y are modified.
     const float drawn = plane_mean(linear, k + 1, nodes)[2] - plane_mean(linear, k - 1, nodes)[2];
     const float stretch = std::clamp(1 + drawn / (scale.along * (high[2] - low[2])), 0.3F, 3.0F);
     const float width = scale.across * (1 / std::sqrt(stretch) - 1);
@@ -82,7 +82,7 @@ void add(const BellyMotion& more, BellyMotion& to) {
   }
 }
 
-/// Where it is with its end at `end_m`, which the linear answer has at `linear`.
+/// Returns the rest displacement with the end at `end_m`, whose linear solution is `linear`.
 std::vector<float> rest_at(const NextBelly& next, float end_m, const std::vector<float>& linear) {
   const BellyScale<float>& scale = next.belly.plan.scale;
   if (next.belly.finite == nullptr) return keep_volume(*next.belly.shape->shape, scale, linear);
@@ -95,7 +95,7 @@ std::vector<float> rest_at(const NextBelly& next, float end_m, const std::vector
   const ShapeBlend blend = blend_of(block);
   add_shape(block, blend, false, at[0].lane, at[0].lane);
   std::vector<float> rest(linear.size());
-  // Beyond the table it is drawn out in proportion to the linear answer.
+  // Beyond the table the belly is stretched in proportion to the linear solution.
   const float beyond = end_m == 0 ? 0 : blend.beyond_m[0] / end_m;
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = at[i][0] + beyond * linear[i];
   return rest;

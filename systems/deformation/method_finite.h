@@ -1,5 +1,5 @@
 #pragma once
-// Method::finite: central differences at finite strain, with fibres that pull where there is Activation.
+// Method::finite: explicit central differences at finite strain, with active fibres if the muscle has Activation.
 
 #include "systems/deformation/method.h"
 
@@ -7,9 +7,9 @@ namespace mobil::inline v0_3 {
 
 extern const DeformationMethod finite_method;
 
-/// How the two kinds of method differ in where a belly is at rest: its place at finite strain under what drives its end
-/// (of its table of finite shapes at this activation, where it has one; else relaxed, of a belly that keeps its
-/// volume), less the linear static answer.
+/// Returns the rest state at finite strain under the drive of the end, minus the linear static solution. The finite
+/// state is that of the table of finite shapes at this activation. Without a table it is that of a relaxed belly that
+/// keeps its volume.
 BellyMotion finite_less_linear(const NextBelly& next);
 
 }  // namespace mobil::inline v0_3

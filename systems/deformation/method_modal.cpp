@@ -27,22 +27,23 @@ void move(const Table& table, Shared<ModalBasis> basis, float tick_s, const Bell
       rows));
 }
 
-/// A block whose state is only read here.
+/// Returns a block whose state is only read.
 ModalBlock read_only(const ModalBasis& basis, const BellyScale<Lanes<float>>& scale, const float* state,
                      const float* motion, const FrameLoad<Lanes<float>>* frame) {
   return {basis, scale, const_cast<float*>(state), motion, frame};
 }
 
-/// Whether control points go past the caches: where nothing reads them in this tick, and a table's are more than its
-/// share of the caches, of which a crowd has some forty (eight muscles in five ranges of slenderness). By `mobil crowd
-/// --all-seen` 300 people would lose a third by it, 800 nothing; 1500 and more are placed in half to two thirds.
+/// Returns true if control points are written past the caches: no system reads them in this tick, and the table's
+/// exceed its share of the caches. A crowd has about forty such tables (eight muscles in five ranges of slenderness).
+/// In `mobil crowd --all-seen`, 300 people would lose a third and 800 nothing; 1500 and more are placed 1.5 to 2 times
+/// faster.
 bool streamed(const Table& table, std::uint32_t words) {
   constexpr std::size_t kept_bytes = 512 * 1024;
   if (find_component(table.key(), type_id<BellyReport<float>>()) != nullptr) return false;
   return std::size_t{table.row_count()} * words * sizeof(float) > kept_bytes;
 }
 
-/// Finite shapes place control points once more, and find the volume of those.
+/// Returns true if a finite shape places the control points again and computes their volume.
 bool is_replaced(const Table& table) {
   return find_component(table.key(), type_id<FiniteShape>()) != nullptr;
 }
@@ -66,7 +67,7 @@ void place_still(const Table& table, Shared<ModalBasis> basis, TagValue<ModalSta
                {basis->options.far_end, end});
 }
 
-/// Of moving bellies and of static ones. (With several inputs the motion's participations are read.)
+/// Reports moving and static bellies. (With several inputs the motion's participations are read.)
 void report(const Table& table, Shared<ModalBasis> basis, Shared<MuscleTemplate> control, float tick_s,
             const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
             MaybeField<const ModalMotion> motion, MaybeField<const ModalState> state, Field<const ModalShape> shape,
@@ -77,7 +78,7 @@ void report(const Table& table, Shared<ModalBasis> basis, Shared<MuscleTemplate>
                {basis->options.far_end, end}, tick_s, report);
 }
 
-/// Control points follow from motion and shape, but where a finite shape goes on from them.
+/// Returns NodalDisplacement if it follows from motion and shape, or 0 if a finite shape changes it afterwards.
 std::uint64_t placed_part(const Archetype& key) {
   const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool follows = has(type_id<ModalBasis>()) && has(type_id<ModalShape>()) && has(type_id<NodalDisplacement>()) &&
@@ -134,7 +135,7 @@ void modal_parts(const MuscleKind& kind, std::vector<ComponentId>& parts) {
   }
   if (is_tuned(kind.method)) parts.push_back(component_id(TagValue<ModalTuned>{1}));
   const bool reported = choice.control_points && choice.reported;
-  if (choice.moving || (reported && basis.inputs > 1)) {  // there the report reads participations
+  if (choice.moving || (reported && basis.inputs > 1)) {  // then the report reads participations
     field(ModalMotion{}, modal_motion_width(basis.modes, basis.inputs));
   }
   if (choice.control_points) field(ModalShape{}, modal_shape_width(basis.modes, basis.inputs));
@@ -150,7 +151,7 @@ bool recognise(const Archetype& key, MuscleKind& kind) {
   return true;
 }
 
-/// The inputs of a modal belly and their rates.
+/// Inputs of a modal belly and their rates.
 struct Inputs {
   std::array<double, 1 + frame_inputs> value{}, rate{};
   std::size_t count = 1;
@@ -182,7 +183,7 @@ Inputs inputs_of(const BellyLoad& load, std::uint32_t count) {
   return inputs;
 }
 
-/// Motions at the speed of their static answers: behind these by as much as damping holds them back, or right there.
+/// Returns motions at the velocity of their static solutions, lagging behind these by the effect of damping.
 std::vector<float> state_with_loads(const ModalBelly& belly, const Inputs& inputs, double damping_per_s) {
   std::vector<float> state(modal_state_width(belly.modes));
   for (std::size_t j = 0; j < belly.modes; ++j) {
@@ -197,7 +198,7 @@ std::vector<float> state_with_loads(const ModalBelly& belly, const Inputs& input
   return state;
 }
 
-/// The same of a tuned belly whose muscle pulls; or at rest, where it does not move.
+/// Returns that state for a tuned belly at an activation, or a state at rest unless it `moves`.
 std::vector<float> tuned_state(const ModalBelly& belly, const Inputs& inputs, double activation, bool moves) {
   const auto square = [&](std::size_t j) {
     return belly.omega_1_s[j] * belly.omega_1_s[j] + (activation - tuned_activation) * belly.tension_1_s2[j];
@@ -221,7 +222,7 @@ std::vector<float> tuned_state(const ModalBelly& belly, const Inputs& inputs, do
   return state;
 }
 
-/// What a belly begins with: at rest, or at the speed of its static answers.
+/// Returns the initial state of a belly: at rest, or at the velocity of its static solutions.
 std::vector<float> first_state(const ModalBelly& belly, const ModalBasis& basis, const BellyLoad& load, bool moves) {
   const Inputs inputs = inputs_of(load, basis.inputs);
   if (belly.tuned) return tuned_state(belly, inputs, std::max(double{load.activation}, double{min_activation}), moves);
@@ -229,7 +230,7 @@ std::vector<float> first_state(const ModalBelly& belly, const ModalBasis& basis,
   return std::vector<float>(modal_state_width(belly.modes));
 }
 
-/// The state that goes on from `motion`.
+/// Returns the state that continues from `motion`.
 std::vector<float> modal_state(const Belly& belly, const BellyLoad& load, const BellyMotion& motion) {
   const ModalBasis& basis = *belly.basis;
   const Inputs inputs = inputs_of(load, basis.inputs);
@@ -238,7 +239,7 @@ std::vector<float> modal_state(const Belly& belly, const BellyLoad& load, const 
   return state;
 }
 
-/// What a state shows; an empty one: the static answer.
+/// Returns the motion shown by a state, or the static solution for an empty state.
 BellyMotion modal_motion(const ModalBasis& basis, const ModalBelly& belly, const BellyLoad& load,
                          const std::vector<float>& state) {
   const Inputs inputs = inputs_of(load, basis.inputs);
@@ -257,7 +258,7 @@ std::optional<BellyMotion> computed(const World& world, Entity muscle, float tic
       last.belly.tuned != tuned) {
     ModalBellies one;
     one.tuned = tuned;
-    if (!solve_bellies(*basis, {&scale, 1}, one)) return std::nullopt;  // cannot happen: the same was solved before
+    if (!solve_bellies(*basis, {&scale, 1}, one)) return std::nullopt;  // cannot happen: it was solved before
     last = {basis, scale, belly_of(one, 0)};
   }
   return modal_motion(*basis, last.belly, load_of(world, muscle, tick_s), field_of<ModalState>(world, muscle));

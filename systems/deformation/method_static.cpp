@@ -9,7 +9,7 @@ namespace mobil::inline v0_3 {
 namespace {
 namespace of_static {
 
-/// There is no velocity; what stands in for it is not touched.
+/// Static bellies have no velocity. The buffer passed instead is not touched.
 void settle(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<StaticSteps>, float tick_s,
             Scratch<ScratchFloats> scratch, const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end,
             Maybe<FrameLoad> frame, Field<NodalDisplacement> displacement, BellyReport<Lanes<float>>& report,

@@ -1,5 +1,5 @@
 #pragma once
-// Bellies that take the static answer to each tick's load.
+// Bellies that show the static solution for each tick's load.
 
 #include "systems/deformation/method.h"
 

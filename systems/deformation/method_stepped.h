@@ -1,6 +1,6 @@
 #pragma once
-// Bellies whose displacements and velocities of nodes are the state: explicit central differences (ECD), and the
-// implicit ones that solve for each step (ICD, CAA).
+// Bellies whose state is displacements and velocities of nodes: explicit central differences (ECD), and the methods
+// that solve for each step (ICD, CAA).
 
 #include "systems/deformation/method.h"
 

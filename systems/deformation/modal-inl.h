@@ -1,5 +1,5 @@
-// What the modal kernels share: a block's inputs, and the amounts of the modes. For inclusion inside Highway's
-// targets only.
+// Parts common to the modal kernels: a block's inputs, and the amounts of the modes. For inclusion only inside
+// Highway's targets.
 
 #if defined(MOBIL_SYSTEMS_DEFORMATION_REDUCED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_DEFORMATION_REDUCED_INL_H_
@@ -18,7 +18,7 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 inline constexpr std::size_t max_inputs = 3 + frame_inputs;
 
-/// What drives and loads a block, in the order of a basis's inputs.
+/// Drives and loads of a block, in the order of a basis's inputs.
 struct ModalInputs {
   std::size_t count = 0;
   std::array<const Lanes<float>*, max_inputs> from{}, to{};
@@ -47,7 +47,7 @@ HWY_INLINE ModalInputs modal_inputs(const FarFaceDrive& end, const FrameLoad<Lan
   return inputs;
 }
 
-/// Two numbers of a word of each lane.
+/// Two numbers from a word of each lane.
 struct WidePair {
   Wide even, odd;
 };
@@ -62,23 +62,23 @@ HWY_INLINE WidePair load_pair(const float* p) {
   return pair;
 }
 
-/// How many inputs' P a motion has in full; the others' go in pairs.
+/// Returns the number of inputs whose P a motion stores in full. The others are stored in pairs.
 HWY_INLINE std::size_t full_inputs(std::size_t count) {
   return count > frame_inputs ? count - frame_inputs : count;
 }
 
-/// Has sixteen lanes brought into the second cache: the first has too few places for what is on its way.
+/// Prefetches sixteen lanes into the second-level cache. The first level has too few slots for pending loads.
 HWY_INLINE void fetch(const float* p) {
   __builtin_prefetch(p, 0, 2);
 }
 
-/// `rows` rows of sixteen lanes from each of `runs` places `apart` rows apart, fetched some at a time.
+/// Prefetches `rows` rows of sixteen lanes from each of `runs` places `apart` rows apart, in small portions.
 class Ahead {
  public:
   HWY_INLINE Ahead(const float* begin, std::size_t runs, std::size_t rows, std::size_t apart)
       : at_(begin), runs_(begin == nullptr ? 0 : runs), rows_(rows), left_(rows), skipped_(apart - rows) {}
 
-  std::size_t rows() const { return runs_ * rows_; }  // until some are fetched
+  std::size_t rows() const { return runs_ * rows_; }  // before the first fetch
 
   HWY_INLINE void fetch_some(std::size_t count) {
     for (std::size_t i = 0; i < count && runs_ > 0; ++i, at_ += lane_count) {
@@ -95,7 +95,7 @@ class Ahead {
   std::size_t runs_, rows_, left_, skipped_;
 };
 
-/// Places in `shape` of what follows the rows.
+/// Pointers to the arrays of `shape` that follow the rows.
 struct ModalTail {
   const float *omega, *participation, *reaction, *drag;
 };

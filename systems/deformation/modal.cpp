@@ -17,12 +17,12 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// X² + W²: not finite where one of them is not, or is beyond 1.8e19.
+/// Returns X² + W², which is not finite if X or W is not finite or is beyond 1.8e19.
 HWY_INLINE Wide squares(const Wide& x, const Wide& w) {
   return fma(x, x, w * w);
 }
 
-/// One motion over a tick in which its s grows at `rate`; the squares of its state.
+/// Advances one motion over a tick in which its s grows at `rate`. Returns the squares of its state.
 HWY_INLINE Wide swing(float* state, const float* motion, const Wide& rate) {
   const Wide a = load(motion), b = load(motion + lane_count), g = load(motion + 2 * lane_count);
   const Wide y = fma(g, rate, load(state)), v = load(state + lane_count) - rate;
@@ -33,13 +33,13 @@ HWY_INLINE Wide swing(float* state, const float* motion, const Wide& rate) {
   return squares(x, w);
 }
 
-/// Who of a block is not finite: sums of 0 · squares, which are 0 of all others.
+/// Lanes of a block that are not finite, from sums of 0 · squares, which are 0 in all other lanes.
 class Health {
  public:
   HWY_INLINE Health() : sum_(wide(0.0F)) {}
   HWY_INLINE void add(const Wide& squares) { sum_ = fma(squares, wide(0.0F), sum_); }
 
-  /// Those lanes begin at rest; which they are, as bits.
+  /// Restarts those lanes at rest and returns them as bits.
   HWY_INLINE std::uint32_t restart(std::size_t modes, float* state) const {
     if (all(sum_ >= 0.0F)) return 0;
     Lanes<float> sum;
@@ -103,7 +103,7 @@ std::uint32_t swing_all(std::size_t modes, const Lanes<float>& from, const Lanes
   return health.restart(modes, state);
 }
 
-/// Activation, and what all motions of a tuned belly have of it in this tick.
+/// Activation, and values of this tick common to all motions of a tuned belly.
 struct Tuning {
   Wide activation, half, decay;  // α/2, e^(−αh/2)
 };
@@ -112,7 +112,7 @@ HWY_INLINE Wide tuned_square(const float* motion, const Wide& activation) {
   return fma(activation, load(motion + 2 * lane_count), load(motion + lane_count));
 }
 
-/// No motion is damped to where it creeps.
+/// Computes them with damping limited so that no motion creeps.
 HWY_INLINE Tuning tuning(const float* motion, std::size_t modes, std::size_t width, const Wide& activation,
                          float tick_s) {
   Wide least = tuned_square(motion, activation);
@@ -123,8 +123,8 @@ HWY_INLINE Tuning tuning(const float* motion, std::size_t modes, std::size_t wid
   return {activation, half, exp(wide(-tick_s) * half)};
 }
 
-/// One tuned motion over a tick in which the end's displacement has its place in rest move by `end_moved`, and the
-/// frame's loads would have it at `from` and `to` without what tension adds; the squares of its state.
+/// Advances one tuned motion over a tick. The end's displacement moves its rest position by `end_moved`. The frame's
+/// loads would move it from `from` to `to` without the stiffness added by tension. Returns the squares of its state.
 HWY_INLINE Wide swing_tuned(float* state, const float* motion, const Tuning& tuning, float tick_s,
                             const Wide& end_moved, const Wide& from, const Wide& to) {
   const Wide inverse = load(motion), square = tuned_square(motion, tuning.activation);
@@ -185,9 +185,9 @@ HWY_INLINE void write(const Wide& w, float* p) {
   for (std::size_t i = 0; i < vector_count; ++i) hn::Stream(w.part[i], FloatTag{}, p + i * vector_lanes);
 }
 
-/// Displacements of the `nodes` nodes whose coefficients begin at `row`: how much of each vector, `amount`, begins with
-/// the lift's where there is one. A register's worth of coefficients at a time would do no better: all multiply-adds
-/// take theirs from memory, spread over the lanes.
+/// Writes the displacements of the `nodes` nodes whose coefficients begin at `row`. `amount` contains the amounts of
+/// the modes, preceded by that of the lift if there is one. Loading a register of coefficients at a time is not faster,
+/// because all multiply-adds broadcast theirs from memory.
 template <std::size_t nodes, bool streamed>
 HWY_INLINE void place_nodes(const float* row, std::size_t stride, std::size_t count, const Wide* amount, float* u) {
   std::array<Wide, 3 * nodes> sum;
@@ -200,10 +200,10 @@ HWY_INLINE void place_nodes(const float* row, std::size_t stride, std::size_t co
   for (std::size_t c = 0; c < 3 * nodes; ++c) write<streamed>(sum[c], u + c * lane_count);
 }
 
-/// Sums that the registers hold beside what they are made of.
+/// Number of nodes whose sums fit into the registers together with their operands.
 inline constexpr std::size_t nodes_at_once = vector_count == 1 ? 3 : vector_count == 2 ? 2 : 1;
 
-/// How much of each vector there is, after the end's displacement. `x` is the motions' X; null: static.
+/// Computes the end's displacement and then the amounts of the modes. `x` is X of the motions, or null for static.
 HWY_INLINE void find_amounts(const ModalInputs& inputs, std::size_t modes, const float* shape, const float* x,
                              Wide* amount) {
   std::array<Wide, max_inputs> input;
@@ -259,7 +259,7 @@ void place(const ModalBlock& block, const ControlPoints& points, const FarFaceDr
   find_amounts(modal_inputs(end, block.frame), block.basis.modes, points.shape, x, amount.data());
   const bool held = end.way == FarEnd::held;
   const std::size_t modes = block.basis.modes;
-  // A static answer reads no more of a shape than the inputs' part.
+  // A static solution reads only the inputs' part of a shape.
   const std::size_t row = modes + block.basis.inputs, first = x == nullptr ? modes : 0;
   const Ahead states(x == nullptr ? nullptr : block.next_state, modes, 2, 2);
   const Ahead shapes(points.next_shape == nullptr ? nullptr : points.next_shape + first * lane_count, modes,

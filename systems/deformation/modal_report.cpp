@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// Elongation of a far face that is not held.
+/// Returns the elongation at a far face that is not held.
 HWY_INLINE V mean_of_far_face(const MuscleTemplate& control, const float* u) {
   const std::size_t far = first_insertion_node(control.mesh.cells);
   const std::vector<float>& share = control.kernel.far_share;
@@ -24,9 +24,10 @@ HWY_INLINE V mean_of_far_face(const MuscleTemplate& control, const float* u) {
   return sum;
 }
 
-/// With every X, W and s as the equations have them (of one input, times P), in half sums over S²·l: kinetic energy is
-/// ½·Σ W² + ½·m·ẇ² and strain energy ½·Σ (X + ω·s)² of what no lift answers to, plus half the static reaction to w, by
-/// w. Virtual work of the lift gives the reaction in rest less S²·l·Σ ω·P·X, plus its drag.
+/// Writes the report of one register of lanes. X, W and s are the equations' (times P with one input), as half sums
+/// over S²·l. Kinetic energy is ½·Σ W² + ½·m·ẇ². Strain energy is ½·Σ (X + ω·s)², s without the input of a lift, plus
+/// half the static reaction to w, times w. By the lift's virtual work, the reaction is that at rest − S²·l·Σ ω·P·X,
+/// plus drag.
 void report_of_lanes(const ModalBlock& block, const MuscleTemplate& control, const ControlPoints& points,
                      const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report, float lift_mass,
                      std::size_t lane) {
@@ -116,7 +117,7 @@ HWY_EXPORT(report_block);
 
 void report_modal(const ModalBlock& block, const MuscleTemplate& control, const ControlPoints& points,
                   const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report) {
-  // What of the lift's mass no vector has, in the template's size.
+  // Mass of the lift outside all modes, in the template's size.
   double lift_mass = block.basis.lift_kinetic;
   for (const double along : block.basis.lift_mass) lift_mass -= along * along;
   HWY_DYNAMIC_DISPATCH(report_block)

@@ -1,5 +1,5 @@
-// K, M and what a step solves with, applied to a register of lanes, and the solution by the banded factor of a body of
-// about their size. For inclusion inside Highway's targets only.
+// K, M and the operator of a step, applied to a register of lanes, and the solution by the banded factor of a body of
+// about their size. For inclusion only inside Highway's targets.
 
 #if defined(MOBIL_SYSTEMS_DEFORMATION_OPERATOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_DEFORMATION_OPERATOR_INL_H_
@@ -33,12 +33,12 @@ struct Bellies {
   std::size_t first_lane;
 };
 
-/// What a step solves with: mass·M₁ of each component + stiffness·K.
+/// Operator of a step's equations: mass·M₁ of each component + stiffness·K.
 struct Operator {
   V mass_x, mass_y, mass_z, stiffness;
 };
 
-/// Loads of a moment: uniform traction's total and the frame's field.
+/// Loads at an instant: total of the uniform traction, and the frame's field.
 struct Loads {
   Vector traction;
   FrameField field;
@@ -49,7 +49,7 @@ HWY_INLINE Vector zero_vector() {
   return {none, none, none};
 }
 
-/// Nodes of the planes that move, in the kernel's order.
+/// Calls f for each node of the moving planes, in the kernel's order.
 template <class F>
 HWY_INLINE void for_each_moving_node(const Bellies& belly, F&& f) {
   const Cells cells = belly.cells;
@@ -61,7 +61,7 @@ HWY_INLINE void for_each_moving_node(const Bellies& belly, F&& f) {
   }
 }
 
-/// (M₁·x) of a node. `pair` points at its row of the consistent mass and moves on to the next one.
+/// Returns (M₁·x) of a node. `pair` points to its row of the consistent mass and advances to the next one.
 template <Mass mass>
 HWY_INLINE Vector inertia(const Bellies& belly, std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k,
                           const float* x, const float*& pair) {
@@ -93,7 +93,7 @@ HWY_INLINE Vector inertia(const Bellies& belly, std::uint32_t n, std::uint32_t i
   }
 }
 
-/// M₁·(the field's accelerations) of a node, from its row's sums of mass and of mass times place.
+/// Returns M₁·(the field's accelerations) of a node, from its row's sums of mass and of mass times position.
 HWY_INLINE Vector field_inertia(const FrameField& field, float mass_kg, const float* moment_kg_m) {
   const V m = hn::Set(d, mass_kg), mx = hn::Set(d, moment_kg_m[0]), my = hn::Set(d, moment_kg_m[1]),
           mz = hn::Set(d, moment_kg_m[2]);
@@ -102,7 +102,7 @@ HWY_INLINE Vector field_inertia(const FrameField& field, float mass_kg, const fl
   return {row(field.constant.x, field.x), row(field.constant.y, field.y), row(field.constant.z, field.z)};
 }
 
-/// residual ← loads − K·strained − S²·l·M₁·rates (none: null), on the nodes that move.
+/// residual ← loads − K·strained − S²·l·M₁·rates (null: none), on the moving nodes.
 template <Stiffness stiffness, Mass mass>
 HWY_NOINLINE void write_residual(const Bellies& belly, const float* strained, const float* rates, const Loads& loads) {
   const Cells cells = belly.cells;
@@ -156,14 +156,14 @@ HWY_NOINLINE V apply(const Bellies& belly, const Operator& what) {
   return work;
 }
 
-/// a / b, and 0 where b is not positive.
+/// Returns a / b, or 0 if b is not positive.
 HWY_INLINE V ratio_or_zero(V a, V b) {
   const auto sound = hn::Gt(b, hn::Zero(d));
   return hn::IfThenElseZero(sound, hn::Div(a, hn::IfThenElse(sound, b, hn::Set(d, 1.0F))));
 }
 
-/// target ← target + gain·operator⁻¹·residual: by conjugate gradients, preconditioned with the solver's factor, or
-/// where that is the operator's own by solving again for what is left. Eats the residual.
+/// target ← target + gain·operator⁻¹·residual, by conjugate gradients preconditioned with the solver's factor. If the
+/// factor is the operator's own (`exact`), it solves again for the remainder instead. Overwrites the residual.
 template <Stiffness stiffness, Mass mass>
 HWY_NOINLINE void solve(const Bellies& belly, const Operator& what, bool exact, float gain, float* target) {
   const BandFactor& factor = belly.solver.factor;
@@ -191,7 +191,7 @@ HWY_NOINLINE void solve(const Bellies& belly, const Operator& what, bool exact, 
       const V work = apply<stiffness, mass>(belly, what);
       if (!exact) step = ratio_or_zero(square, work);
     } else if (!exact) {
-      step = last_step;  // the steps of a good preconditioner are much alike: a product saved, and no accuracy lost
+      step = last_step;  // a good preconditioner has similar steps: saves a product, loses no accuracy
     }
     const V advance = hn::Mul(hn::Set(d, gain), step);
     for (std::size_t at = from; at < to; at += lane_count) {

@@ -1,4 +1,4 @@
-// What can be read off a block after its tick. For inclusion inside Highway's targets only.
+// Reports of a block after its tick. For inclusion only inside Highway's targets.
 
 #if defined(MOBIL_SYSTEMS_DEFORMATION_REPORT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_DEFORMATION_REPORT_INL_H_
@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Volume inside the deformed boundary, m³: each bilinear patch sweeps the mean of its two triangulations.
+/// Returns the volume inside the deformed boundary, m³. Each bilinear patch sweeps the mean of its two triangulations.
 HWY_INLINE V enclosed_volume(const KernelArrays& kernel, V across, V along, const float* u) {
   const auto determinant = [](const Vector& a, const Vector& b, const Vector& c) HWY_ATTR {
     const V x = neg_mul_add(b.z, c.y, hn::Mul(b.y, c.z));
@@ -39,7 +39,7 @@ HWY_INLINE V enclosed_volume(const KernelArrays& kernel, V across, V along, cons
   return hn::Mul(sum, hn::Set(d, 1.0F / 12.0F));
 }
 
-/// Elongation, reaction and volume.
+/// Reports elongation, reaction and volume.
 template <Stiffness stiffness>
 HWY_NOINLINE void report_shape(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
   const Cells& cells = block.muscle.mesh.cells;
@@ -63,7 +63,7 @@ HWY_NOINLINE void report_shape(const BellyBlock& block, const Factors& factor, s
   hn::Store(hn::Div(volume, rest_volume), d, block.report.volume_ratio.lane + first_lane);
 }
 
-/// ½·vᵀ·M·v with the lumped mass.
+/// Reports ½·vᵀ·M·v with the lumped mass.
 HWY_NOINLINE inline void report_kinetic_energy(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
   const Cells& cells = block.muscle.mesh.cells;
   V sum = hn::Zero(d);
@@ -78,7 +78,7 @@ HWY_NOINLINE inline void report_kinetic_energy(const BellyBlock& block, const Fa
   hn::Store(hn::Mul(hn::Set(d, 0.5F), hn::Mul(factor.mass, sum)), d, block.report.kinetic_energy_j.lane + first_lane);
 }
 
-/// ½·uᵀ·K·u.
+/// Reports ½·uᵀ·K·u.
 template <Stiffness stiffness>
 HWY_NOINLINE void report_strain_energy(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
   const Cells& cells = block.muscle.mesh.cells;

@@ -10,7 +10,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Which lanes' reports are not finite, as bits: sums over all displacements and velocities.
+/// Returns the lanes whose reports are not finite, as bits. Reports contain sums over all displacements and velocities.
 std::uint32_t ill_lanes(const BellyReport<Lanes<float>>& report) {
   std::array<std::uint32_t, lane_count> not_zero;  // x - x is 0, or NaN where x is not finite
   std::uint32_t any = 0;

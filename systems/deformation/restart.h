@@ -1,6 +1,6 @@
 #pragma once
-// A belly that is not finite at a tick's end begins anew. Usually a host's own system wrote NaN or infinity. Here are
-// bellies whose displacements are the state; modal ones do so themselves (systems/deformation/modal.h).
+// Restarts bellies that are not finite at a tick's end, usually because a host's own system wrote NaN or infinity. This
+// covers bellies whose state is displacements. Modal bellies restart themselves (systems/deformation/modal.h).
 
 #include <cstdint>
 
@@ -11,14 +11,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// After a block's tick: lanes whose report is not finite are drawn out evenly from their origin to the held end, as it
-/// is and moves at the tick's end; to rest where the end slides or is not finite itself. They report that elongation,
-/// the volume at rest, and neither energies nor a reaction. `displacement` and `velocity` are the block's (BellyBlock);
-/// `velocity` is null where there is none. How many rows those were.
+/// Restarts the lanes of a block whose reports are not finite, after its tick. They are stretched evenly from the
+/// origin to the held end at its position and speed at the tick's end. They are at rest if the end slides or is not
+/// finite itself. They report that elongation, the volume at rest, and zero energies and reaction. `displacement` and
+/// `velocity` are the block's (BellyBlock), the latter null for static. Returns the number of rows among them.
 std::uint32_t restart_bellies(const MuscleTemplate& shape, const Rows& rows, const EndDrive<Lanes<float>>& end,
                               float tick_s, BellyReport<Lanes<float>>& report, float* displacement, float* velocity);
 
-/// How many of those lanes, as bits, are rows.
+/// Returns the number of rows among those lanes, given as bits.
 std::uint32_t count_rows(std::uint32_t lanes, const Rows& rows);
 
 }  // namespace mobil::inline v0_3

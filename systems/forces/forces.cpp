@@ -13,9 +13,9 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 namespace contact {
-/// So high over the ground a point of a sole bears nothing.
+/// Height above the ground from which a point of a sole bears no load.
 constexpr float high_m = 0.03F;
-/// Up to the first speed it bears all that it can, from the second on nothing.
+/// A point bears full load up to the first speed and no load from the second one.
 constexpr float still_m_s = 0.3F, moving_m_s = 1.2F;
 }  // namespace contact
 
@@ -33,31 +33,31 @@ HWY_INLINE Flat operator-(const Flat& a, const Flat& b) {
 HWY_INLINE Flat operator*(const Wide& s, const Flat& a) {
   return {s * a.ahead, s * a.up};
 }
-/// Moment of a force at an arm, about the axis to the left: positive turns what is up forward.
+/// Moment of a force at an arm, about the axis to the left. A positive moment turns the upper end forward.
 HWY_INLINE Wide moment(const Flat& arm, const Flat& force) {
   return fnma(arm.ahead, force.up, arm.up * force.ahead);
 }
 
-/// The plane that moments are taken in.
+/// Vertical plane in which moments are taken.
 struct Plane {
   Wide x, z;
   HWY_INLINE Flat of(const WideVec& v) const { return {fma(v.x, x, v.z * z), v.y}; }
 };
 
-/// What carries a person, in the frame of the stance foothold.
+/// Forces on the feet and centres of pressure, in the frame of the stance foothold.
 struct Support {
   WideVec force[2], centre[2];
 };
 
-/// A foot on the ground: where the ankle of the flat foot is, the way it points, how far the part that bears reaches
-/// from there, and where the walk presses it.
+/// A foot on the ground: position of the ankle of the flat foot, pointing direction, reach of the bearing part from
+/// there, and the position along the foot where the walk presses it.
 struct Sole {
   Wide x, z, along_x, along_z;
   SoleReach reach;
   Wide pressed;
 };
 
-/// The foot of the right side (right_one = 1) or the left (0), not pressed yet.
+/// Returns the foot of the right (right_one = 1) or left side (0), without `pressed`.
 HWY_NOINLINE Sole sole_at(const BodyMotion<Lanes<float>>& motion, const Wide& right_one, const Wide& height) {
   auto side = [&](const Lanes<float>& of_right, const Lanes<float>& of_left) {
     return select(right_one > 0.0F, load(of_right), load(of_left));
@@ -75,7 +75,7 @@ HWY_NOINLINE Sole sole_at(const BodyMotion<Lanes<float>>& motion, const Wide& ri
   return s;
 }
 
-/// The same at a phase of its cycle, `off` that of its toe-off, pressed as its walk does; `of`: that one's numbers.
+/// Returns a foot with `pressed` at a phase of its cycle, by the shape parameters `of`. Toe-off is at phase `off`.
 template <class Shape>
 HWY_NOINLINE Sole sole_of(const Shape& of, const BodyMotion<Lanes<float>>& motion, const Wide& right_one,
                           const Wide& height, const Wide& cycle, const Wide& off) {
@@ -84,7 +84,7 @@ HWY_NOINLINE Sole sole_of(const Shape& of, const BodyMotion<Lanes<float>>& motio
   return s;
 }
 
-/// What of the weight a foot has taken over in a part of double support.
+/// Part of the weight that a foot has taken over at part `u` of double support.
 template <class Shape>
 HWY_INLINE Wide taken(const Shape& of, const Wide& u) {
   const Wide rest = 1.0F - u;
@@ -92,7 +92,7 @@ HWY_INLINE Wide taken(const Shape& of, const Wide& u) {
   return 1.0F - rest * rest * fma(u, tail, wide(1.0F));
 }
 
-/// The stance foot's share of the weight as the walk has it, and by how much the feet push apart, of the weight.
+/// Planned share of the weight on the stance foot, and the force that pushes the feet apart, as a part of the weight.
 struct Shares {
   Wide stance, push;
 };
@@ -110,7 +110,7 @@ HWY_NOINLINE Shares planned_shares(const StepPlan<Lanes<float>>& plan, const Wid
           select(from_stands, wide(0.0F), 4.0F * u * (1.0F - u) * apart)};
 }
 
-/// Where the ground must press so that its moment is the motion's.
+/// Point where the ground must press so that its moment equals that of the motion.
 struct Pressed {
   Wide x, z;
 };
@@ -120,10 +120,10 @@ HWY_INLINE Pressed balancing(const BodyMotion<Lanes<float>>& motion, const WideV
   return {moment.z / lift, -(moment.x / lift)};
 }
 
-/// Forces of both feet, whose sum is the motion's, and where they act. `split(balanced)`: the first foot's share, given
-/// the one that would balance the motion with centres as they are pressed; `split_again` the same once the centres have
-/// moved, asked where both feet bear. `push`: the first foot's forward and the other's back, per kg; `pivot`: height of
-/// the point that forces lean toward.
+/// Computes the forces of both feet, whose sum is the motion's total, and the points where they act. `split(balanced)`
+/// returns the first foot's share from the share that balances the motion with the centres at `pressed`. `split_again`
+/// does so after the centres have moved, if both feet bear load. `push` is the forward force of the first foot and the
+/// backward force of the other, per kg. The forces lean toward a point at the height `pivot`.
 template <class Split, class SplitAgain>
 HWY_INLINE void press(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion, const WideVec& total,
                       const Sole (&soles)[2], const Split& split, const SplitAgain& split_again, const Wide& push,
@@ -153,7 +153,7 @@ HWY_INLINE void press(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes
     x[k] = fma(along, s.along_x, fma(aside, s.along_z, s.x));
     z[k] = fma(along, s.along_z, fnma(aside, s.along_x, s.z));
   }
-  // What is left is made up by the shares, where both feet bear.
+  // In double support the shares balance the remainder.
   const WideMask both = (share[0] > 0.001F) & (share[0] < 0.999F);
   share[0] = select(both, split_again(balanced()), share[0]);
   share[1] = one - share[0];
@@ -167,7 +167,7 @@ HWY_INLINE void press(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes
   }
 }
 
-/// Total force of the ground on walkers, and how it is split and where it acts.
+/// Computes the total ground force on walkers, its split and the points where it acts.
 HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                           const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
   const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m);
@@ -180,7 +180,7 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
       sole_of(of, motion, right_stands, height, 0.5F * phase, stance_off),
       sole_of(OneShape{plan.from.shape}, motion, one - right_stands, height, 0.5F + 0.5F * phase, 0.5F + 0.5F * off)};
   const Shares planned = planned_shares(plan, phase);
-  const WideMask stands = load(plan.landing) <= 0.0F;  // what balances them, then
+  const WideMask stands = load(plan.landing) <= 0.0F;  // people standing still use the balancing share
   const Wide pivot =
       (forces::pivot_height + of(step_shape::split, 0)) * max(load(motion.centre_height_m), 0.1F * height);
   WideVec force[2], centre[2];
@@ -199,12 +199,12 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
   }
 }
 
-/// What of a foot's lowest points is near the ground and at rest there, 0 to 1; and how high the lowest is.
+/// Part of a foot's lowest points that is near the ground and at rest, 0 to 1, and height of the lowest point.
 struct Contact {
   Wide part, lowest;
 };
 
-/// Points under heel, ball and tips of the toes (as in Feet).
+/// Checks points under the heel, the ball and the tips of the toes (as in Feet).
 HWY_NOINLINE Contact contact_of(const Wide& height, const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
                                 const Pose<Lanes<float>>& after, std::size_t side, float apart_s) {
   namespace f = fraction;
@@ -234,13 +234,13 @@ HWY_NOINLINE Contact contact_of(const Wide& height, const Pose<Lanes<float>>& be
   return {part, lowest};
 }
 
-/// Forces of the ground on posed people, in a frame whose floor is the ground.
+/// Computes the ground forces on posed people, in a frame whose floor is the ground.
 HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                                 const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
                                 const Pose<Lanes<float>>& after, float apart_s, Support& out) {
   const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m);
   WideVec total = load(motion.force_per_kg);
-  const WideMask pulls = total.y <= 0.0F;  // the ground does not
+  const WideMask pulls = total.y <= 0.0F;  // the ground does not pull
   total = {select(pulls, zero, total.x), select(pulls, zero, total.y), select(pulls, zero, total.z)};
   const Pressed wanted = balancing(motion, total);
   Sole soles[2];
@@ -248,12 +248,11 @@ HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMo
   for (std::size_t side = 0; side < 2; ++side) {
     Sole& s = soles[side];
     s = sole_at(motion, side == Side::right ? one : zero, height);
-    // Each as near to the place that balances as its sole reaches: the foot ahead at the heel, the one behind at the
-    // toes.
+    // Each centre is as near to the balancing point as its sole reaches: front foot at the heel, rear foot at the toes.
     s.pressed = min(max(fma(wanted.x - s.x, s.along_x, (wanted.z - s.z) * s.along_z), s.reach.back), s.reach.front);
     contact[side] = contact_of(height, before, now, after, side, apart_s);
   }
-  // Who has no foot at rest near the ground stands on the lower one.
+  // With no foot at rest near the ground, a person stands on the lower foot.
   const WideMask right_is_lower = contact[Side::right].lowest <= contact[Side::left].lowest;
   const Wide right_bears = contact[Side::right].part + select(right_is_lower, wide(1e-4F), zero);
   const Wide left_bears = contact[Side::left].part + select(right_is_lower, zero, wide(1e-4F));
@@ -265,12 +264,12 @@ HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMo
   press(size, motion, total, soles, split, split, zero, pivot, out.force, out.centre);
 }
 
-/// Hip, knee and ankle moments of one leg, from the foot up.
+/// Computes hip, knee and ankle moments of one leg, from the foot up.
 HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                               const Support& ground, std::size_t side, Wide* hip_knee_ankle) {
   const Plane plane = {load(motion.facing_x), load(motion.facing_z)};
   const Wide mass = load(size.mass_kg);
-  Flat at[leg_points], push[leg_points];  // places, and accelerations against gravity
+  Flat at[leg_points], push[leg_points];  // positions, and accelerations minus gravity
   for (std::size_t p = 0; p < leg_points; ++p) {
     const std::size_t i = leg_point(side, static_cast<LegPoint>(p));
     at[p] = plane.of(load(motion.place_m[i]));
@@ -280,7 +279,7 @@ HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMoti
   auto mass_of = [&](const forces::Rod& rod) {
     return mass * fma(load(size.extra_fat), wide(rod.mass_per_extra_fat), wide(rod.mass));
   };
-  // A rod's rate of angular momentum: mass · gyration² · (rod × difference of its ends' accelerations).
+  // Rate of angular momentum of a rod: mass · gyration² · (rod × difference of its ends' accelerations).
   auto spin = [&](const forces::Rod& rod, std::size_t upper, std::size_t lower) {
     return mass_of(rod) * wide(rod.gyration * rod.gyration) * moment(at[lower] - at[upper], push[lower] - push[upper]);
   };
@@ -313,7 +312,7 @@ void put_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<floa
   }
 }
 
-/// Centres of pressure onto the ground under each foot. How the feet share the load is left as on level ground.
+/// Projects centres of pressure onto the ground under each foot. The split between the feet stays that of level ground.
 HWY_NOINLINE void put_centres(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                               const Footing<Lanes<float>>& footing, Support& ground) {
   const Slopes slopes = slopes_of(footing, load(state.heading_rad));

@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// The point of the line `chords` straight steps from the anchor; as advance_gait has it, to the bit.
+/// Computes the point of the line `chords` straight steps from the anchor, bit-identical to advance_gait.
 void line_block(const SteadyWalk<Lanes<float>>& walk, const Lanes<float>& chords, Lanes<float>& x_m,
                 Lanes<float>& z_m) {
   Wide s, c;
@@ -26,7 +26,7 @@ void line_block(const SteadyWalk<Lanes<float>>& walk, const Lanes<float>& chords
   store(fma(load(chords), walks * c, load(walk.anchor_z_m)), z_m);
 }
 
-/// Who heads where they are asked to, as near as turn_gait and lanes_to_plan care.
+/// Marks walkers whose heading is as requested, within the tolerances of turn_gait and lanes_to_plan.
 void heads_block(const GaitState<Lanes<float>>& state, const Gait<Lanes<float>>& gait, Lanes<float>& heads) {
   const Wide way = abs(shorter_way(load(state.heading_rad), load(gait.heading_rad)));
   const WideMask walks = load(gait.speed_m_s) > 0.0F, stands = load(gait.speed_m_s) <= 0.0F;
@@ -47,7 +47,7 @@ namespace {
 
 constexpr int max_strikes = 12;
 
-/// The grid of a parameter: its default and whole steps from there, as far as its range goes; a byte counts them.
+/// Grid of a parameter: its default plus whole steps within its range, counted by a byte.
 struct StyleGrid {
   float usual, step;
   int first;  // steps below the default
@@ -74,7 +74,7 @@ const std::array<StyleGrid, gait_parameters.size()>& style_grids() {
   return grids;
 }
 
-/// How far a walk is at a tick. Exact: all are whole numbers below 2⁵³, and no quotient is within rounding of the next.
+/// Progress of a walk at a tick. Exact: all numbers are integers below 2⁵³, and no quotient rounds to the next integer.
 struct Progress {
   std::uint32_t strikes, units;
 };
@@ -94,7 +94,7 @@ Progress progress_at(const SteadyWalk<Lanes<float>>& walk, std::size_t lane, std
   return progress_at(walk.clock[lane], walk.step_units[lane], tick, per_tick);
 }
 
-/// Where in a stride tick 0 was, or for who stands in a step, from where they are now.
+/// Computes the state at tick 0 from the present one: the position in a stride, or in a step for standing people.
 void wind_back(SteadyWalk<float>& walk, std::uint32_t tick, std::int32_t per_tick, std::uint32_t units,
                std::uint32_t side, std::uint32_t steps) {
   const std::uint64_t step = walk.step_units, passed = std::uint64_t{tick} * static_cast<std::uint64_t>(per_tick);
@@ -114,7 +114,7 @@ bool same_strike(const HeelStrike<Lanes<float>>& a, const HeelStrike<Lanes<float
          a.half_width_m[lane] == b.half_width_m[lane] && a.toe_out[lane] == b.toe_out[lane];
 }
 
-/// Whether all words of a turn are zero, their signs too.
+/// Returns true if all words of a turn are zero, including their signs.
 bool goes_straight(const GaitState<Lanes<float>>& state, std::size_t lane) {
   std::uint32_t bits = 0;
   for (const Lanes<float>* const word :
@@ -134,7 +134,7 @@ bool has_settled(const StepPlan<Lanes<float>>& plan, const StepPlan<Lanes<float>
          plan.trailing_toe_out[lane] == fresh.trailing_toe_out[lane];
 }
 
-/// As steady_walkers, with the step that they would begin with.
+/// Implements steady_walkers, given the step with which the walkers would begin.
 std::uint32_t steady_lanes(const StepPlan<Lanes<float>>& fresh, const Gait<Lanes<float>>& gait,
                            const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                            const Lanes<std::uint32_t>& tick, float tick_s, SteadyWalk<Lanes<float>>& walk) {
@@ -170,7 +170,7 @@ std::uint32_t steady_lanes(const StepPlan<Lanes<float>>& fresh, const Gait<Lanes
   return bits;
 }
 
-/// Walkers in the middle of their steps, who are at different ticks.
+/// Walkers in the middle of their steps, each at its own tick.
 struct Walkers {
   const ClockUnits units;
   const float tick_s;
@@ -186,7 +186,7 @@ struct Walkers {
     return static_cast<std::uint32_t>(std::max((left + units.per_tick - 1) / units.per_tick, 1));
   }
 
-  /// These lanes go on to their next heel strike; the others mean nothing any more.
+  /// Advances these lanes to their next heel strike. All other lanes become invalid.
   template <class Next>
   void strike(std::uint32_t lanes, const Next& plan_next) {
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -210,7 +210,7 @@ struct Walkers {
   }
 };
 
-/// A step that was planned for a request that has been met.
+/// Marks a step as planned for a request that has been met.
 void mark_met(const Gait<Lanes<float>>& gait, StepPlan<Lanes<float>>& plan) {
   plan.revision = gait.revision;
   plan.displacement = gait.displacement;

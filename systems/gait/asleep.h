@@ -1,6 +1,5 @@
 #pragma once
-// Walkers whom nobody sees: where a steady walk is at any tick, in closed form, and what becomes of one that is asked
-// to turn, to stop or to go on, by its strikes alone.
+// Unseen walkers: closed-form state of steady walks at any tick, and changes of a walk computed only from heel strikes.
 
 #include <cstdint>
 #include <optional>
@@ -12,28 +11,28 @@
 
 namespace mobil::inline v0_3 {
 
-/// A style in bytes; nothing where it is not on the grid (`snapped`).
+/// Packs a style into bytes. Returns nothing if it is not on the grid (`snapped`).
 std::optional<SleepingStyle<float>> packed_style(const GaitStyle& style);
 GaitStyle style_of(const SleepingStyle<float>& packed);
 
-/// Bit l: lane l walks so steadily, or stands, that all later ticks follow from `walk`, for as long as nothing else is
-/// asked. `tick`: ticks that have been run. Of other lanes `walk` means nothing.
+/// Returns a mask with bit l set if lane l walks so steadily, or stands, that all later ticks follow from `walk` until
+/// the next request. `tick` is the number of ticks run. In other lanes `walk` is undefined.
 std::uint32_t steady_walkers(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait,
                              const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                              const Lanes<std::uint32_t>& tick, float tick_s, SteadyWalk<Lanes<float>>& walk);
 
-/// Whether somebody may be steady, by what takes no time to read: who turns, or has not met what is asked, is not.
+/// Returns false if a walker cannot be steady, by a cheap check: walkers who turn or have unmet requests are not.
 bool may_be_steady(const Gait<Lanes<float>>& gait, const StepPlan<Lanes<float>>& plan,
                    const GaitState<Lanes<float>>& state, std::size_t lane);
 
-/// The state of a steady walk after so many ticks: what advance_gait and turn_gait would have made, to the bit.
+/// Computes the state of a steady walk after this many ticks, bit-identical to advance_gait and turn_gait.
 void steady_state(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, float tick_s,
                   GaitState<Lanes<float>>& state);
-/// About where they are then, within a step and beside the line's own points; m.
+/// Computes approximate positions at that tick, m, between the line's points and accurate to within a step.
 void steady_places(const SteadyWalk<Lanes<float>>& walk, std::uint32_t tick, float tick_s, Lanes<float>& x_m,
                    Lanes<float>& z_m);
 
-/// Walkers under way: body, what is asked of them, their step and where they are.
+/// Walkers in motion: body, request, step and state.
 struct WalkingBlock {
   BodySize<Lanes<float>> size;
   Gait<Lanes<float>> gait;
@@ -41,17 +40,17 @@ struct WalkingBlock {
   GaitState<Lanes<float>> state;
 };
 
-/// Steady walks as walkers, after so many ticks.
+/// Turns steady walks into walkers after this many ticks.
 void begin_steady(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, float tick_s,
                   WalkingBlock& block);
-/// Walkers who were steady at tick `asked`, by `before`, and were asked then for block.gait: as they are at `tick`, not
-/// before `asked`. Their steps are solved as those of anybody. `work`: memory to work in, which is not `block` and does
-/// not hold `gait_before`.
+/// Computes the state at `tick` of walkers who were steady by `before` and received the request block.gait at tick
+/// `asked`. `tick` is not before `asked`. Their steps are fully solved. `work` is scratch memory, other than `block`,
+/// that does not contain `gait_before`.
 void walk_on(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>>& before,
              const Lanes<std::uint32_t>& asked, const Lanes<std::uint32_t>& tick, float tick_s, WalkingBlock& block,
              WalkingBlock& work);
-/// When those walkers are steady again and what they then do, by strikes alone: a hundredth of the time. `until` is
-/// never_settles where that is not within twelve strikes.
+/// Computes the tick at which those walkers are steady again and their walk from then on. It evaluates only heel
+/// strikes and is 100 times faster than walk_on. `until` is never_settles if they are not steady within twelve strikes.
 void settle(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>>& before,
             const Lanes<std::uint32_t>& asked, float tick_s, WalkingBlock& block, SteadyWalk<Lanes<float>>& after,
             Lanes<std::uint32_t>& until);

@@ -1,5 +1,5 @@
-// Where a step between unlike strikes would press the ground, and another way of the hips that presses it where feet
-// are. Include it as engine/wide-inl.h says.
+// Centre of pressure of a step between unlike strikes, and corrections of the hips' path that keep it under the feet.
+// See engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_GAIT_BALANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_GAIT_BALANCE_INL_H_
@@ -16,16 +16,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Equal parts of a step's time at whose ends it is looked at.
+/// Number of equal time intervals at whose ends a step is evaluated.
 constexpr std::size_t step_parts = 20;
 
-/// How far the centre of pressure goes per acceleration of the hips: height of the centre of mass over gravity, s².
+/// Returns the displacement of the centre of pressure per acceleration of the hips: height of the centre of mass over
+/// gravity, s².
 HWY_INLINE Wide pendulum(const Wide& height) {
   constexpr float centre = 0.56F;  // of mass, of the height
   return height * (centre / gravity_f);
 }
 
-/// Where a steady walk of that shape presses the ground aside, as a pendulum on the hips' way.
+/// Returns the lateral centre of pressure of a steady walk of that shape, from a pendulum on the hips' path.
 HWY_NOINLINE inline Wide steady_aside(const HeelStrike<Lanes<float>>& strike, const Wide& height, const StepWaves& w) {
   const OneShape of{strike.shape};
   const Wide pace = load(strike.pace_hz), per = pendulum(height) * (pi_f * pi_f) * pace * pace;
@@ -35,16 +36,16 @@ HWY_NOINLINE inline Wide steady_aside(const HeelStrike<Lanes<float>>& strike, co
   return fma(once, 1.0F + per, thrice * fma(per, wide(9.0F), wide(1.0F)));
 }
 
-/// At the instants between a step's ends: where it presses the ground, where walks do, and how far the soles reach.
+/// Centre of pressure of a step at the instants between its ends, the usual one of walks, and the range of the soles.
 struct Pressed {
   Wide at[step_parts], middle[step_parts], least[step_parts], most[step_parts];
 };
 
-/// To either side of where walks press a foot, of the height.
+/// Room on either side of the usual centre of pressure, of the height.
 constexpr float room_aside = 0.015F;
 
-/// Where a step all but leaves the ground it presses it anywhere: what is made of that, of the weight; and the most
-/// that one of the hips' other ways may be, of the height.
+/// Minimum vertical force, of the weight: a step that nearly leaves the ground has its centre of pressure anywhere.
+/// Maximum of each correction of the hips' path, of the height.
 constexpr float min_lift = 0.4F, max_other_way = 0.05F;
 
 HWY_NOINLINE inline void room_ahead(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
@@ -58,7 +59,7 @@ HWY_NOINLINE inline void room_ahead(const StepPlan<Lanes<float>>& plan, const Mi
   ahead.most[i] = reach.front;
 }
 
-/// What a step presses, before it is balanced.
+/// Computes the centre of pressure of a step before it is balanced.
 HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const Wide& height, Pressed& ahead,
                                       Pressed& aside) {
   const Wide per_apart = static_cast<float>(step_parts) / load(plan.duration_s);
@@ -92,7 +93,7 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
       room_ahead(plan, of, height, p, last.stance_pitch, both, i, ahead);
 
       aside.at[i] = last.aside - per_aside * (figure[k % 3].aside - 2.0F * last.aside + figure[(k + 1) % 3].aside);
-      // Somebody who stands presses between the feet, for as long as both are on the ground.
+      // A standing person presses between the feet while both are on the ground.
       const Wide part = select(from_stands, smooth(p / max(off, 1e-3F)),
                                select(to_stands, smooth((p - landing) / max(1.0F - landing, 1e-3F)), of.part));
       aside.middle[i] =
@@ -106,7 +107,7 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
 
 constexpr std::size_t other_ways = other_way_count;
 
-/// What each of the hips' other ways does at a part of the step's time: place, and acceleration by that part.
+/// Value and second derivative of each correction of the hips' path, as functions of the part of the step's time.
 struct OtherWay {
   float place[other_ways], bend[other_ways];
 };
@@ -126,11 +127,10 @@ constexpr OtherWay other_way_at(float u) {
   return o;
 }
 
-/// How much of its room the centre of pressure is given.
+/// Part of the room that the centre of pressure can use.
 constexpr float room_used = 0.7F;
 
-/// Solves for the other way that brings the centre of pressure into its room, or as near as it can; returns how far
-/// outside it stays.
+/// Solves for the corrections that bring the centre of pressure into its room. Returns how far it stays outside.
 HWY_NOINLINE inline Wide into_room(const Elimination<other_ways>& normal, const Wide (&effect)[step_parts][other_ways],
                                    const Pressed& pressed, Wide (&by)[other_ways]) {
   constexpr int rounds = 4;
@@ -157,8 +157,8 @@ HWY_NOINLINE inline Wide into_room(const Elimination<other_ways>& normal, const 
   return worst;
 }
 
-/// Of who stands and puts a foot elsewhere: how far the soles of both feet reach and, aside, where the step presses as
-/// a pendulum. `right_one`: 1 where the right foot stands, else −1.
+/// Computes, for standing people who move a foot, the reach of both soles and the lateral centre of pressure of the
+/// step as a pendulum. `right_one` is 1 if the right foot stands, otherwise −1.
 HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& right_one,
                                       Pressed& ahead, Pressed& aside) {
   const Wide per_apart = static_cast<float>(step_parts) / load(plan.duration_s);
@@ -170,7 +170,7 @@ HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const 
   Wide s, c;
   sin_cos(load(plan.slant_rad), s, c);
   s = s * right_one;
-  // Places of the feet that bear beside the stance foot: forward, and to the side that hips_place counts from it.
+  // Positions of the bearing feet relative to the stance foot: forward, and to the side in the sign of hips_place.
   const Wide stance_aside = -load(plan.from.half_width_m);
   const Wide last_forward = -before * c, last_aside = fnma(before, s, load(plan.trailing_half_width_m));
   const Wide next_forward = length * c, next_aside = fma(length, s, load(plan.to.half_width_m));
@@ -197,7 +197,7 @@ HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const 
   }
 }
 
-/// Chooses plan.ahead_m and aside_m; returns how far the centre of pressure then lies outside the soles.
+/// Chooses plan.ahead_m and aside_m. Returns the distance of the resulting centre of pressure outside the soles.
 HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one, const WideMask& alike,
                                       const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   for (std::size_t k = 0; k < other_ways; ++k) {

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float gravity_m_s2 = 9.81F;
-/// Of a foot with its toes, the toes' part of the mass.
+/// Share of the toes in the mass of a foot with its toes.
 constexpr auto toes_of_foot = static_cast<float>(
     unit_body.mass_fraction[index(Segment::toes_right)] /
     (unit_body.mass_fraction[index(Segment::toes_right)] + unit_body.mass_fraction[index(Segment::foot_right)]));
@@ -27,7 +27,7 @@ HWY_INLINE WideVec centre_of(const Wide& height, const Pose<Lanes<float>>& pose,
          rotate(load(pose.rotation[segment]), scaled_exactly(unit_body.centre_of_mass[segment], height));
 }
 
-/// How fast a segment turned from one attitude to another, in its own axes.
+/// Returns the angular velocity between two orientations of a segment, in its own axes.
 HWY_INLINE WideVec turning(const WideQuat& a, const WideQuat& b, const Wide& per_half) {
   const Wide w = fma(a.w, b.w, fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)));
   const WideVec va = {a.x, a.y, a.z}, vb = {b.x, b.y, b.z};
@@ -116,7 +116,7 @@ HWY_EXPORT(motion_block);
 
 namespace {
 
-/// The ground in the frame of the stance foothold: heights over it, +Z where the walking line heads there.
+/// Returns the ground in the frame of the stance foothold: relative heights, +Z along the walking line's heading there.
 Footing<Lanes<float>> seen_from_stance(const Footing<Lanes<float>>& footing, const GaitState<Lanes<float>>& state) {
   constexpr auto stance = index(FootholdOf::stance);
   Footing<Lanes<float>> seen = footing;
@@ -154,7 +154,7 @@ void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<floa
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   for (std::size_t k = 0; k < 3; ++k) {
-    // A step's curves go on smoothly beyond either strike.
+    // A step's curves continue smoothly beyond either strike.
     for (std::size_t l = 0; l < lane_count; ++l)
       at.time_s[l] = state.time_s[l] + (static_cast<float>(k) - 1) * motion_difference_s;
     pose_skeleton(size, plan, at, footing != nullptr ? &under : nullptr, pose[k], angles, feet);

@@ -1,5 +1,5 @@
 #pragma once
-// From the solved step to how all 48 segments accelerate.
+// Accelerations of all 48 segments from the solved step.
 
 #include <mobil/components/body.h>
 #include <mobil/components/footing.h>
@@ -9,14 +9,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// The motion of bodies of which three poses are known, `apart_s` seconds apart, in a frame of their own: central
-/// differences of places, Euler's equations of each segment in its own axes (inertias: assets/body/segment_inertia.h).
+/// Computes the motion of bodies from three poses `apart_s` seconds apart, in a frame of their own, by central
+/// differences of positions and Euler's equations in each segment's axes (inertias: assets/body/segment_inertia.h).
 void motion_of_poses(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& before,
                      const Pose<Lanes<float>>& now, const Pose<Lanes<float>>& after, float apart_s,
                      BodyMotion<Lanes<float>>& motion);
 
-/// The motion of walkers at this instant of their step, from the step alone: no memory, no lag. Near either end of the
-/// step that of `motion_difference_s` within it. `footing`: the ground under the feet, null where it is level.
+/// Computes the motion of walkers at this instant from the step alone, without memory or lag. Near the step's ends its
+/// curves are continued by `motion_difference_s`. `footing` is the ground under the feet, null on level ground.
 void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                    const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing,
                    BodyMotion<Lanes<float>>& motion);

@@ -1,4 +1,4 @@
-// Linear equations in sixteen lanes. Include it as engine/wide-inl.h says.
+// Linear equations in sixteen lanes. See engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_GAIT_ELIMINATION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_GAIT_ELIMINATION_INL_H_
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// N linear equations per lane, by elimination with pivoting within each lane; lanes whose matrix is singular get 0.
+/// N linear equations per lane, solved by elimination with pivoting in each lane. Lanes with a singular matrix get 0.
 template <std::size_t N>
 struct Elimination {
   Wide a[N][N];  // upper triangle, and below it the factors
@@ -54,27 +54,27 @@ struct Elimination {
   }
 };
 
-/// N numbers per lane that meet any count of equations as nearly as they can.
+/// Least-squares solution of any number of equations for N numbers per lane.
 template <std::size_t N>
 struct LeastSquares {
   Elimination<N> normal;
   Wide sum[N];
 
-  /// `held`: how strongly each number is held at 0.
+  /// `held` is the strength with which each number is held at 0.
   HWY_NOINLINE explicit LeastSquares(const float (&held)[N]) {
     for (std::size_t k = 0; k < N; ++k) {
       sum[k] = wide(0.0F);
       for (std::size_t j = 0; j < N; ++j) normal.a[k][j] = wide(k == j ? held[k] : 0.0F);
     }
   }
-  /// row · numbers = value.
+  /// Adds the equation row · numbers = value.
   HWY_NOINLINE void ask(const Wide (&row)[N], const Wide& value) {
     for (std::size_t k = 0; k < N; ++k) {
       sum[k] = fma(row[k], value, sum[k]);
       for (std::size_t j = 0; j < N; ++j) normal.a[k][j] = fma(row[k], row[j], normal.a[k][j]);
     }
   }
-  /// Leaves the numbers in `sum`.
+  /// Writes the numbers to `sum`.
   HWY_NOINLINE void solve() {
     normal.factor();
     normal.solve(sum);

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// What a tick makes of a damped spring's place and speed.
+/// Change of a damped spring's position and speed over a tick.
 struct Swing {
   Wide place, place_of_speed, speed_of_place, speed;
 };
@@ -46,7 +46,7 @@ void fat_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pos
   const WideMask swings = goes_on & (known > 1.5F);
   const Wide none = wide(0.0F);
   constexpr auto share = static_cast<float>(usual_fat_share);
-  const Wide fat_kg = load(size.mass_kg) * (share + (1 - share) * load(size.extra_fat));  // as fat_thickness_m
+  const Wide fat_kg = load(size.mass_kg) * (share + (1 - share) * load(size.extra_fat));  // as in fat_thickness_m
   const Wide over_usual = fat_kg / (usual_fat_index * load(size.height_m) * load(size.height_m));
   Swing swing{};
   for (std::size_t r = 0; r < fat_regions; ++r) {

@@ -15,12 +15,12 @@ constexpr auto landing = index(FootholdOf::landing);
 void follow_feet(const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& footing) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const std::uint32_t steps = state.steps[l] - footing.steps[l];
-    // A step that begins at rest may be the other foot's.
+    // Steps that begin at rest can be made by the other foot.
     const bool swapped = (state.stance_side[l] & 1U) != ((footing.stance_side[l] ^ steps) & 1U);
     if (steps == 0 && !swapped) continue;
     footing.steps[l] = state.steps[l];
     footing.stance_side[l] = state.stance_side[l];
-    // Of who slept, or whose ground was not asked for in time, nothing is known.
+    // The ground is unknown after sleep, or if it was not queried in time.
     const bool known = steps <= 1 && footing.known[l] >= (steps == 1 ? footing_all : footing_before);
     footing.known[l] = known ? footing_before : footing_unknown;
     for (auto* values : by_foothold(footing)) {

@@ -1,6 +1,5 @@
-// The swing leg as the paper has it (section 4.1): thigh and shank hang on the moving hip, torques of a few numbers
-// drive them, and those numbers are sought with which the foot lands where the step has it. Include it as
-// engine/wide-inl.h says.
+// The swing leg of the paper (section 4.1): thigh and shank hang on the moving hip. A few parameters of their torques
+// are solved so that the foot lands as the step requires. See engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_GAIT_FORWARD_SWING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_GAIT_FORWARD_SWING_INL_H_
@@ -15,15 +14,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Steps of Runge and Kutta's fourth order from toe-off to heel strike, evenly in time; a swing is looked at halfway
-/// through them too.
+/// Fourth-order Runge–Kutta steps from toe-off to heel strike, equal in time. Swings are also evaluated at their
+/// middles.
 constexpr std::size_t swing_steps = 8, swing_instants = 2 * swing_steps + 1;
 
-/// What the torques are made of, in this order: the hip's pulses in early and in late swing; the knee's stiffness, its
-/// stiffness times its angle at rest, its damping and its late pulse.
+/// Parameters of the torques, in this order: the hip's pulses in early and in late swing; the knee's stiffness, its
+/// stiffness times its rest angle, its damping and its late pulse.
 constexpr std::size_t torque_count = 6, hip_torques = 2;
 
-/// Width and middle of the pulses, of the swing.
+/// Middle and width of a pulse, as parts of the swing.
 struct Pulse {
   double middle, width;
 };
@@ -36,8 +35,8 @@ constexpr double exponential(double x) {
   return sum;
 }
 
-/// At every instant: the pulses; and what, beside them, brings the torques at toe-off and at heel strike to those
-/// that the step has there, so that accelerations are continuous.
+/// Pulses at each instant, and weights of the corrections that bring the torques at toe-off and at heel strike to those
+/// of the step, so that accelerations are continuous.
 struct TorqueTimes {
   float pulse[3][swing_instants], off[swing_instants], on[swing_instants];
 };
@@ -57,7 +56,7 @@ constexpr TorqueTimes torque_times = [] {
   return t;
 }();
 
-/// What the torques' numbers are multiplied by, of a leg in a state: the hip's then the knee's.
+/// Factors of the torque parameters for a leg in a given state, hip before knee.
 struct TorqueParts {
   Wide of[torque_count];
 };
@@ -67,8 +66,8 @@ HWY_INLINE TorqueParts torque_parts(std::size_t instant, const SwingState& y) {
            y.thigh_rate - y.shank_rate, wide(torque_times.pulse[2][instant])}};
 }
 
-/// The swing that a step has: its leg and what the hip pulls, and at both ends the torques and their parts; the part of
-/// the swing at every instant, and the time from one to the next.
+/// The swing of a step: states of its leg and accelerations of the hip; torques and their factors at both ends; the
+/// part of the swing at each instant, and the time between instants.
 struct SwingToMeet {
   SwingState at[swing_instants];
   Pull pull[swing_instants];
@@ -78,7 +77,7 @@ struct SwingToMeet {
   Wide apart_s;
 };
 
-/// Parts of the torques less what the ends take of them.
+/// Returns the torque factors minus their values at the ends.
 HWY_INLINE TorqueParts closed_parts(const SwingToMeet& swing, std::size_t instant, const SwingState& y) {
   TorqueParts parts = torque_parts(instant, y);
   const float off = torque_times.off[instant], on = torque_times.on[instant];
@@ -87,18 +86,18 @@ HWY_INLINE TorqueParts closed_parts(const SwingToMeet& swing, std::size_t instan
   return parts;
 }
 
-/// What the ends alone ask of the torques.
+/// Returns the torques due to the ends alone.
 HWY_INLINE Torques end_torques(const SwingToMeet& swing, std::size_t instant) {
   const float off = torque_times.off[instant], on = torque_times.on[instant];
   return {off * swing.off.hip + on * swing.on.hip, off * swing.off.knee + on * swing.on.knee};
 }
 
-/// A state and its derivatives by the numbers of the torques.
+/// A state and its derivatives with respect to the torque parameters.
 struct SwingFlow {
   SwingState state, by[torque_count];
 };
 
-/// Rates of change of a state and of its derivatives.
+/// Computes the rates of change of a state and of its derivatives.
 HWY_NOINLINE inline void swing_rates(const SwingLeg& leg, const SwingToMeet& swing, const Wide (&number)[torque_count],
                                      std::size_t instant, const SwingFlow& y, SwingFlow& rate) {
   const TorqueParts parts = closed_parts(swing, instant, y.state);
@@ -127,7 +126,7 @@ HWY_NOINLINE inline void move(const SwingFlow& y, const SwingFlow& rate, const W
   for (std::size_t k = 0; k < torque_count; ++k) out.by[k] = moved(y.by[k], rate.by[k], by);
 }
 
-/// Numbers by least squares of the torques that the step's own swing takes.
+/// Fits the parameters by least squares to the torques of the step's own swing.
 HWY_NOINLINE inline void first_numbers(const SwingLeg& leg, const SwingToMeet& swing, Wide (&number)[torque_count]) {
   LeastSquares<torque_count> fit({0.5F, 0.5F, 0.015F, 0.015F, 1.5F, 0.015F});
   const Wide per = 0.5F / swing.apart_s;
@@ -149,14 +148,14 @@ HWY_NOINLINE inline void first_numbers(const SwingLeg& leg, const SwingToMeet& s
   for (std::size_t k = 0; k < torque_count; ++k) number[k] = fit.sum[k];
 }
 
-/// What a swing is to meet, and how much that counts: per rad, rad/s, height, and per scale of a number that differs
-/// from the first one.
+/// Weights of the aims of a swing: per rad, rad/s, body height, and per scale of a parameter's difference from its
+/// first value.
 namespace swing_weight {
 constexpr float angle = 20.0F, rate = 2.0F, ankle_up = 35.0F, late_knee = 40.0F, first = 0.03F, damping = 0.02F;
 constexpr float scale[torque_count] = {0.065F, 0.1F, 0.065F, 0.05F, 0.003F, 0.065F};
 }  // namespace swing_weight
 
-/// One step of a swing. `y` at its begin becomes that at its end.
+/// Advances `y` by one integration step of a swing.
 HWY_NOINLINE inline void swing_on(const SwingLeg& leg, const SwingToMeet& swing, const Wide (&number)[torque_count],
                                   std::size_t step, SwingFlow& y) {
   const Wide half = swing.apart_s, whole = 2.0F * half;
@@ -174,15 +173,15 @@ HWY_NOINLINE inline void swing_on(const SwingLeg& leg, const SwingToMeet& swing,
   move(end, rate, whole * (1.0F / 6), y);
 }
 
-/// A knee halfway through a step, of a cubic.
+/// Returns the knee angle halfway through a step, from a cubic.
 HWY_INLINE Wide halfway_knee(const SwingState& a, const SwingState& b, const Wide& step_s) {
   return 0.5F * (a.thigh - a.shank + b.thigh - b.shank) +
          0.125F * step_s * (a.thigh_rate - a.shank_rate - b.thigh_rate + b.shank_rate);
 }
 
-/// Integrates a swing, then brings its numbers nearer to what it is to meet, by a step of Levenberg and Marquardt: the
-/// state at heel strike, the ankle's height at three instants, and the knee shortly before it lands, so that it does
-/// not lock. Returns the leg after every step.
+/// Integrates a swing, then improves its parameters by one Levenberg–Marquardt step. The aims are the state at heel
+/// strike, the ankle's height at three instants, and the knee angle shortly before landing, so that it does not lock.
+/// Returns the leg after each step.
 HWY_NOINLINE inline void swing_forward(const SwingLeg& leg, const SwingToMeet& swing, const Wide (&first)[torque_count],
                                        Wide (&number)[torque_count], SwingState (&way)[swing_steps + 1]) {
   namespace weight = swing_weight;
@@ -219,7 +218,7 @@ HWY_NOINLINE inline void swing_forward(const SwingLeg& leg, const SwingToMeet& s
   for (std::size_t k = 0; k < torque_count; ++k) number[k] = fma(wide(weight::scale[k]), fit.sum[k], number[k]);
 }
 
-/// The swing of a step, as its curves have it.
+/// Computes the swing of a step from its curves.
 HWY_NOINLINE inline void swing_to_meet(const StepPlan<Lanes<float>>& plan, const SwingLeg& leg, const Wide& height,
                                        SwingToMeet& out) {
   constexpr std::size_t last = swing_instants - 1;
@@ -240,7 +239,7 @@ HWY_NOINLINE inline void swing_to_meet(const StepPlan<Lanes<float>>& plan, const
     return Pull{(a.hip_forward - 2.0F * b.hip_forward + c.hip_forward) * per2,
                 (a.hip_up - 2.0F * b.hip_up + c.hip_up) * per2 + gravity};
   };
-  // Rates and accelerations at the ends come from this far from them, of the time between instants.
+  // Distance from the ends at which rates and accelerations are taken there, of the time between instants.
   constexpr float near = 0.125F;
   auto end = [&](const Wide& time, const OtherLeg& at, SwingState& state, Pull& pull, Torques& torque) {
     const Wide h = near * out.apart_s, per = 1.0F / h, per2 = per * per;
@@ -275,8 +274,7 @@ HWY_NOINLINE inline void swing_to_meet(const StepPlan<Lanes<float>>& plan, const
   out.parts_on = torque_parts(last, out.at[last]);
 }
 
-/// By how much an ankle on its way is beside the step's, as a bump times polynomials of the part of the swing, in body
-/// heights.
+/// Computes the deviation of an integrated ankle path from the step's, in body heights: a bump times polynomials.
 HWY_NOINLINE inline void as_bumps(const SwingLeg& leg, const SwingToMeet& swing,
                                   const SwingState (&way)[swing_steps + 1], Wide (&forward)[other_way_count],
                                   Wide (&up)[other_way_count]) {
@@ -298,11 +296,12 @@ HWY_NOINLINE inline void as_bumps(const SwingLeg& leg, const SwingToMeet& swing,
   for (std::size_t k = 0; k < other_way_count; ++k) forward[k] = fit.sum[k];
 }
 
-/// The most that a swing may miss its heel strike by (rad), and be moved by (of the height): else it stays as it is.
+/// Maximum error at heel strike (rad) and maximum correction (of the height) of an integrated swing. Above them the
+/// swing stays unchanged.
 constexpr float max_miss = 0.03F, max_moved = 0.1F;
 
-/// Chooses plan.swing_by_forward_m and swing_by_up_m: what a swing that is integrated forward has beside the curves of
-/// the shape. `share`: how much of that is wanted; where it is 0, the swing stays as it is.
+/// Chooses plan.swing_by_forward_m and swing_by_up_m: deviation of a forward-integrated swing from the curves of the
+/// shape. `share` is its weight. With 0 the swing stays unchanged.
 HWY_NOINLINE inline void integrate_swing(const Wide& height, const Wide& share, StepPlan<Lanes<float>>& plan) {
   constexpr SwingLeg leg = unit_swing_leg;
   SwingToMeet swing;

@@ -12,18 +12,18 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr double lowest_speed = 0.3;  // m/s, for a leg of 0.90 m, in proportion to its root
+constexpr double lowest_speed = 0.3;  // m/s for a leg of 0.90 m, scales with the leg's square root
 
 bool inside(double value, double low, double high) {
   return value >= low && value <= high;
 }
 
-/// Length of the step that people of that leg (hip to ground) take at a speed: measured ones (assets/gait/README.md).
+/// Returns the measured step length at a speed of people with that leg, hip to ground (assets/gait/README.md).
 double usual_length_at(double speed_m_s, double leg_m) {
   return usual_step_length(static_cast<float>(speed_m_s / std::sqrt(9.81 * leg_m))) * leg_m;
 }
 
-/// The speed at which `of` a speed, that grows with it, is `wanted`.
+/// Returns the speed at which the increasing function `of` reaches `wanted`.
 template <class Of>
 double speed_of(double wanted, Of of) {
   double low = 0, high = 10;
@@ -88,7 +88,7 @@ Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
       {"step length", "m", length_asked.has_value(), length, 0.25 * leg, 1.25 * leg},
       {"step frequency", "Hz", frequency_asked.has_value(), frequency, 0.5 / scale, 3.0 / scale},
   };
-  for (const bool asked : {true, false}) {  // what the caller wrote before what follows from it
+  for (const bool asked : {true, false}) {  // requested values before derived ones
     for (const auto& r : ranges) {
       if (r.asked != asked || inside(r.value, r.low, r.high)) continue;
       return fail(fmt::format("gait: {} {} of {:.3g} {} is outside {:.2f}–{:.2f} {} for a height of {:.2f} m; {}",

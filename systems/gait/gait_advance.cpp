@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Who has come to stand does so beside the line, as far as the feet are: the line goes there.
+/// Moves the line of walkers who have come to rest by the lateral shift of their feet.
 HWY_INLINE void come_to_rest(const StepPlan<Lanes<float>>& plan, const WideMask& done, GaitState<Lanes<float>>& state) {
   const Wide shift = load(state.shift_m), zero = wide(0.0F);
   const WideMask rests = done & stands(plan.to) & (abs(shift - load(state.shift_before_m)) <= 0.0F);
@@ -28,8 +28,8 @@ HWY_INLINE void come_to_rest(const StepPlan<Lanes<float>>& plan, const WideMask&
     store(select(rests, zero, load(*moved)), *moved);
 }
 
-/// Returns who comes to the end of their step. What is left of a tick then is less than one: that is how the systems
-/// that follow know a step that has just begun.
+/// Returns the walkers whose step ends. The rest of their tick is limited to less than one tick, from which later
+/// systems recognise a step that has just begun.
 HWY_INLINE WideMask advance_clock(const ClockUnits& units, const StepPlan<Lanes<float>>& plan,
                                   GaitState<Lanes<float>>& state) {
   Lanes<float> done;
@@ -47,7 +47,7 @@ HWY_INLINE WideMask without(const WideMask& mask) {
   return select(mask, wide(0.0F), wide(1.0F)) > 0.0F;
 }
 
-/// Who goes straight on is so many chords from where that began, others are one further than they were and begin anew.
+/// A straight walker's line point is anchor + steps × chord. Other walkers advance one chord and reset the anchor.
 HWY_INLINE void move_line(const StepPlan<Lanes<float>>& plan, const WideMask& done, const WideMask& straight,
                           const Wide& ahead_x, const Wide& ahead_z, GaitState<Lanes<float>>& state) {
   Lanes<float> chords;
@@ -70,7 +70,7 @@ HWY_INLINE void move_line(const StepPlan<Lanes<float>>& plan, const WideMask& do
 
 void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s) {
   const WideMask done = advance_clock(clock_units(tick_s), plan, state);
-  if (!any(done)) return;  // within a step only time goes on: whose step does not end keeps their bits
+  if (!any(done)) return;  // within a step only the time changes
   const Wide zero = wide(0.0F), one = wide(1.0F), length = load(plan.step_length_m);
   const WideMask walked = load(plan.landing) > 0.0F;
 
@@ -123,7 +123,7 @@ std::uint32_t to_plan_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes
   return bits;
 }
 
-/// Feet side by side: which one is the stance foot is as one likes.
+/// Swaps the stance foot of feet side by side, where either foot can be the stance foot.
 void swap_feet(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     if (plan.swaps[l] == 0 || !(state.time_s[l] < tick_s)) continue;
@@ -152,7 +152,7 @@ void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   auto begin = [&](const Wide& value, Lanes<float>& to) { store(select(begun, value + 0.0F, load(to)), to); };  // no −0
   begin(select(length > 0.0F, chord_turn(chord), on_the_spot), state.turn_rad);
   begin(chord_heading(chord) + slant, state.chord_rad);
-  // Who stood has come along no chord.
+  // A person who stood has no previous chord.
   begin(select(load(plan.length_before_m) > 0.0F, load(state.chord_before_rad), load(state.chord_rad)),
         state.chord_before_rad);
   begin(next.bend, state.bend_next_per_m);

@@ -7,7 +7,7 @@
 #include "systems/gait/kinematics.h"
 #include "systems/gait/step_now-inl.h"
 
-// Functions here are kept apart where a compiler would otherwise put all of a skeleton into one.
+// Functions stay separate (HWY_NOINLINE) where a compiler would merge a whole skeleton into one.
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
@@ -23,7 +23,7 @@ struct Skeleton {
     store(position, pose.position_m[index(s)]);
     store(rotation, pose.rotation[index(s)]);
   }
-  /// A segment that turns where it hangs on its parent.
+  /// Places a segment at its parent's joint with its own rotation.
   HWY_NOINLINE void hang(Segment s, const WideQuat& world_rotation) const {
     const Segment parent = segment_parent[index(s)];
     const WideVec offset = scaled(unit_skeleton.joint_offset[index(s)], height);
@@ -37,7 +37,7 @@ struct Origin {
   Wide heading, sine, cosine;
 };
 
-/// Thigh, kneecap, shank, foot and toes of one side; returns the forward angle of the line from hip to ankle.
+/// Poses thigh, kneecap, shank, foot and toes of one side. Returns the forward angle of the line from hip to ankle.
 HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQuat& facing, bool uneven,
                            std::size_t side, const Skeleton& skeleton, JointAngles<Lanes<float>>& angles,
                            Feet<Lanes<float>>& feet) {
@@ -95,12 +95,12 @@ HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQ
   return direction;
 }
 
-/// The column from the sacrum to the head, each vertebra turned a little on the one below: the pelvis's turn is undone
-/// and, up to the shoulders, reversed; from there to the head, which stays in the walking plane, undone again.
+/// Poses the column from sacrum to head, with a small rotation between neighbouring vertebrae. The pelvis' rotation is
+/// undone and, up to the shoulders, reversed. From there to the head, in the walking plane, it is undone again.
 HWY_NOINLINE void pose_column(const WideQuat& facing, const Wide& turned_back, const Wide& lean,
                               const Skeleton& skeleton) {
   constexpr std::size_t first = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
-  // The sacrum's plate faces up in somebody who stands, whose pelvis laboratories find tilted.
+  // The sacrum's plate faces up in a standing person, whose pelvis is tilted in laboratory measurements.
   constexpr HalfAngle level = half_of(-neutral_tilt);
   const WideQuat base = skeleton.rotation(Segment::pelvis) * turn_x(level);
   const WideQuat chest = facing * (turn_y(turned_back) * turn_x(lean));
@@ -121,12 +121,12 @@ HWY_NOINLINE void pose_column(const WideQuat& facing, const Wide& turned_back, c
   }
 }
 
-/// What both arms share.
+/// Parameters common to both arms.
 struct ArmParameters {
   Wide back, forward, elbow_back, elbow_forward, abduction, pronation, fingers;
 };
 
-/// One arm; `ahead` is the place of the opposite leg in its range, 0 back to 1 forward.
+/// Poses one arm. `ahead` is the position of the opposite leg in its range, 0 back to 1 forward.
 HWY_NOINLINE void pose_arm(const ArmParameters& arm_manner, const Wide& ahead, std::size_t side,
                            const Skeleton& skeleton, JointAngles<Lanes<float>>& angles) {
   using enum Segment;
@@ -138,7 +138,7 @@ HWY_NOINLINE void pose_arm(const ArmParameters& arm_manner, const Wide& ahead, s
 
   const WideQuat trunk = skeleton.rotation(T1);
   skeleton.hang(of(clavicle_right), trunk);
-  // A part of the pronation is the upper arm's inward turn.
+  // Part of the pronation is an inward rotation of the upper arm.
   const WideQuat arm = trunk * (turn_z(arm_manner.abduction * out) * (turn_x(-shoulder) * turn_y(0.3F * pronation)));
   skeleton.hang(of(upper_arm_right), arm);
   const WideQuat forearm = arm * (turn_x(-elbow) * turn_y(0.7F * pronation));

@@ -1,5 +1,5 @@
 #pragma once
-// From the solved step and the walker's clock to the pose of all 48 segments.
+// Pose of all 48 segments from the solved step and the walker's clock.
 
 #include <mobil/components/body.h>
 #include <mobil/components/footing.h>
@@ -8,7 +8,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// The block to be posed next: fetched meanwhile, never read.
+/// The block posed next, which is prefetched and never read.
 struct NextWalkers {
   const StepPlan<Lanes<float>>* plan = nullptr;
   const GaitState<Lanes<float>>* state = nullptr;
@@ -17,17 +17,17 @@ struct NextWalkers {
   const Feet<Lanes<float>>* feet = nullptr;
 };
 
-/// Writes every segment's world position and rotation, the joint angles and the feet's ground points. Hips follow the
-/// step's curves, turned, listed, tilted and shifted as `pelvis_phase` (mobil/components/gait.h) says; the standing
-/// foot turns about its planted heel or ball, the swing foot follows its curves; thigh and shank close the chain with
-/// the knee pointing forward; the column undoes the pelvis up to the head; each arm follows the opposite leg. No state
-/// of its own: any time of any step may be asked. `footing`: the ground under the feet, null where it is level. `next`
-/// may be empty.
+/// Writes the world position and rotation of each segment, the joint angles and the feet's ground points. Hips follow
+/// the step's curves, with the rotation, list, tilt and shift of `pelvis_phase` (mobil/components/gait.h). The standing
+/// foot rotates about its planted heel or ball, and the swing foot follows its curves. Thigh and shank close the chain
+/// with the knee pointing forward. The column undoes the pelvis' rotation up to the head, and each arm follows the
+/// opposite leg. The function has no state of its own, so any time of any step can be posed. `footing` is the ground
+/// under the feet, null on level ground. `next` can be empty.
 void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                    const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing, Pose<Lanes<float>>& pose,
                    JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet, const NextWalkers& next = {});
 
-/// Centre of mass of the whole body, from the masses and centres of its segments.
+/// Computes the centre of mass of the whole body from the masses and centres of its segments.
 void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
                     CentreOfMass<Lanes<float>>& centre);
 

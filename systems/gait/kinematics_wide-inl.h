@@ -1,4 +1,4 @@
-// Elementary rotations of sixteen lanes. Include it as engine/wide-inl.h says.
+// Elementary rotations of sixteen lanes. See engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_KINEMATICS_WIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_KINEMATICS_WIDE_INL_H_
@@ -28,7 +28,7 @@ HWY_INLINE WideQuat turn_y(const Wide& angle) {
   return {wide(0.0F), s, wide(0.0F), c};
 }
 
-/// Sine and cosine of half an angle that is known beforehand.
+/// Sine and cosine of half of a constant angle.
 struct HalfAngle {
   float sine, cosine;
 };
@@ -39,7 +39,7 @@ HWY_INLINE WideQuat turn_x(const HalfAngle& half) {
   return {wide(half.sine), wide(0.0F), wide(0.0F), wide(half.cosine)};
 }
 
-/// Between two rotations that are less than a right angle apart, part of the way.
+/// Interpolates between two rotations that are less than a right angle apart.
 MOBIL_WIDE_INLINE WideQuat part_way(const WideQuat& a, const WideQuat& b, const Wide& part) {
   const WideQuat m = {fma(part, b.x - a.x, a.x), fma(part, b.y - a.y, a.y), fma(part, b.z - a.z, a.z),
                       fma(part, b.w - a.w, a.w)};
@@ -52,7 +52,7 @@ HWY_INLINE WideQuat turn_z(const Wide& angle) {
   return {wide(0.0F), wide(0.0F), s, c};
 }
 
-/// Turned about y, within that about z, within that about x.
+/// Returns a rotation about y, within it about z, within that about x.
 MOBIL_WIDE_INLINE WideQuat turn_yzx(const Wide& y, const Wide& z, const Wide& x) {
   return turn_y(y) * (turn_z(z) * turn_x(x));
 }

@@ -13,10 +13,10 @@ struct SineCosine {
   Wide sine, cosine;
 };
 
-/// From the frame that faces where the pelvis heads to that of a thigh, as a right one's.
+/// Transform from the frame that faces along the pelvis' heading to the frame of a thigh, mirrored to a right one.
 class IntoThigh {
  public:
-  /// `aside`: the thigh's turn about z; `thigh`: the one about x after it, backward.
+  /// `aside` is the thigh's rotation about z, `thigh` the backward rotation about x after it.
   IntoThigh(const SineCosine& aside, const SineCosine& thigh, std::size_t side)
       : aside_(aside), thigh_(thigh), mirror_(wide(side == Side::left ? -1.0F : 1.0F)) {}
 
@@ -45,7 +45,7 @@ HWY_INLINE SineCosine sine_cosine(const Wide& angle) {
   return of;
 }
 
-/// No angle is made of the leg's triangle but the knee's: its sides give sines and cosines.
+/// Computes a leg's frame. Only the knee's angle of the leg's triangle is evaluated: its sides give sines and cosines.
 HWY_NOINLINE void knee_frame(const StepNow& now, const WideVec (&pelvis)[3], std::size_t side, const Wide& height,
                              KneeFrame<Lanes<float>>& frame) {
   const LegPlane leg = leg_plane(now, side, height);
@@ -79,7 +79,7 @@ HWY_NOINLINE void knee_frame(const StepNow& now, const WideVec (&pelvis)[3], std
   SineCosine pitch = sine_cosine(-foot.pitch);
   const SineCosine shank = {fnma(ahead.cosine, below.sine, ahead.sine * below.cosine),
                             fma(ahead.cosine, below.cosine, ahead.sine * below.sine)};
-  // An ankle that does not come near its limit, 29 degrees up, is not held, and its shank's angle need not be known.
+  // An ankle below 29 degrees up is not near its limit, so its pitch stays and the shank's angle is not needed.
   constexpr float near = 0.49F;
   const Wide ankle_sine = -fma(pitch.sine, shank.cosine, pitch.cosine * shank.sine);
   if (any(ankle_sine > near)) pitch = sine_cosine(-held_pitch(foot, atan2(shank.sine, shank.cosine)));
@@ -116,7 +116,7 @@ FetchAhead between(const Lanes<float>& first, const void* end) {
   return {&first, static_cast<std::size_t>(static_cast<const char*>(end) - reinterpret_cast<const char*>(&first))};
 }
 
-/// Of a strike: what comes before its trunk, what comes between that and the pressure, and how the pelvis turns.
+/// Parts of a strike: the words before the trunk, those between trunk and pressure, and the pelvis' rotations.
 FetchAhead before_trunk(const Lanes<float>& first, const HeelStrike<Lanes<float>>& strike) {
   return between(first, &strike.shape[step_shape::trunk.first]);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Legs as their own knees see them.
+// Frames of legs relative to their knees.
 
 #include <array>
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace mobil::inline v0_3 {
 
-/// A plan that will be needed soon, without what legs do not read of it: how the trunk leans, what the feet press, how
-/// arms swing.
+/// Prefetch of a plan without the parts that legs do not read: lean of the trunk, pressure of the feet, swing of the
+/// arms.
 class LegPlanAhead {
  public:
-  /// Nothing is fetched where `plan` is null.
+  /// Prefetches nothing if `plan` is null.
   explicit LegPlanAhead(const StepPlan<Lanes<float>>* plan);
-  /// So many lines of 64 bytes more.
+  /// Prefetches this many more lines of 64 bytes.
   void fetch(std::size_t lines) {
     while (part_ < parts_.size() && (lines = parts_[part_].fetch(lines)) > 0) ++part_;
   }
@@ -27,9 +27,9 @@ class LegPlanAhead {
   std::size_t part_ = 0;
 };
 
-/// Both legs of the pose that `pose_skeleton` makes of a step (systems/gait/kinematics.h), right first, without
-/// the pose: for muscles that nobody looks at. Places are within 5 µm of the pose's near the origin, and lose no digits
-/// far from it. `ahead` is fetched on the way.
+/// Computes both legs, right first, of the pose that `pose_skeleton` would write for a step
+/// (systems/gait/kinematics.h), without the pose. It serves unseen muscles. Near the origin positions are within 5 µm
+/// of the pose's, and far from it they lose no digits. `ahead` is prefetched meanwhile.
 void knee_frames(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                  const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2], LegPlanAhead& ahead);
 

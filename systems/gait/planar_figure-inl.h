@@ -1,5 +1,5 @@
-// A walker in the plane of the walk: legs of rods and a trunk, which tell where a step presses the ground. Include it
-// as engine/wide-inl.h says.
+// A walker in the plane of the walk: rods for the legs and a trunk, which give the centre of pressure of a step. See
+// engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_GAIT_PLANAR_FIGURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_GAIT_PLANAR_FIGURE_INL_H_
@@ -14,16 +14,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Of the body above the hips, in body heights: how high its centre of mass is above them and how far ahead; how far it
-/// goes ahead per radian of the trunk's lean, of the pelvis' tilt and of both arms' swing together; and the square of
-/// its radius of gyration as it leans. All but the last by least squares of what the 48 segments do in walks of 0.5 to
-/// 2 m/s.
+/// The body above the hips, in body heights: height of its centre of mass above the hips and distance ahead; its
+/// forward motion per radian of trunk lean, pelvic tilt and swing of both arms together; and the square of its radius
+/// of gyration as it leans. All except the last are least-squares fits to the 48 segments in walks of 0.5 to 2 m/s.
 namespace upper_body {
 constexpr float above = 0.169F, ahead = -0.0190F, per_lean = 0.0621F, per_tilt = 0.0984F, per_swing = 0.017F;
 constexpr float gyration2 = 0.013F;
 }  // namespace upper_body
 
-/// Masses in the plane: of each leg two points of the thigh, two of the shank and the foot; the body above.
+/// Point masses in the plane: per leg two of the thigh, two of the shank and one of the foot; and one of the body
+/// above.
 constexpr std::size_t planar_points = 11;
 
 constexpr float planar_mass(std::size_t point) {
@@ -40,13 +40,14 @@ struct PlanarFigure {
   Wide stance_pitch;
 };
 
-/// Where a knee that bends forward is between hip and ankle: from the hip, times how far the ankle is; and one over
-/// that.
+/// Position of a knee that bends forward, from the hip, multiplied by the distance of the ankle; and the reciprocal of
+/// that distance.
 struct BentKnee {
   Wide forward, up, unit;
 };
 
-/// `dz`, `dy`: from hip to ankle; `longest` that a leg is, square of the thigh's length, and that less the shank's.
+/// `dz` and `dy` lead from hip to ankle. `longest` is the maximum length of the leg, `thigh2` the square of the thigh's
+/// length, and `difference2` that minus the square of the shank's.
 HWY_INLINE BentKnee bent_knee(const Wide& dz, const Wide& dy, const Wide& longest, const Wide& thigh2,
                               const Wide& difference2) {
   const Wide far = sqrt(fma(dz, dz, dy * dy)), length = min(far, longest);
@@ -76,14 +77,14 @@ HWY_NOINLINE inline void planar_leg(const Wide& height, const Wide& hip_forward,
   out.up[first + 4] = ankle_up;
 }
 
-/// The hips, seen from the side: their middle, how far the stance side is before and above it, and how far they go
-/// aside.
+/// The hips in side view: their middle, position of the stance side ahead of and above it, and their lateral
+/// displacement.
 struct HipsSeen {
   Wide forward, up, before, above, aside;
 };
 
-/// At a part of the step's time, its phase and its waves; `along`: cosine of the slant of the line, since what who
-/// stands does along a slanting one is seen from the side.
+/// Computes the hips at a part of the step's time, its phase and its waves. `along` is the cosine of the line's slant,
+/// which projects steps of standing people along a slanted line into the side view.
 HWY_NOINLINE inline HipsSeen hips_seen(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
                                        const Wide& u, const Wide& phase, const StepWaves& waves, const Wide& along) {
   const HipsPlace hips = hips_place(plan, of, u, phase, waves);
@@ -92,7 +93,7 @@ HWY_NOINLINE inline HipsSeen hips_seen(const StepPlan<Lanes<float>>& plan, const
           half * pelvis_rotation(plan, waves, eased), half * pelvis_list(plan, waves, eased), hips.aside};
 }
 
-/// The leg that does not stand, from the stance foothold.
+/// The swing leg, relative to the stance foothold.
 struct OtherLeg {
   Wide hip_forward, hip_up, ankle_forward, ankle_up;
   Wide part;  // of the swing
@@ -109,7 +110,7 @@ HWY_NOINLINE inline OtherLeg other_leg(const StepPlan<Lanes<float>>& plan, const
           select(other.swings, other.up, leaves.up.value), other.part};
 }
 
-/// At a part of the step's time and its phase; `along`: as hips_seen has it.
+/// Computes the figure at a part of the step's time and its phase. `along` is that of hips_seen.
 HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& u,
                                        const Wide& phase, const StepWaves& waves, const Wide& along,
                                        PlanarFigure& out) {
@@ -143,8 +144,8 @@ HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const
   out.up[planar_points - 1] = fma(wide(b::above), height, hips.up);
 }
 
-/// Between two figures `apart` seconds from each other: mean rates of the angular momentum's sum (z ẏ − y ż, the
-/// trunk's turning included) and of the height of the centre of mass, per kg.
+/// Mean rates between two figures `apart` seconds from each other, per kg: of the total angular momentum (z ẏ − y ż,
+/// including the trunk's rotation) and of the height of the centre of mass.
 struct PlanarMotion {
   Wide turning, rising;
 };

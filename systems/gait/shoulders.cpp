@@ -16,7 +16,7 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr std::size_t lowest = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
 
-/// What part of the shoulders' turn each segment from the fifth lumbar vertebra to the head has made.
+/// Returns the part of the shoulders' turn that each segment from the fifth lumbar vertebra to the head has made.
 constexpr auto turn_parts() {
   constexpr std::size_t below = shoulders - lowest + 1;
   std::array<float, head - lowest + 1> parts{};
@@ -31,7 +31,7 @@ constexpr auto turn_parts() {
   return parts;  // the head's is 0
 }
 
-/// A turn about the vertical with a sine and cosine of its half that are good to 1e-7 within a right angle.
+/// Returns a rotation about the vertical. Sine and cosine of half its angle are accurate to 1e-7 within a right angle.
 HWY_INLINE WideQuat small_turn(const Wide& angle) {
   const Wide half = 0.5F * angle, squared = half * half;
   const Wide sine =
@@ -49,7 +49,7 @@ void shoulders_block(const Lanes<float>& turn_rad, Pose<Lanes<float>>& pose) {
   const auto lies = [&](std::size_t s) HWY_ATTR { return load(pose.position_m[s]); };
   const auto turned = [&](std::size_t s, const WideQuat& by)
                           HWY_ATTR { store(by * load(pose.rotation[s]), pose.rotation[s]); };
-  // A segment keeps its place on the one below, which has turned: as that one lay, and as it lies.
+  // A segment keeps its place on the rotated one below, which moves from `lay` to `lying`.
   WideVec lay = lies(lowest), lying = lay;
   WideQuat below = small_turn(parts[0] * turn), trunk = below;
   WideVec trunk_lay = lay, trunk_lies = lay;
@@ -70,7 +70,7 @@ void shoulders_block(const Lanes<float>& turn_rad, Pose<Lanes<float>>& pose) {
 }
 
 void ease_block(AvoidanceState<Lanes<float>>& course, float tick_s, float decay) {
-  constexpr float rate = shoulder_spring_per_s;  // critically damped, solved exactly: ticks do not matter
+  constexpr float rate = shoulder_spring_per_s;  // critically damped, solved exactly: independent of the tick
   const Wide to = load(course.turn_to_rad), turn = load(course.turn_rad), speed = load(course.turn_rad_s);
   const Wide off = turn - to, pull = fma(wide(rate), off, speed);
   const Wide next = decay * fma(wide(tick_s), pull, off), next_speed = decay * fnma(wide(rate * tick_s), pull, speed);
@@ -94,7 +94,7 @@ void turn_shoulders(const Lanes<float>& turn_rad, Pose<Lanes<float>>& pose) {
 }
 
 void ease_shoulders(AvoidanceState<Lanes<float>>& course, float tick_s) {
-  // e to the power of as many springs' times, by its series: good to 1e-5 in ticks of up to 0.1 s.
+  // Exponential of the tick over the spring's time by its series, accurate to 1e-5 for ticks of up to 0.1 s.
   const float x = shoulder_spring_per_s * tick_s;
   const float growth = 1 + x * (1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6 * (1 + x / 7))))));
   HWY_DYNAMIC_DISPATCH(ease_block)(course, tick_s, 1 / growth);

@@ -10,7 +10,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// Values go into their places where they are more than what is there.
+/// Stores the maximum of each bound.
 class Furthest {
  public:
   explicit Furthest(StepBounds<Lanes<float>>& bounds) : value_(bounds.value) {}
@@ -18,7 +18,7 @@ class Furthest {
     Lanes<float>& kept = value_[static_cast<std::size_t>(bound)];
     store(max(load(kept), value), kept);
   }
-  /// Of something that goes both ways.
+  /// Notes a value that is bounded in both directions.
   HWY_INLINE void note(WalkBound less, WalkBound more, const Wide& value) const {
     note(less, -value);
     note(more, value);
@@ -28,7 +28,7 @@ class Furthest {
   Lanes<float>* value_;
 };
 
-/// The lowest point of a sole: under the heel's rim, the toes' joint or their tips.
+/// Returns the lowest point of a sole: under the heel's rim, the toes' joint or their tips.
 HWY_NOINLINE Wide lowest_point(const FootMotion& foot, const Wide& height) {
   using namespace unit_foot;
   Wide s, c, t_s, t_c;
@@ -39,7 +39,7 @@ HWY_NOINLINE Wide lowest_point(const FootMotion& foot, const Wide& height) {
   return fma(min(min(heel, on_joint), fma(wide(unit_foot::toes), t_s, on_joint)), height, foot.ankle_up);
 }
 
-/// Returns the forward angle of the line from hip to ankle.
+/// Notes the bounds of one leg. Returns the forward angle of the line from hip to ankle.
 HWY_NOINLINE Wide leg_bounds(const StepNow& now, std::size_t side, const Wide& height, const Furthest& furthest) {
   FootMotion foot = now.foot[side];
   const LegPlane leg = leg_plane(now, side, height);
@@ -62,7 +62,7 @@ HWY_NOINLINE Wide leg_bounds(const StepNow& now, std::size_t side, const Wide& h
   return direction;
 }
 
-/// How far the chest is from the pelvis: what is between bends about an axis of its own.
+/// Notes the bounds of the chest relative to the pelvis. The column between them bends about an axis of its own.
 HWY_NOINLINE void trunk_bounds(const PelvisMotion& motion, const Wide& turned, const Wide& lean,
                                const Furthest& furthest) {
   constexpr HalfAngle level = half_of(-neutral_tilt);

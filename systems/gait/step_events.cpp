@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// A place to the left of and ahead of the stance foothold, and a foot's heading there, in the world.
+/// Writes a foothold in the world, from its position left of and ahead of the stance foothold and the foot's heading.
 HWY_INLINE void put_foothold(const GaitState<Lanes<float>>& state, FootholdOf which, const Wide& left,
                              const Wide& forward, const Wide& turned, Footholds<Lanes<float>>& out) {
   const auto i = index(which);
@@ -25,7 +25,7 @@ HWY_INLINE void put_foothold(const GaitState<Lanes<float>>& state, FootholdOf wh
   store(heading + turned, out.heading_rad[i]);
 }
 
-/// As kinematics have them (assets/gait/on_line-inl.h): each foot stands beside its own point of the line.
+/// Computes footholds as in assets/gait/on_line-inl.h: each foot stands next to its own point of the line.
 void footholds_block(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                      Footholds<Lanes<float>>& out) {
   const Wide one = wide(1.0F), zero = wide(0.0F);
@@ -48,7 +48,7 @@ void footholds_block(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<f
                fnma(side, load(plan.to.toe_out), turn), out);
 }
 
-/// When in its step the other foot comes to the ground.
+/// Computes the time in the step at which the other foot lands.
 void landing_times_block(const StepPlan<Lanes<float>>& plan, Lanes<float>& seconds) {
   store(time_of_phase(plan, load(plan.landing)) * load(plan.duration_s), seconds);
 }
@@ -64,13 +64,13 @@ HWY_EXPORT(landing_times_block);
 
 namespace {
 
-/// Who comes to the ground before the step ends: in last steps and in steps of who stands.
+/// Returns true if the other foot lands before the step ends: in last steps and in steps of standing people.
 bool lands_early(const StepPlan<Lanes<float>>& plan, std::size_t lane) {
   return plan.landing[lane] > 0.0F && plan.landing[lane] < 1.0F;
 }
 
-/// Lanes to which something may come to pass in the tick: their steps end, the other foot leaves the ground, or it
-/// comes to it before the end.
+/// Returns the lanes that can have an event in this tick: their steps end, or the other foot leaves the ground or lands
+/// before the end.
 std::uint32_t lanes_to_look_at(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s) {
   const float slack = 1e-4F * tick_s + 2e-6F;  // more than the clock's units and rounding
   Lanes<std::uint32_t> look;
@@ -85,7 +85,7 @@ std::uint32_t lanes_to_look_at(const StepPlan<Lanes<float>>& plan, const GaitSta
   return lanes;
 }
 
-/// What is asked of few lanes; made once a block, when it is first asked for.
+/// Data needed by few lanes, computed once per block on first use.
 class BlockEvents {
  public:
   BlockEvents(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s, StepEvents* rows)
@@ -95,8 +95,8 @@ class BlockEvents {
     if (early) HWY_DYNAMIC_DISPATCH(landing_times_block)(plan, landing_s_);
   }
 
-  /// Feet that leave the ground and come to it after `from` and until `to`, in units since the step began, as it did
-  /// so many after the tick's beginning.
+  /// Adds feet that leave the ground or land after `from` and up to `to`, in units since the beginning of the step,
+  /// which is `began` units after the beginning of the tick.
   void in_step(std::size_t lane, std::int32_t from, std::int32_t to, std::int32_t began) {
     const std::uint32_t other = state_.stance_side[lane] ^ 1U;
     const std::int32_t off = units.of(plan_.double_support_s[lane]);
@@ -112,7 +112,7 @@ class BlockEvents {
     const auto i = index(where);
     append(lane, at, kind, side, {places_.x_m[i][lane], 0, places_.z_m[i][lane]}, places_.heading_rad[i][lane]);
   }
-  /// Of the whole person, on the walking line.
+  /// Adds an event of the whole person, placed on the walking line.
   void add_on_line(std::size_t lane, std::int32_t at, StepEventKind kind, std::uint32_t side) {
     append(lane, at, kind, side, {state_.line_x_m[lane], 0, state_.line_z_m[lane]}, state_.heading_rad[lane]);
   }

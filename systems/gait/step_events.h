@@ -1,5 +1,5 @@
 #pragma once
-// When feet come to the ground and leave it within a tick, and where.
+// Times and positions of feet that land or leave the ground within a tick.
 
 #include <cstdint>
 
@@ -10,9 +10,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// Places of the ground under the ankles of feet that lie flat, and where the feet point (rad about +Y, 0 toward +Z,
-/// positive to the left): of the other foot before it leaves the ground, of the stance foot, of the other foot once it
-/// has come down.
+/// Ground positions under the ankles of flat feet, and directions of the feet (rad about +Y, 0 toward +Z, positive to
+/// the left). The entries are the other foot before it leaves the ground, the stance foot, and the other foot after
+/// landing.
 template <class F>
 struct Footholds {
   F x_m[3], z_m[3], heading_rad[3];  // by FootholdOf
@@ -20,9 +20,10 @@ struct Footholds {
 
 void footholds(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Footholds<Lanes<float>>& out);
 
-/// What comes to pass in a tick, `rows` being sixteen: before the walkers' clocks go on, what does until the step of
-/// each ends; once the steps that began in it are planned and their turns are (plan_next_step, turn_gait), the rest.
-/// Whoever's tick is longer than the step has what is left of the next one in the next tick.
+/// Record the events of a tick in sixteen `rows`. begin_step_events runs before the walkers' clocks advance and records
+/// events up to the end of each step. end_step_events runs after the new steps and their turns are planned
+/// (plan_next_step, turn_gait) and records the rest. With ticks longer than a step, the next step continues in the next
+/// tick.
 void begin_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s,
                        StepEvents* rows);
 void end_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s,

@@ -1,4 +1,4 @@
-// Where pelvis and feet are in a step. Include it as engine/wide-inl.h says.
+// Positions of pelvis and feet in a step. See engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_KINEMATICS_STEP_NOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_KINEMATICS_STEP_NOW_INL_H_
@@ -15,7 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// What the pelvis does now, seen from the right side; its turn and the hips' places from their middle, in its heading.
+/// Present motion of the pelvis, seen from the right: its rotation, and the hips relative to their middle, in its
+/// heading.
 struct PelvisMotion {
   Wide rotation, list, tilt;
   WideQuat turn;
@@ -35,13 +36,13 @@ HWY_NOINLINE inline PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& pla
   return m;
 }
 
-/// Where the pelvis is and heads, in the frame of the stance foothold; the heading there, sine and cosine.
+/// Position and heading of the pelvis in the frame of the stance foothold, with sine and cosine of the heading.
 struct PelvisPlace {
   WideVec position;
   Wide heading, sine, cosine;
 };
 
-/// The lower of two, rounded off where they are within `width`: C², never above either.
+/// Returns the lower of two values, rounded where they are within `width` of each other: C², never above either.
 HWY_INLINE Wide lower_of(const Wide& a, const Wide& b, const Wide& width) {
   const Wide d = clamp((b - a) / width, -1.0F, 1.0F);
   // The positive part of d with (1 − d²) 3/4 as its second derivative.
@@ -49,8 +50,8 @@ HWY_INLINE Wide lower_of(const Wide& a, const Wide& b, const Wide& width) {
   return min(a, b) - width * (rounded - max(d, 0.0F));
 }
 
-/// A foot in the air that its leg cannot reach is drawn in toward the hip: smoothly, from `rounding` of the leg's
-/// length before it, and less the nearer it is to the ground it left or comes to.
+/// Draws a foot in the air that its leg cannot reach toward the hip. This is smooth: it starts `rounding` of the leg's
+/// length before the limit, and is weaker near the ground at toe-off and landing.
 HWY_NOINLINE inline void draw_in(FootMotion& foot, Foothold& at, const PelvisPlace& root, const PelvisMotion& motion,
                                  std::size_t side, const Wide& height, float rounding) {
   const WideVec& hip = motion.hip[side];
@@ -69,7 +70,7 @@ HWY_NOINLINE inline void draw_in(FootMotion& foot, Foothold& at, const PelvisPla
   foot.ankle_up = fma(part, dy, root.position.y + hip.y);
 }
 
-/// Height of the middle of the hips at which a leg is as straight as a knee becomes.
+/// Returns the height of the middle of the hips at which a leg is as straight as a knee becomes.
 HWY_NOINLINE inline Wide highest_hips(const FootMotion& foot, const Foothold& at, const PelvisPlace& root,
                                       const PelvisMotion& motion, std::size_t side, const Wide& height) {
   const WideVec& hip = motion.hip[side];
@@ -98,18 +99,17 @@ HWY_INLINE FootMotion foot_of(const WideMask& stands, const FootMotion& stance, 
           select(stands, wide(0.0F), other.in_the_air)};
 }
 
-/// The hips give way to legs that a turn moves aside, so that the centre of mass keeps to the line: by this part of how
-/// far the ankles are moved.
+/// Part of the ankles' sideways displacement in a turn by which the hips yield, to keep the centre of mass on the line.
 constexpr float give_way = 0.03F;
 
-/// How much further to the left of the line a foot is than in a straight walk.
+/// Returns the lateral position of a foot, to the left of the line, minus that of a straight walk.
 HWY_INLINE Wide beside(const OnLine& on, const PelvisPlace& root, const Foothold& at, const Wide& straight) {
   return fma(at.ankle.left - on.place.left, root.cosine, (on.place.forward - at.ankle.forward) * root.sine) - straight;
 }
 
-/// Pelvis and feet in the frame of the stance foothold, and what all of a pose is made of.
+/// Pelvis and feet in the frame of the stance foothold, from which a pose is built.
 struct StepNow {
-  Wide part, eased;  // of the step's time that is over
+  Wide part, eased;  // elapsed part of the step's time
   StepWaves waves;
   MixedShape shape;
   PelvisMotion motion;
@@ -117,13 +117,14 @@ struct StepNow {
   WideMask stands[2];
   FootMotion foot[2];
   Foothold at[2];
-  Slope under[2];  // where there is footing, as is:
-  Wide lean;       // more than on level ground
+  Slope under[2];  // only with footing, as is:
+  Wide lean;       // added to that on level ground
 };
 
 constexpr std::size_t step_now_fetches = 7;
 
-/// `footing`: null on level ground. `fetch` is called so many times, evenly over the work: to fetch ahead.
+/// Computes the state of a step. `footing` is null on level ground. `fetch` is called step_now_fetches times, evenly
+/// over the work, for prefetching.
 template <class Fetch>
 HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& plan,
                             const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing,
@@ -197,13 +198,13 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
     draw_in(now.foot[side], now.at[side], pelvis, motion, side, height, footing != nullptr ? 0.06F : 0.01F);
   }
   fetch();
-  // Where a leg would be too short, in a turn, at a very slow walk or on uneven ground, the pelvis sinks.
+  // The pelvis sinks where a leg would be too short: in a turn, at a very slow walk or on uneven ground.
   Wide rounding = 0.0002F * height;
   if (footing != nullptr) rounding = rounding + gentler(uneven, eased, height);
   const auto limit = [&](std::size_t side) HWY_ATTR {
     const Wide highest = highest_hips(now.foot[side], now.at[side], pelvis, motion, side, height);
     if (footing == nullptr) return highest;
-    // On its way up a foot has been drawn in already and need not hold the hips back; before it lands it does.
+    // A rising foot has already been drawn in and does not hold the hips back, but a foot about to land does.
     const FootMotion& foot = now.foot[side];
     const Wide free = smooth(4.0F * foot.in_the_air) * (1.0F - smooth((foot.part - 0.35F) * (1.0F / 0.3F)));
     return fma(0.05F * height, free, highest);
@@ -212,11 +213,11 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
   return now;
 }
 
-/// A leg's thigh and shank in the plane of hip, knee and ankle. Of the frame that faces where the pelvis heads, origin
-/// in the middle of the hips.
+/// A leg's thigh and shank in the plane of hip, knee and ankle. The frame faces along the pelvis' heading, with its
+/// origin in the middle of the hips.
 struct LegPlane {
   WideVec to_ankle;  // from the hip
-  Wide across2;      // of its part that is not ahead, squared
+  Wide across2;      // square of the part that is not ahead
   Wide distance;     // to the ankle, at most as long as the leg
   Wide near, bulge;  // of the knee: along the line from hip to ankle, and off it
 };
@@ -226,8 +227,8 @@ HWY_INLINE LegPlane leg_plane(const StepNow& now, std::size_t side, const Wide& 
   const Wide lower = static_cast<float>(fraction::shank) * height;
   const PelvisPlace& root = now.pelvis;
   const Foothold& at = now.at[side];
-  // In the frame of the stance foothold, then turned into the pelvis's heading: small numbers, so that the knee keeps
-  // its digits however far somebody walks.
+  // The frame of the stance foothold, rotated to the pelvis' heading, has small numbers. The knee keeps its digits at
+  // any distance from the origin.
   const WideVec& hip = now.motion.hip[side];
   const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
   LegPlane leg;
@@ -237,14 +238,14 @@ HWY_INLINE LegPlane leg_plane(const StepNow& now, std::size_t side, const Wide& 
   leg.across2 = fma(d.x, d.x, d.y * d.y);
   const Wide longest = (upper + lower) * 0.999999F;
   leg.distance = min(sqrt(fma(d.z, d.z, leg.across2)), longest);
-  // Where the knee's height over the hip–ankle line falls.
+  // Foot of the knee's perpendicular on the line from hip to ankle.
   leg.near = fma(leg.distance, leg.distance, (upper - lower) * (upper + lower)) / (2.0F * leg.distance);
   leg.bulge = sqrt(max((upper - leg.near) * (upper + leg.near), 0.0F));
   return leg;
 }
 
-/// The pitch of a foot in the air whose ankle would bend up too far: smoothly less. Ankles of usual walks do not come
-/// near. `shank`: forward angle of the shank, from where the ground is level.
+/// Returns the pitch of a foot in the air, smoothly reduced if the ankle would bend up too far. Ankles of usual walks
+/// do not come near that. `shank` is the forward angle of the shank relative to the slope of the ground.
 HWY_INLINE Wide held_pitch(const FootMotion& foot, const Wide& shank) {
   constexpr float most = 0.61F, width = 0.09F;  // 35 and 5 degrees
   const Wide ankle = foot.pitch - shank;

@@ -1,4 +1,4 @@
-// From one heel strike to the next: sixteen steps solved side by side.
+// Steps from one heel strike to the next, solved for sixteen walkers at once.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE __BASE_FILE__
@@ -19,20 +19,19 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 using namespace step_limits;
 
-/// Of a first and a last step: phases until its foot leaves the ground, and at which it comes to it; of one on the
-/// spot.
+/// Phases: toe-off of a first step, landing of a last step, and both for a step on the spot.
 constexpr float first_double_support = 0.45F, last_landing = 0.85F;
 constexpr float spot_double_support = 0.05F, spot_landing = 0.95F;
-/// How much further than straight legs need the hips sink between two such steps.
+/// Depth to which the hips sink between the two parts of a step aside, over that needed by straight legs.
 constexpr float sinks_apart = 2.0F;
-/// How far outside the soles the centre of pressure may lie before a step is marked, of the height.
+/// Distance of the centre of pressure outside the soles from which a step is marked, of the height.
 constexpr float max_astray = 0.04F;
 
 HWY_INLINE WideMask either(const WideMask& m, const Wide& yes, const Wide& no) {
   return select(m, yes, no) > 0.5F;
 }
 
-/// Of a step, at a speed.
+/// Returns the usual step length at a speed.
 HWY_NOINLINE Wide usual_length(const Wide& height, const Wide& speed) {
   const Wide leg = ratio(fraction::hip_height, height);
   Lanes<float> of;
@@ -41,20 +40,21 @@ HWY_NOINLINE Wide usual_length(const Wide& height, const Wide& speed) {
   return load(of) * leg;
 }
 
-/// Whether somebody has put one foot aside and not the other yet: that comes before anything else.
+/// Returns true if a person has put one foot aside but not the other, which has priority over all requests.
 HWY_INLINE WideMask half_aside(const HeelStrike<Lanes<float>>& from) {
   return stands(from) & (load(from.length_m) > 0.0F);
 }
 
-/// How much of a step is solved: all of it, or its times and footholds alone.
+/// Parts of a step to solve: all of it, or only times and footholds.
 enum class Solve { whole, times };
 
-/// Turns from which on a strike has the usual style alone, and up to which its own (own_turn_rad); and changes of
-/// speed, m/s for a leg of leg_m. Steps of who goes on change it by 0.6 at most; a third of the own style then stays.
+/// Turn from which a strike has only the usual style (up to own_turn_rad it has its own), and the two limits for
+/// changes of speed, m/s for a leg of leg_m. A continuing walk changes speed by at most 0.6 per step, which keeps a
+/// third of the own style.
 constexpr float calm_turn_rad = 0.5F, calm_change = 0.9F, own_change = 0.05F;
 
-/// A style with which joints have room for a step that turns or changes its speed: of the own one `own`, 0 to 1, the
-/// rest of the usual one. Returns `own`, and 1 where the own style is the usual one.
+/// Mixes a style with the usual one, so that joints have room for a step that turns or changes speed. `own` is the
+/// weight of the own style, 0 to 1. Returns `own`, or 1 if the own style is the usual one.
 HWY_NOINLINE Wide calm_style(const Wide& own, const GaitStyleOf<Lanes<float>>& style, GaitStyleOf<Lanes<float>>& calm) {
   constexpr GaitStyle usual;
   const auto* const from = reinterpret_cast<const float*>(&style);
@@ -67,7 +67,7 @@ HWY_NOINLINE Wide calm_style(const Wide& own, const GaitStyleOf<Lanes<float>>& s
   return select(off_usual(style) > 0.0F, own, wide(1.0F));
 }
 
-/// The steps toward the wanted gait: the strike at the end of this one, at whose beginning `turn` is left to turn.
+/// Computes the strike at the end of this step toward the wanted gait. `turn` is the turn left at its beginning.
 HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted, const Wide& turn,
                               const HeelStrike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
                               Solve solve, HeelStrike<Lanes<float>>& to) {
@@ -100,7 +100,7 @@ HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<L
   store(own, to.own_style);
 }
 
-/// Whether all words of two components are the same, lane by lane.
+/// Returns the lanes in which all words of two components are equal.
 template <class C>
 HWY_INLINE WideMask same_words(const C& a, const C& b) {
   constexpr std::size_t words = sizeof(C) / sizeof(Lanes<float>);
@@ -117,12 +117,12 @@ HWY_INLINE void store_flags(const WideMask& mask, Lanes<std::uint32_t>& words) {
   for (std::size_t l = 0; l < lane_count; ++l) words[l] = static_cast<std::uint32_t>(one[l]);
 }
 
-/// The other foot's way through the air.
+/// Plans the path of the other foot through the air.
 HWY_NOINLINE void plan_swing(const Wide& height, StepPlan<Lanes<float>>& plan) {
   const OneShape to{plan.to.shape};
   const LeavingShape from(plan);
   const Wide off = load(plan.double_support), part = 0.5F * (load(plan.landing) - off);  // of the cycle
-  // How the pitch leaves the ground and comes to it, by the part of the swing.
+  // Pitch at toe-off and at landing, as functions of the part of the swing.
   const Wide rising = 2.0F * part / max(off - from.begins(), 1e-3F);
   Moving leaving = {wide(0.0F), wide(0.0F), wide(0.0F)};
   for (std::size_t i = 0; i < step_shape::rise.count; ++i) {
@@ -162,7 +162,7 @@ HWY_NOINLINE void plan_swing(const Wide& height, StepPlan<Lanes<float>>& plan) {
                 scaled(on_along, on_s, load(plan.to.half_width_m)), plan.swing_out_m);
 }
 
-/// Who stands, and puts no foot down or puts one down elsewhere.
+/// Standing people who keep both feet in place (stays) or move one (spot).
 struct Standing {
   WideMask stays, spot;
 };
@@ -172,7 +172,7 @@ HWY_INLINE Standing standing(const StepPlan<Lanes<float>>& plan, const WideMask&
   return {either(spot, wide(0.0F), select(still, wide(1.0F), wide(0.0F))), spot};
 }
 
-/// The times and lengths of the step from plan.from to plan.to.
+/// Computes the times and lengths of the step from plan.from to plan.to.
 HWY_NOINLINE void time_step(const Gait<Lanes<float>>& wanted, const WideMask& right_lands, const WideMask& on_spot,
                             StepPlan<Lanes<float>>& plan) {
   const HeelStrike<Lanes<float>>&from = plan.from, &to = plan.to;
@@ -200,13 +200,13 @@ HWY_NOINLINE void time_step(const Gait<Lanes<float>>& wanted, const WideMask& ri
   store(load(from.length_m), plan.length_before_m);
 }
 
-/// 0 where both feet are as far out and point as far out.
+/// Returns 0 where both feet are equally far out and equally toed out.
 HWY_INLINE Wide feet_differ(const StepPlan<Lanes<float>>& plan) {
   return abs(load(plan.trailing_half_width_m) - load(plan.from.half_width_m)) +
          abs(load(plan.trailing_toe_out) - load(plan.from.toe_out));
 }
 
-/// Whether the step is followed by its mirror image. `alike`: its strikes are the same.
+/// Marks steps that are followed by their mirror images. `alike` is true where both strikes of the step are equal.
 HWY_NOINLINE void settle_step(const Gait<Lanes<float>>& wanted, const WideMask& alike, const WideMask& on_spot,
                               StepPlan<Lanes<float>>& plan) {
   const HeelStrike<Lanes<float>>& to = plan.to;
@@ -250,13 +250,13 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   settle_step(wanted, alike, on_spot, plan);
 }
 
-/// Of a step its times, its footholds and whether it settles.
+/// Computes only the times and footholds of a step and `settled`.
 HWY_NOINLINE void time_step_alone(const Gait<Lanes<float>>& wanted, const WideMask& right_lands,
                                   const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   time_step(wanted, right_lands, on_spot, plan);
   const HeelStrike<Lanes<float>>&from = plan.from, &to = plan.to;
   Wide off = wide(0.0F);
-  // All else of a strike follows from these.
+  // All other values of a strike follow from these.
   for (const auto word :
        {&HeelStrike<Lanes<float>>::speed_m_s, &HeelStrike<Lanes<float>>::length_m, &HeelStrike<Lanes<float>>::pace_hz,
         &HeelStrike<Lanes<float>>::advance_m, &HeelStrike<Lanes<float>>::half_width_m,
@@ -271,15 +271,15 @@ HWY_INLINE Wide load_whole(const Lanes<std::uint32_t>& words) {
   return load(out);
 }
 
-/// Who stands and is to step aside does so, by a strike midway at which the hips are half there; then the other foot
-/// follows. The foot on that side goes first. Returns who does.
+/// Plans a requested step aside of standing people: a strike midway, at which the hips are halfway, and then the other
+/// foot. The foot on that side moves first. Returns the mask of these people.
 HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
                                const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
   Lanes<float> begins{};
   for (std::size_t l = 0; l < lane_count; ++l) {
     const bool stood = plan.from.speed_m_s[l] <= 0.0F;
     plan.swaps[l] = 0;
-    if (stood && plan.from.length_m[l] > 0.0F) {  // under way
+    if (stood && plan.from.length_m[l] > 0.0F) {  // already moving aside
       begins[l] = 1.0F;
       continue;
     }
@@ -301,7 +301,7 @@ HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<La
     plan.to.advance_m[l] = way;
     plan.to.pace_hz[l] = 1.0F / (displacing_s + displacing_s_per_m * way);
     plan.to.shape[step_shape::hips_forward.first][l] = -0.5F * way;
-    // Legs that stand apart reach less high.
+    // Legs apart reach less high.
     const float apart =
         0.25F * way * way + way * std::abs(exact::sin(plan.slant_rad[l])) * ankle_outward * size.height_m[l];
     plan.to.shape[step_shape::hips_up.first][l] -=
@@ -327,7 +327,7 @@ void follow_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
                  const GaitState<Lanes<float>>& state, Solve solve, StepPlan<Lanes<float>>& plan) {
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask right_lands = equal(state.stance_side, Side::left), fresh = zero > one;
-  const WideMask sides_change = load(plan.landing) > 0.0F;  // as advance_gait has it
+  const WideMask sides_change = load(plan.landing) > 0.0F;  // as in advance_gait
   auto keep = [](const WideMask& where, const Lanes<float>& kept, Lanes<float>& value) {
     store(select(where, load(kept), load(value)), value);
   };
@@ -336,15 +336,15 @@ void follow_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
   plan.from = plan.to;
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   next_strike(load(size.height_m), load(size.mass_kg), wanted, way, plan.from, fresh, right_lands, solve, plan.to);
-  // Who stands steps on the spot until both feet point where they are to, and stand as the style has them: one may be
-  // of a calm strike, or the style another than before.
+  // Standing people step in place until both feet have the requested heading and stance of the style. One foot can come
+  // from a calmed strike, or the style can have changed.
   const WideMask turns = (abs(way) > off_heading) | (abs(load(state.turn_before_rad)) > 0.0F);
   const WideMask displaces = displace(size, wanted, state, plan);
   const Wide from_style = abs(load(plan.from.half_width_m) - load(plan.to.half_width_m)) +
                           abs(load(plan.from.toe_out) - load(plan.to.toe_out));
   const WideMask on_spot = (turns | (feet_differ(plan) + from_style > 0.0F)) | displaces;
   const WideMask stays = either(on_spot, zero, select(stands_still(plan), one, zero));
-  keep(stays, plan.from.half_width_m, plan.to.half_width_m);  // feet that stand stay where they are
+  keep(stays, plan.from.half_width_m, plan.to.half_width_m);  // standing feet stay in place
   keep(stays, plan.from.toe_out, plan.to.toe_out);
   const WideMask swapped = load_whole(plan.swaps) > 0.0F;
   const WideMask lands_right = either(swapped, select(right_lands, zero, one), select(right_lands, one, zero));

@@ -1,4 +1,4 @@
-// What a walker of a given body and gait is like at heel strike. Include it as engine/wide-inl.h says.
+// Heel strike of a walker with a given body and gait. See engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_GAIT_STRIKE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_GAIT_STRIKE_INL_H_
@@ -28,16 +28,16 @@ HWY_INLINE Wide ratio(double fraction_of_height, const Wide& height) {
   return wide(static_cast<float>(fraction_of_height)) * height;
 }
 
-/// What a strike is computed from, in lanes.
+/// Inputs of a strike, in lanes.
 struct StrikeRequest {
   Wide height, mass;
   Wide speed, step_length;  // of the gait at the strike; speed 0 stands
   Wide length;              // of the step that ends here
-  Wide slower;              // how much longer than the mean step it takes, as a part of that
+  Wide slower;              // extra duration relative to the mean step
 };
 
-/// Height of the hips of somebody who stands, beside that of straight legs. Legs of one stiffness sink under the weight
-/// that a body of this height carries beyond 24.5 kg/m²; they sink less and less.
+/// Returns the height of a standing person's hips relative to straight legs. Legs of equal stiffness sink under the
+/// weight above 24.5 kg/m² of a body of this height, with a saturating sag.
 HWY_NOINLINE inline Wide sunk(const Wide& height, const Wide& mass, const GaitStyleOf<Lanes<float>>& style) {
   const Wide stand = ratio(fraction::hip_height, height);
   const Wide stiffness = load(style.leg_stiffness_n_per_m) * height / 1.8F;
@@ -47,30 +47,30 @@ HWY_NOINLINE inline Wide sunk(const Wide& height, const Wide& mass, const GaitSt
   return stand * (load(style.mid_stance_height) - 1.0F - sag);
 }
 
-/// How much wider than those of 24.5 kg/m² heavier people's steps are: 30 % from 22.1 to 35.5 kg/m² (Browning and Kram
-/// 2007). At one speed their steps are as long, and both feet are down for as long (Vartiainen and others 2012).
+/// Returns the factor by which heavier people's steps are wider than at 24.5 kg/m²: 30 % from 22.1 to 35.5 kg/m²
+/// (Browning and Kram 2007). At one speed, step length and double support are the same (Vartiainen and others 2012).
 HWY_INLINE Wide wider_steps(const Wide& height, const Wide& mass) {
   return fma(max(mass / (height * height) - 24.5F, 0.0F), wide(0.0224F), wide(1.0F));
 }
 
-/// By style_effects; and the greatest of them, to pass over who walks as usual.
+/// Amounts by style_effects, and the largest of them, which is 0 for the usual walk.
 struct StyleAmounts {
   Lanes<float> of[style_effects.size()];
   Lanes<float> most;
 };
 
-/// How far the pelvis of somebody sinks whose steps are uneven, of the height, per part by which their lengths or their
-/// times are: so that neither leg has to be longer than it is.
+/// Sink of the pelvis in uneven steps, of the height, per relative difference in length or time. Without it a leg would
+/// have to be longer than it is.
 constexpr float limping_sink = 0.06F, late_sink = 0.12F;
 
-/// How much lower than with straight legs people stand, of the height: their knees are bent by some 6°.
+/// Difference in standing height to straight legs, of the height: knees are bent by about 6°.
 constexpr float soft_knees = 0.0006F;
 
-/// How a walk's posture differs from the usual one, in the units of style_effects and in their order.
+/// Returns the differences of a walk's posture from the usual one, in the units and order of style_effects.
 HWY_NOINLINE inline StyleAmounts style_amounts(const Wide& height, const GaitStyleOf<Lanes<float>>& style) {
   constexpr GaitStyle usual;
-  // A leg that is damped more bends less under its load: how far a spring of that damping (of critical) overshoots, by
-  // a parabola through 0.2, 0.4 and 1, of what it does at 0.4.
+  // More damping bends the leg less under load. The amount is the overshoot of a spring with this damping (of
+  // critical), relative to that at 0.4, by a parabola through 0.2, 0.4 and 1.
   const Wide damping = load(style.leg_damping) - usual.leg_damping;
   const Wide amounts[] = {
       load(style.strike_pitch_deg) - usual.strike_pitch_deg,
@@ -99,8 +99,8 @@ HWY_NOINLINE inline StyleAmounts style_amounts(const Wide& height, const GaitSty
   return out;
 }
 
-/// The table's step of each lane, in the body's own lengths; zero where the lane stands. `length`: of the step that
-/// ends here, also where it is not the mean of both sides.
+/// Looks up the table's step of each lane, in the body's own lengths; zero for standing lanes. `length` is that of the
+/// step that ends here, which can differ from the mean of both sides.
 HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wide& length, const StyleAmounts& amounts,
                                  HeelStrike<Lanes<float>>& strike) {
   const Wide leg = ratio(fraction::hip_height, height);
@@ -120,7 +120,7 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
     strike.posture.pelvis_rotation[l] = longer * static_cast<float>(step.usual.pelvis_rotation);
     strike.posture.pelvis_list[l] = static_cast<float>(step.usual.pelvis_list);
     strike.posture.pelvis_tilt[l] = static_cast<float>(step.usual.pelvis_tilt);
-    // The hips keep their part of a step that is shorter or longer than the table's.
+    // Hips keep their share of a step that is shorter or longer than the table's.
     const float tabled = std::clamp(far[l], static_cast<float>(step_table::length.front() * step.usual.step_length),
                                     static_cast<float>(step_table::length.back() * step.usual.step_length));
     const float beyond = -0.42F * (far[l] - tabled) * tall[l] * static_cast<float>(fraction::hip_height);
@@ -130,22 +130,22 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
     }
     if (fast[l] <= 0) continue;
     strike.shape[step_shape::hips_forward.first][l] += beyond;
-    // Legs that reach further than the table's stand lower: straight ones by this, to the second order. Much longer
-    // steps are beyond people.
+    // Legs that reach further than the table's lower the hips: straight legs by this much, to second order. People
+    // cannot make much longer steps.
     const float reach = std::min(far[l], 1.15F * tabled);
     const float further = std::max(reach * reach - tabled * tabled, 0.0F);
     strike.shape[step_shape::hips_up.first][l] -= 0.125F * further * tall[l] * static_cast<float>(fraction::hip_height);
   }
 }
 
-/// The foot comes down flat in `times` the time that its numbers are for, from the same landing: pitch, its rate and
-/// two more derivatives stay at heel strike, where the swing meets them. Where `times` is 1, to the bit.
+/// Multiplies the time until foot flat by `times`, with the same landing. Pitch and its first three derivatives at heel
+/// strike stay, where the swing meets them. A factor of 1 changes no bit.
 HWY_NOINLINE inline void flatten_within(const Wide& times, HeelStrike<Lanes<float>>& strike) {
   Lanes<float>* const k = strike.shape + step_shape::strike.first;
   const Wide pitch = load(k[0]), k1 = load(k[1]), k2 = load(k[2]), k3 = load(k[3]);
   const Wide times2 = times * times;
   const Wide first = times * k1, second = fma(times2, k2, 3.0F * k1 * (times - times2));
-  const Wide cubic = 3.0F * (k1 - k2) + k3 - 10.0F * pitch;  // of the pitch by the part of that time
+  const Wide cubic = 3.0F * (k1 - k2) + k3 - 10.0F * pitch;  // of the pitch as a function of the part of that time
   const Wide third = fma(times2 * times, cubic, 10.0F * pitch) - 3.0F * (first - second);
   const WideMask other = abs(times - 1.0F) > 0.0F;
   store(select(other, first, k1), k[1]);
@@ -157,7 +157,7 @@ HWY_INLINE Wide step_width(const StrikeRequest& r, const GaitStyleOf<Lanes<float
   return load(style.step_width_h) * wider_steps(r.height, r.mass);
 }
 
-/// Where and how fast a strike is: all that the footholds and times of steps follow from.
+/// Writes position and speed of a strike, from which footholds and times of steps follow.
 HWY_INLINE void time_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style,
                             HeelStrike<Lanes<float>>& strike) {
   const WideMask stands = r.speed <= 0.0F;
@@ -171,7 +171,7 @@ HWY_INLINE void time_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<floa
   store(load(style.toe_out_deg) * degree_f, strike.toe_out);
 }
 
-/// The strike of a gait at its own pace, or of standing where the speed is 0.
+/// Writes the strike of a gait at its own pace, or of standing at speed 0.
 HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style,
                                      HeelStrike<Lanes<float>>& strike) {
   constexpr GaitStyle usual;
@@ -195,7 +195,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   auto beyond = [](const Lanes<float>& value, float than) { return load(value) - than; };
   const Wide flat_as_tabled = load(strike.shape[step_shape::times.first]);
   more(step_shape::times, 0, walking(beyond(style.foot_flat_cycle, usual.foot_flat_cycle)));
-  // A foot lands heel first, foot flat comes after heel strike and toe-off after heel rise, however manners add up.
+  // For any sum of style effects a foot lands heel first, foot flat follows heel strike, and toe-off follows heel rise.
   auto within = [&](const ShapePart& part, std::size_t i, float low, float high) {
     Lanes<float>& number = strike.shape[part.first + i];
     store(clamp(load(number), low, high), number);
@@ -204,7 +204,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   within(step_shape::times, 0, -0.05F, 0.08F);
   within(step_shape::times, 1, -0.27F, 0.15F);
   flatten_within((usual_flat + load(strike.shape[step_shape::times.first])) / (usual_flat + flat_as_tabled), strike);
-  // Uneven steps: hips that go at one speed all the same. A table's step that is longer has them further back already.
+  // In uneven steps the hips keep a constant speed. A longer step of the table already has them further back.
   constexpr float further_back = 0.42F;
   more(step_shape::hips_forward, 0, walking(fma(wide(further_back - 0.5F), r.length - step, 0.5F * step * r.slower)));
   const Wide sink = sunk(r.height, r.mass, style), lean = load(style.trunk_lean_deg) * degree_f;

@@ -1,5 +1,5 @@
-// A thigh and a shank with its foot that hang on a moving hip (paper, section 4.1), in body heights and per kg. Include
-// it as engine/wide-inl.h says.
+// A thigh and a shank with its foot that hang on a moving hip (paper, section 4.1), in body heights and per kg. See
+// engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_GAIT_SWING_LEG_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_GAIT_SWING_LEG_INL_H_
@@ -18,13 +18,13 @@ struct SwingState {
   Wide thigh, shank, thigh_rate, shank_rate;
 };
 
-/// About hip and knee: forward on what hangs below (flexing the hip, extending the knee), per kg of the body and
-/// height².
+/// Torques about hip and knee that move the distal parts forward (flex the hip, extend the knee), per kg of the body
+/// and height².
 struct Torques {
   Wide hip, knee;
 };
 
-/// Acceleration of the hip against free fall, heights per s².
+/// Acceleration of the hip relative to free fall, heights per s².
 struct Pull {
   Wide forward, up;
 };
@@ -33,7 +33,7 @@ struct Pull {
 struct SwingLeg {
   float thigh_inertia, shank_inertia, coupling, thigh_moment, shank_moment, thigh, shank;
 
-  /// The angles of a leg between its hip and its ankle; the rates stay 0.
+  /// Returns the angles of a leg between its hip and its ankle, with rates 0.
   HWY_NOINLINE SwingState hanging(const OtherLeg& at) const {
     const Wide dz = at.ankle_forward - at.hip_forward, dy = at.ankle_up - at.hip_up;
     const BentKnee knee =
@@ -42,7 +42,7 @@ struct SwingLeg {
     return {atan2(knee_forward, -knee_up), atan2(dz - knee_forward, knee_up - dy), wide(0.0F), wide(0.0F)};
   }
 
-  /// That move it so.
+  /// Returns the torques that cause these accelerations.
   HWY_NOINLINE Torques torques(const SwingState& y, const Wide& thigh_bend, const Wide& shank_bend,
                                const Pull& pull) const {
     Wide s3, c3, s4, c4;
@@ -94,7 +94,7 @@ struct SwingBends {
     solve(f3, f4, thigh, shank);
   }
 
-  /// Rate of change of a derivative of the state, whose torques change by `by`.
+  /// Returns the rate of change of a derivative of the state whose torques change by `by`.
   HWY_INLINE SwingState derivative(const SwingState& d, const Torques& by) const {
     const Wide apart = d.thigh - d.shank;
     const Wide f3 = by.hip - by.knee + thigh_turns_ * d.thigh + s_ * apart * shank -
@@ -115,7 +115,7 @@ struct SwingBends {
   Wide thigh_rate_, shank_rate_, c_, s_, per_, thigh_turns_, shank_turns_;
 };
 
-/// Where the ankle is from the hip.
+/// Position of the ankle relative to the hip.
 struct AnkleBelow {
   Wide forward, up;
   HWY_INLINE AnkleBelow(const SwingLeg& leg, const SwingState& y) {

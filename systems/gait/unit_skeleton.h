@@ -1,5 +1,5 @@
 #pragma once
-// The body of height 1 m as kernels read it.
+// The body of height 1 m in the form that kernels read.
 
 #include <cstddef>
 

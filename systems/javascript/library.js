@@ -1,7 +1,7 @@
-// The WebAssembly module: its memory as typed arrays, the structs of mobil.h in it, and errors. No glue is generated.
+// The WebAssembly module: its memory as typed arrays, the structs of mobil.h, and errors.
 import { constants, structs } from './interface.js';
 
-/** What mobil refused, in its own words: what, where, the valid range, and how to mend it. `code` is that of mobil.h. */
+/** Error of a refused call: the mistake, its place, the valid range and the remedy. `code` is that of mobil.h. */
 export class MobilError extends Error {
   constructor(line, code) {
     super(line);
@@ -13,16 +13,16 @@ export class MobilError extends Error {
 const views = { pointer: 'Uint32', size_t: 'Uint32', int: 'Int32', 'unsigned int': 'Uint32', float: 'Float32', double: 'Float64' };
 const bytesOf = (type) => (type === 'double' ? 8 : 4);
 
-/** Whether this engine runs the library: SIMD of 128 bits. */
+/** Returns true if this engine can run the library: it has SIMD of 128 bits. */
 export function canRun() {
   // (module (func (drop (i8x16.splat (i32.const 0)))))
   return typeof WebAssembly === 'object' && WebAssembly.validate(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 9, 1, 7, 0, 65, 0, 253, 15, 26, 11]));
 }
 
-/** Whether this engine has relaxed SIMD and its multiply-add is fused. Only then are the library's bits those of
- *  desktops, and only then can the module `mobil.wasm` run; `mobil-plain.wasm` runs wherever `canRun()` says so. */
+/** Returns true if this engine has relaxed SIMD with a fused multiply-add. The module `mobil.wasm` needs it, and has the
+ *  bits of desktops; `mobil-plain.wasm` needs `canRun()` only. */
 export function canFuse() {
-  // f32x4.relaxed_madd of a = 1 + 2⁻¹², a·a − (1 + 2⁻¹¹): 2⁻²⁴ where it is fused, 0 where the product is rounded.
+  // f32x4.relaxed_madd of a = 1 + 2⁻¹², a·a − (1 + 2⁻¹¹): 2⁻²⁴ if fused, 0 if the product is rounded.
   const module = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 8, 1, 96, 3, 125, 125, 125, 1, 125, 3, 2, 1, 0, 7, 5, 1, 1, 109, 0, 0, 10, 22, 1, 20, 0, 32, 0, 253, 19, 32, 1, 253, 19, 32, 2, 253, 19, 253, 133, 2, 253, 31, 0, 11]);
   if (!canRun() || !WebAssembly.validate(module)) return false;
   const { m } = new WebAssembly.Instance(new WebAssembly.Module(module)).exports;
@@ -31,7 +31,7 @@ export function canFuse() {
 }
 
 export class Library {
-  /** `source`: the address of a module, or its bytes. */
+  /** Loads a module. `source`: its address or bytes. */
   static async load(source) {
     const self = new Library();
     const imports = { wasi_snapshot_preview1: self.#wasi() };
@@ -44,13 +44,13 @@ export class Library {
     return self;
   }
 
-  // Memory may grow in any call: views are made anew when it has.
+  // Memory can grow in any call, which requires new views.
   get u8() { return this.#view('bytes', Uint8Array); }
   get u32() { return this.#view('words', Uint32Array); }
   get f32() { return this.#view('floats', Float32Array); }
   get data() { return this.#view('mixed', DataView); }
 
-  /** Memory of the module; release it. */
+  /** Allocates memory of the module, to be released by release(). */
   allocate(bytes) {
     const at = this.x.malloc(Math.max(bytes, 1));
     if (at === 0) throw new MobilError(`no memory for ${bytes} bytes; this page has ${this.memory.buffer.byteLength}`, constants.MOBIL_MEMORY);
@@ -58,7 +58,7 @@ export class Library {
   }
   release(at) { this.x.free(at); }
 
-  /** Runs `body` with memory that is released when it returns. */
+  /** Runs `body` with an allocator whose memory is released when it returns. */
   within(body) {
     const taken = [];
     try {
@@ -72,7 +72,7 @@ export class Library {
   }
 
   #slots = [];
-  /** A place in the module's table of functions for one of five numbers that returns one; dropHost() frees it. */
+  /** Adds a function of five numbers that returns one to the module's table, and returns its slot; dropHost() frees it. */
   host(call) {
     // (module (import "h" "f" (func (param i32 i32 i32 i32 i32) (result i32))) (export "f" (func 0)))
     const module = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 10, 1, 96, 5, 127, 127, 127, 127, 127, 1, 127, 2, 7, 1, 1, 104, 1, 102, 0, 0, 7, 5, 1, 1, 102, 0, 0]);
@@ -92,7 +92,7 @@ export class Library {
     while (this.u8[end]) ++end;
     return new TextDecoder().decode(this.u8.slice(at, end));
   }
-  /** A string as the C interface takes it. */
+  /** Allocates a C string. */
   string(text, take) {
     const bytes = new TextEncoder().encode(text), at = take(bytes.length + 1);
     this.u8.set(bytes, at);
@@ -100,7 +100,7 @@ export class Library {
     return at;
   }
 
-  /** Fills a struct at `at` with usual values (`which`: MOBIL_PERSON and so on), then with those of `given`. */
+  /** Fills a struct at `at` with defaults (`which`: MOBIL_PERSON and so on), then with the fields of `given`. */
   fill(name, which, at, given = {}) {
     const { size } = structs[name];
     const code = this.x.mobil_defaults(constants[which], at, size);
@@ -115,12 +115,12 @@ export class Library {
     if (place.count) for (let i = 0; i < place.count; ++i) this.data[put](at + place.at + bytesOf(place.type) * i, value[i], true);
     else this.data[put](at + place.at, Number(value), true);
   }
-  /** A number, or of a field that holds several an array of them. */
+  /** Returns a field: a number, or an array of numbers. */
   get(name, at, field) {
     const { at: begin, type, count } = structs[name].fields[field], one = (i) => this.data[`get${views[type]}`](at + begin + bytesOf(type) * i, true);
     return count ? Array.from({ length: count }, (_, i) => one(i)) : one(0);
   }
-  /** A struct as an object; strings are read. */
+  /** Converts a struct to an object; `strings` are fields to be read as text. */
   object(name, at, strings = []) {
     return Object.fromEntries(Object.keys(structs[name].fields).filter((f) => f !== 'size')
       .map((f) => [f, strings.includes(f) ? this.text(this.get(name, at, f)) : this.get(name, at, f)]));
@@ -132,7 +132,7 @@ export class Library {
     return this.#views[name];
   }
 
-  // All of the system that the library calls for: a clock, and lines where it ends.
+  // The system functions that the library needs: a clock, and messages when it ends.
   #wasi() {
     const refuse = () => 8;  // EBADF
     return {

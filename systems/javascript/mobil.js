@@ -24,32 +24,32 @@ class Mobil {
   constructor(library, fused) {
     const { x } = library, text = (at) => (at === 0 ? null : library.text(at));
     this.library = library;
-    /** Whether bits are those of desktops. */
+    /** True if the bits are those of desktops. */
     this.fused = fused;
     this.version = library.text(x.mobil_library_version());
     this.segments = listed((i) => text(x.mobil_segment_name(i)));
     this.parents = this.segments.map((_, i) => x.mobil_segment_parent(i));
     this.muscles = listed((i) => text(x.mobil_muscle_name(i)));
-    /** A walk's style: {name, unit, meaning, low, high, usual}, in the order in which spawn and changeWalk take it. */
+    /** Parameters of a walk's style, {name, unit, meaning, low, high, usual}, in the order of spawn and changeWalk. */
     this.style = library.within((take) => {
       const at = take(structs.mobil_style_number.size);
       return listed((i) => (x.mobil_style(i, at) === 0 ? library.object('mobil_style_number', at, ['name', 'unit', 'meaning']) : null));
     });
   }
-  /** Levels of detail of a muscle, among which is chosen, as measured: {name, method, modes, moving, error_m, cost_us}. */
+  /** Returns the levels of detail of a muscle with measurements: {name, method, modes, moving, error_m, cost_us}. */
   levels(muscle, { speed_m_s = 1.4, height_m = 1.8, inertia = false, pulling = false } = {}) {
     return this.library.within((take) => {
       const at = take(structs.mobil_level.size);
       return listed((i) => (this.library.x.mobil_lod_level(i, muscle, speed_m_s, height_m, inertia ? 1 : 0, pulling ? 1 : 0, at) === 0 ? this.library.object('mobil_level', at, ['name']) : null));
     });
   }
-  /** Deprecated, goes in 0.5: levels. */
+  /** Deprecated, removed in 0.5; use levels. */
   ways(...all) { return this.levels(...all); }
-  /** `options`: fields of mobil_options. */
+  /** Creates a world. `options`: fields of mobil_options. */
   world(options = {}) { return new World(this.library, options); }
 }
 
-/** `from`: the folder that holds the modules, or a module's bytes (Uint8Array), of which `fused` says which it is. */
+/** Loads the library. `from`: the folder with the modules, or the bytes of one; then `fused` is true for mobil.wasm. */
 export async function load(from = '.', fused = canFuse()) {
   if (!canRun()) throw new MobilError('this browser has no WebAssembly SIMD; Chrome 91, Firefox 89, Safari 16.4 and later have', c.MOBIL_REFUSED);
   const source = from instanceof Uint8Array ? from : `${from}/${fused ? 'mobil' : 'mobil-plain'}.wasm`;

@@ -1,5 +1,5 @@
-// Reads mobil.h and writes what JavaScript needs of it: structs with their fields' places on wasm32, constants and the
-// names of functions, so that nothing is declared twice.
+// Reads mobil.h and writes its declarations for JavaScript: structs with the offsets of their fields on wasm32, constants
+// and the names of functions.
 // Usage: node read_header.mjs mobil.h interface.js EXPORTS
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';

@@ -1,4 +1,4 @@
-// Bones and muscles of one body as triangles: bound once, written for anybody of similar build.
+// Bones and muscles of one body as triangles, bound once and written for people of similar build.
 import { constants as c, structs } from './interface.js';
 import { MobilError } from './library.js';
 
@@ -15,17 +15,17 @@ export class Surfaces {
       this.vertices = library.x.mobil_vertex_count(this.at);
       const indices = library.x.mobil_index_count(this.at), index = take(4 * indices);
       world.must(library.x.mobil_indices(this.at, index, indices));
-      /** Three a triangle. */
+      /** Three per triangle. */
       this.indices = library.u32.slice(index >> 2, (index >> 2) + indices);
-      /** {name, segment, muscle, side, first_vertex, vertices, first_index, indices}; of a bone `muscle` is below 0. */
+      /** {name, segment, muscle, side, first_vertex, vertices, first_index, indices}; `muscle` is negative for bones. */
       this.parts = [];
       const part = take(structs.mobil_part.size);
       while (library.x.mobil_surface_part(this.at, this.parts.length, part) === 0) this.parts.push(library.object('mobil_part', part, ['name']));
     });
     this.buffer = library.allocate(24 * this.vertices);
   }
-  /** Of each vertex place and normal, six floats, after the last tick: a view, good until the next call. `origin` is
-   *  subtracted first. */
+  /** Returns position and normal of each vertex after the last tick, six floats, as a view valid until the next call.
+   *  `origin` is subtracted first. */
   write(person, origin = [0, 0, 0]) {
     if (!this.at) throw new MobilError('these surfaces were dropped; make others by World.surfaces', c.MOBIL_REFUSED);
     const { library } = this.world, bytes = 24 * this.vertices;

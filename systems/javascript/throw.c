@@ -1,5 +1,4 @@
-/* Debian's C++ library for WebAssembly cannot throw. What would throw elsewhere (where memory runs out) ends the module
- * with one line. */
+/* Debian's C++ library for WebAssembly cannot throw. Exceptions (out of memory) end the module with one line. */
 #include <stdio.h>
 #include <stdlib.h>
 

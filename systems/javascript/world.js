@@ -1,5 +1,5 @@
-// People, their walks and muscles, time and reading: mobil.h as a class. Arrays that come out are views into
-// the library's memory, good until the next call: copy what you keep (`.slice()`).
+// mobil.h as a class: people, their walks and muscles, time and reading. Returned arrays are views into the library's
+// memory, valid until the next call; copy them with `.slice()` to keep them.
 import { constants as c, structs } from './interface.js';
 import { MobilError } from './library.js';
 import { Avoidance, Lod, Terrain } from './subjects.js';
@@ -13,30 +13,30 @@ export const CONSTITUTIONS = ['thin', 'average', 'athletic', 'heavy'];
 const given = { speed_m_s: c.MOBIL_SPEED, step_length_m: c.MOBIL_STEP_LENGTH, step_frequency_hz: c.MOBIL_STEP_FREQUENCY, heading_rad: c.MOBIL_HEADING };
 const idBytes = structs.mobil_id.size;
 
-/** Some people of one world: handles in the library's memory. Those that spawn gives own it; a slice is a view of it. */
+/** People of one world: handles in the library's memory, which the result of spawn owns. A slice is a view. */
 export class People {
   #at;
   #owner;
   #rows = 0;
   #room = 0;
-  /** `owner`: whose handles a slice looks at. */
+  /** `owner`: the people that a slice is a part of. */
   constructor(library, at, count, owner = null) {
     this.library = library;
     this.count = count;
     this.#at = at;
     this.#owner = owner;
   }
-  /** Where the handles are. */
+  /** Address of the handles. */
   get ids() {
     if (this.#at === 0 || this.#owner?.#at === 0) throw new MobilError('these people were despawned or forgotten; use handles that spawn gave since', c.MOBIL_STALE);
     return this.#at;
   }
-  /** The first one's handle: two numbers. */
+  /** Returns the handle of the first person: two numbers. */
   handle() {
     if (this.count < 1) throw new MobilError('one person is wanted, and there is nobody among these', c.MOBIL_REFUSED);
     return this.library.u32.slice(this.ids >> 2, (this.ids >> 2) + 2);
   }
-  /** One of them, or some: a view, which owns nothing, and is refused once these are despawned or forgotten. */
+  /** Returns a view of one or several people. It owns nothing, and is invalid after these are despawned or forgotten. */
   slice(begin, end = begin + 1) {
     const last = Math.min(end, this.count);
     if (!Number.isInteger(begin) || !Number.isInteger(last) || begin < 0 || last < begin) {
@@ -44,7 +44,7 @@ export class People {
     }
     return new People(this.library, this.ids + idBytes * begin, last - begin, this.#owner ?? this);
   }
-  /** Memory for so many floats. A slice uses that of whom it is of, so that nobody has to forget slices. */
+  /** Returns memory for that many floats. A slice uses its owner's, so slices need no forget(). */
   room(floats) {
     const owner = this.#owner ?? this, wanted = Math.max(floats, 1);
     if (this.ids && owner.#room < wanted) {
@@ -55,7 +55,7 @@ export class People {
     }
     return owner.#rows;
   }
-  /** These handles are forgotten, and their memory is freed; the people stay. A slice frees nothing. */
+  /** Frees the handles' memory. The people are not removed. A slice frees nothing. */
   forget() {
     if (!this.#owner) for (const at of [this.#at, this.#rows]) this.library.release(at);
     this.#at = this.#rows = this.#room = 0;
@@ -63,7 +63,7 @@ export class People {
 }
 
 export class World {
-  /** `options`: fields of mobil_options, as tick_s. */
+  /** `options`: fields of mobil_options, for example tick_s. */
   constructor(library, options = {}) {
     this.library = library;
     library.within((take) => {
@@ -87,7 +87,7 @@ export class World {
     this.terrain.drop();
   }
 
-  /** Throws what the library refused. */
+  /** Throws the error of a refused call. */
   must(code) {
     if (code < 0) throw new MobilError(this.library.text(this.library.x.mobil_message(this.at)), code);
     return code;
@@ -100,12 +100,12 @@ export class World {
   }
   #muscles(take, fields) { return fields ? this.#struct(take, 'mobil_muscles', 'MOBIL_MUSCLES', fields) : 0; }
   #put(take, numbers) {
-    const own = numbers.buffer === this.library.memory.buffer ? numbers.slice() : numbers;  // a view ends where memory grows
+    const own = numbers.buffer === this.library.memory.buffer ? numbers.slice() : numbers;  // a view is invalid after memory grows
     const at = take(4 * own.length);
     this.library.f32.set(own, at >> 2);
     return at;
   }
-  /** The library reads so many, whatever there is. */
+  /** Checks the count of numbers, because the library reads `wanted` of them. */
   #exactly(take, numbers, wanted, what) {
     if (numbers.length !== wanted) throw new MobilError(`${what}: ${wanted} numbers are wanted, and there are ${numbers.length}`, c.MOBIL_REFUSED);
     return this.#put(take, numbers);
@@ -115,7 +115,7 @@ export class World {
     if (odd) throw new MobilError(`${what} are rows of ${width} numbers, and one has ${odd.length}`, c.MOBIL_REFUSED);
     return this.#put(take, rows.flatMap((row) => [...row]));
   }
-  /** Which numbers are said, and the style's place; `at` is a filled mobil_person or mobil_walk. */
+  /** Sets `given`, the given fields and the style of a mobil_person or mobil_walk at `at`. */
   #walk(take, name, at, request) {
     const { style, ...fields } = request;
     let bits = 0;
@@ -129,8 +129,9 @@ export class World {
     this.library.set(name, at, 'given', name === 'mobil_person' ? bits & ~c.MOBIL_HEADING : bits);
   }
 
-  /** `requests`: fields of mobil_person, as {height_m: 1.8, mass_kg: 80, speed_m_s: 1.4, place: [0, 0, 0]}; `style`
-   *  is an array in the order of `library.style`. `muscles`: fields of mobil_muscles, or null. All come or none. */
+  /** Spawns people, all or none. `requests`: fields of mobil_person, for example {height_m: 1.8, mass_kg: 80,
+   *  speed_m_s: 1.4, place: [0, 0, 0]}; `style` is an array in the order of `library.style`. `muscles`: fields of
+   *  mobil_muscles, or null. */
   spawn(requests, muscles = null) {
     return this.library.within((take) => {
       const { size } = structs.mobil_person, at = take(size * requests.length);
@@ -148,13 +149,13 @@ export class World {
       return new People(this.library, ids, requests.length);
     });
   }
-  /** All go or none; then these handles are forgotten. Those whom a slice was of keep its stale handles: name the others
-   *  by slices, and forget() all last. */
+  /** Removes people, all or none, and frees these handles. After a slice was despawned, its owner still contains the stale
+   *  handles: use slices for the remaining people, and forget() the owner last. */
   despawn(people) {
     this.#call('despawn', people.ids, people.count);
     people.forget();
   }
-  /** One walk for all of them, from their next step on; what is not said stays. */
+  /** Changes the walks of people to the same one from the next step on; missing fields stay. */
   changeWalk(people, walk) {
     this.library.within((take) => {
       const at = this.#struct(take, 'mobil_walk', 'MOBIL_WALK');
@@ -162,21 +163,21 @@ export class World {
       this.#call('change_walk', people.ids, people.count, at);
     });
   }
-  /** Puts a walker elsewhere at once; no inertia is felt. */
+  /** Moves a walker at once, without inertia. */
   place(person, place, heading_rad) {
     this.library.within((take) => {
       const at = this.#exactly(take, place, 3, 'place');
       this.#call('place', ...this.#passed(take, person.handle()), at, heading_rad);
     });
   }
-  /** The origin moves there, three numbers: every place becomes so much less. */
+  /** Moves the world's origin: subtracts `to`, three numbers, from all positions. */
   shiftOrigin(to) { this.library.within((take) => this.#call('shift_origin', this.#exactly(take, to, 3, 'origin'))); }
-  /** Poses of posed people at the end of the next tick, as poses() gives them: 48 times place and quaternion, 336 numbers
-   *  a person. `jumped`: muscles and fat feel no inertia of the way there. */
+  /** Sets posed people's poses for the end of the next tick, in the form of poses(): 48 times position and quaternion, 336
+   *  numbers a person. `jumped`: muscles and fat feel no inertia of the motion from the last pose. */
   setPoses(people, poses, jumped = false) {
     this.library.within((take) => this.#call('set_poses', people.ids, people.count, this.#exactly(take, poses, 7 * c.MOBIL_SEGMENTS * people.count, 'poses'), 0, jumped ? 1 : 0));
   }
-  /** What a walker is to do, as changeWalk takes it. */
+  /** Returns a walker's requested walk, as changeWalk takes it. */
   walk(person) {
     return this.library.within((take) => {
       const at = this.#struct(take, 'mobil_walk', 'MOBIL_WALK'), number = take(structs.mobil_style_number.size);
@@ -189,10 +190,10 @@ export class World {
       return walk;
     });
   }
-  /** They have a feature of FEATURES from the next tick on, or no more: events() tells of the steps of who has step
-   *  events; fat is for peers that show skin, which this module has not. */
+  /** Switches a feature of FEATURES from the next tick on. events() returns step events; fat is for peers that display
+   *  skin, which this module does not have. */
   enable(people, feature, on = true) { this.#call('enable', people.ids, people.count, feature, on ? 1 : 0); }
-  /** People become of a state of STATES who may (mobil.h says what of them is kept); how many are so now. */
+  /** Changes people to a state of STATES where possible (see mobil.h). Returns how many are in it now. */
   setState(people, state, within_m = 0.005) {
     return this.library.within((take) => {
       const changed = take(4);
@@ -209,18 +210,18 @@ export class World {
   }
 
   // ---- Muscles
-  /** Fields of mobil_muscles; null: they go. */
+  /** Sets muscles, fields of mobil_muscles; null removes them. */
   setMuscles(people, muscles) { this.library.within((take) => this.#call('set_muscles', people.ids, people.count, this.#muscles(take, muscles))); }
-  /** Another method of one muscle, both sides: fields of mobil_method. */
+  /** Sets the method of one muscle, both sides: fields of mobil_method. */
   setMethod(people, muscle, method) {
     this.library.within((take) => this.#call('set_method', people.ids, people.count, muscle, this.#struct(take, 'mobil_method', 'MOBIL_METHOD', method)));
   }
-  /** How hard a muscle of MOBIL_BY_HOST is to pull, 0.01 to 1 (beyond: the nearer end): one number for all, or one a person. */
+  /** Sets the excitation of a muscle with MOBIL_BY_HOST, clamped to 0.01 to 1: one number for all, or one a person. */
   setExcitation(people, muscle, side, excitation) {
     const each = typeof excitation === 'number' ? new Float32Array(people.count).fill(excitation) : excitation;
     this.library.within((take) => this.#call('set_excitation', people.ids, people.count, muscle, side, this.#exactly(take, each, people.count, 'excitations'), 0));
   }
-  /** Makes what these muscles share, so that nobody waits for it later. */
+  /** Makes the shared data of these muscles, so that no later call waits for it. */
   prepare(muscles) { this.library.within((take) => this.#call('prepare', this.#muscles(take, muscles))); }
   bake() {
     return this.library.within((take) => {
@@ -231,7 +232,7 @@ export class World {
       return this.library.u8.slice(at, at + room);
     });
   }
-  /** `baked`: a Uint8Array that bake() of this version gave. */
+  /** `baked`: a Uint8Array from bake() of this version. */
   loadBaked(baked) {
     this.library.within((take) => {
       const at = take(baked.length);
@@ -240,7 +241,7 @@ export class World {
     });
   }
 
-  /** What a muscle has now: fields of mobil_method. */
+  /** Returns a muscle's present method: fields of mobil_method. */
   method(person, muscle) {
     return this.library.within((take) => {
       const at = this.#struct(take, 'mobil_method', 'MOBIL_METHOD');
@@ -248,7 +249,7 @@ export class World {
       return this.library.object('mobil_method', at);
     });
   }
-  // A struct by value goes by pointer to a copy, as wasm's C convention has it.
+  // Wasm's C convention passes a struct by value as a pointer to a copy.
   #passed(take, id) {
     const at = take(idBytes);
     this.library.u32.set(id, at >> 2);
@@ -260,7 +261,7 @@ export class World {
     this.#call('tick', ticks);
     this.terrain.finish();
   }
-  /** As many ticks as the time fed so far makes: {count, alpha, dropped_s}. */
+  /** Adds the time of a frame and runs as many ticks as fit. Returns {count, alpha, dropped_s}. */
   advance(seconds) {
     return this.library.within((take) => {
       const at = take(structs.mobil_ticks.size);
@@ -272,7 +273,7 @@ export class World {
   get time_s() { return this.library.x.mobil_time_s(this.at); }
 
   // ---- Reading
-  /** What happened in all ticks of the last tick() or advance() in the steps of who has step events: fields of mobil_event. */
+  /** Returns the step events of all ticks of the last tick() or advance(): fields of mobil_event. */
   events() {
     return this.library.within((take) => {
       const count = take(4), { size, fields } = structs.mobil_event;
@@ -287,8 +288,8 @@ export class World {
       });
     });
   }
-  /** Where people are on the ground `ahead_s` after the last tick and head, without the sway of the hips: a
-   *  Float64Array of four numbers a person, place and heading. */
+  /** Returns the roots of people `ahead_s` after the last tick, without the sway of the hips: a Float64Array of four
+   *  numbers a person, position and heading. */
   roots(people, ahead_s = 0) {
     return this.library.within((take) => {
       const at = take(structs.mobil_root.size * people.count);
@@ -297,10 +298,10 @@ export class World {
     });
   }
   #floats(at, count) { return this.library.f32.subarray(at >> 2, (at >> 2) + count); }
-  /** Three rows of four a segment, 48 a person: 576 floats, as a shader's texels take them. `ahead_s`: an instant after
-   *  the last tick. */
+  /** Returns matrices, three rows of four for each of 48 segments: 576 floats a person, usable as a shader's texels.
+   *  `ahead_s`: an instant after the last tick. */
   matrices(people, ahead_s = 0) { return this.#poses(people, c.MOBIL_MATRIX, 12, ahead_s); }
-  /** The same as place x y z and quaternion x y z w a segment: 336 floats a person. */
+  /** Returns poses as position x y z and quaternion x y z w for each segment: 336 floats a person. */
   poses(people, ahead_s = 0) { return this.#poses(people, c.MOBIL_PLACE_AND_QUATERNION, 7, ahead_s); }
   #poses(people, form, each, ahead_s) {
     const floats = each * c.MOBIL_SEGMENTS * people.count, out = people.room(floats);
@@ -310,20 +311,20 @@ export class World {
     });
     return this.#floats(out, floats);
   }
-  /** Rows of MOBIL_JOINTS, MOBIL_FEET and so on. */
+  /** Returns rows of MOBIL_JOINTS, MOBIL_FEET and so on. */
   read(what, people) {
     const floats = Math.max(this.library.x.mobil_row_floats(what), 0) * people.count, out = people.room(floats);
     this.#call('read', what, people.ids, people.count, out, 0);
     return this.#floats(out, floats);
   }
-  /** Rows of MOBIL_LINE, MOBIL_REPORT and so on, of one muscle and side. */
+  /** Returns rows of MOBIL_LINE, MOBIL_REPORT and so on, of one muscle and side. */
   readMuscle(what, people, muscle, side = c.MOBIL_RIGHT) {
     const one = this.library.within((take) => this.must(this.library.x.mobil_muscle_row_floats(this.at, what, ...this.#passed(take, people.handle()), muscle, side)));
     const floats = one * people.count, out = people.room(floats);
     this.#call('read_muscles', what, people.ids, people.count, muscle, side, out, 0);
     return this.#floats(out, floats);
   }
-  /** What each system cost in the last tick: {name, module, seconds, entities}. */
+  /** Returns the cost of each system in the last tick: {name, module, seconds, entities}. */
   cost() {
     return this.library.within((take) => {
       const at = take(structs.mobil_system.size), all = [];
@@ -331,7 +332,7 @@ export class World {
       return all;
     });
   }
-  /** Bones and muscles as triangles: fields of mobil_surface_choice. */
+  /** Binds bones and muscles as triangles. `choice`: fields of mobil_surface_choice. */
   surfaces(like, choice = {}) { return new Surfaces(this, like, choice); }
 
   // ---- State
@@ -349,7 +350,7 @@ export class World {
       this.#call('restore', at, state.length);
     });
   }
-  /** 64 bits in hexadecimal: equal states, equal hashes, on every machine that fuses multiply-adds. */
+  /** Returns a 64-bit hash in hexadecimal, equal for equal states on every machine with fused multiply-adds. */
   hash() {
     return this.library.within((take) => {
       const at = take(8);
@@ -359,7 +360,7 @@ export class World {
   }
 }
 
-/** Deprecated, goes in 0.5: by name the call that takes its place. */
+/** Deprecated names, removed in 0.5, with their replacements. */
 const old = {
   setForces: (w, people, on = true) => w.enable(people, FEATURES.forces, on),
   setFatWobble: (w, people, on = true) => w.enable(people, FEATURES.fat, on),

@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto shaken = static_cast<std::size_t>(WalkBound::pelvis_shaken);
 
-/// How far sixteen walkers are now.
+/// Computes the present bounds of sixteen walkers.
 void bounds_now(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, StepBounds<Lanes<float>>& bounds) {
   clear_bounds(bounds);
@@ -34,7 +34,7 @@ void bounds_now(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
       bounds.value[shaken][l] = pelvis_acceleration(bounds.pelvis_up_m[l], up_m[0][l], up_m[1][l]);
 }
 
-/// Whether all lanes go on as they went, and straight ahead: most blocks of a crowd in most ticks.
+/// Returns true if all lanes continue a settled walk straight ahead, as most blocks of a crowd do in most ticks.
 bool all_go_straight_on(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state) {
   std::uint32_t otherwise = 0;
   for (std::size_t l = 0; l < lane_count; ++l)
@@ -45,7 +45,7 @@ bool all_go_straight_on(const StepPlan<Lanes<float>>& plan, const GaitState<Lane
   return otherwise == 0;
 }
 
-/// Whether the push to the side changes within a step by more than one turn takes (step_limits::max_sideways).
+/// Returns true if the sideways push changes within a step by more than one turn needs (step_limits::max_sideways).
 bool turns_back(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, std::size_t lane) {
   constexpr float more_m_s2 = 1.1F * step_limits::max_sideways;
   const float speed_m_s = std::max(plan.from.speed_m_s[lane], plan.to.speed_m_s[lane]);
@@ -54,7 +54,7 @@ bool turns_back(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>
   return change * speed_m_s * speed_m_s > more_m_s2;
 }
 
-/// Whether the step leads from one own style to another at one speed, as it does after a change of style.
+/// Returns true if the step leads from one custom style to another at one speed, as it does after a change of style.
 bool changes_style(const StepPlan<Lanes<float>>& plan, std::size_t lane) {
   return plan.from.own_style[lane] >= 1 && plan.to.own_style[lane] >= 1 && plan.from.speed_m_s[lane] > 0 &&
          plan.from.speed_m_s[lane] == plan.to.speed_m_s[lane];

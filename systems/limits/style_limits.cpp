@@ -22,19 +22,18 @@
 namespace mobil::inline v0_3 {
 namespace {
 constexpr std::size_t parameter_count = gait_parameters.size();
-/// Walkers on the way from the usual style to that asked for: sixteen lanes, `lanes_each` to a walker. With several
-/// lanes several of the next answers are foreseen in one look; what is found is the same.
+/// Search from the requested style toward the usual one for up to 16 walkers, with `lanes_each` lanes per walker.
+/// Several lanes evaluate several possible next results at once, with the same outcome.
 class StyleLimitSearch {
  public:
   StyleLimitSearch(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
                    std::span<const std::size_t> people, Looking looking, std::size_t lanes_each = 1);
-  /// Who breaks a limit with what was asked, or comes near one where walks are looked at roughly.
+  /// Finds the walkers that break a limit with the requested style, or come near one if walks are examined roughly.
   std::array<bool, lane_count> broken();
-  /// Moves step lengths and styles as far as limits ask, as keep_walk_limits says
-  /// (mobil/systems/limits/style_limits.h).
+  /// Moves step lengths and styles as far as limits require. See mobil/systems/limits/style_limits.h.
   void clamp_toward_default();
-  /// What clamp_toward_default came to, walker by walker: whether anything was moved; the style and the step length;
-  /// what was moved, the step length before the numbers of the style.
+  /// Results of clamp_toward_default by walker: true if anything was moved; the style and the step length; and the
+  /// changes, step length before style parameters.
   bool is_drawn(std::size_t walker) const { return walkers_[walker].step_why || walkers_[walker].is_moved(); }
   const GaitStyle& style(std::size_t walker) const { return walkers_[walker].style; }
   float step_length_m(std::size_t walker) const { return walkers_[walker].length_m(); }
@@ -43,27 +42,27 @@ class StyleLimitSearch {
  private:
   static constexpr GaitStyle usual_{};
   static constexpr std::size_t try_usual_walk = 0, try_usual_style = 1, try_as_asked = 2, try_without = 3;
-  /// Of 100 styles near the usual one that break a limit, 99 keep it with one of these as usual, the first before the
-  /// second.
+  /// With one of these at its usual value, the first one preferred, 99 of 100 styles near the usual one keep their
+  /// limit.
   static constexpr std::array without = {&GaitStyle::pelvis_tilt_deg, &GaitStyle::double_support_scale};
   static constexpr std::size_t tries = try_without + without.size();
 
-  /// A bound that a walk breaks, and where it would come to.
+  /// A bound that a walk breaks, and the value that it reaches.
   struct Break {
     WalkBound bound;
     float value;
     WalkPart part;
   };
   struct Walker {
-    GaitStyle asked{}, style{};  // `style`, `step_share`: what is tried, and at the end what is kept
+    GaitStyle asked{}, style{};  // `style` and `step_share` are tried values, and at the end the kept ones
     float asked_m = 0, usual_m = 0, step_share = 1;
     std::optional<Break> step_why;
     std::array<bool, parameter_count> moved{};
     std::array<Break, parameter_count> why{};
-    std::optional<std::size_t> culprit;  // of `without`: all the others may stay as asked
+    std::optional<std::size_t> culprit;  // index in `without`: all other parameters can stay as requested
 
     bool is_moved() const { return std::ranges::count(moved, true) > 0; }
-    /// All that may stay as asked, and the others so far from the usual ones.
+    /// Returns the requested style with the moved parameters at this share of the way from their usual values.
     GaitStyle at(float share) const {
       GaitStyle there = asked;
       for (std::size_t p = 0; p < parameter_count; ++p) {
@@ -80,20 +79,21 @@ class StyleLimitSearch {
   void hold_to_limits();
   std::array<bool, lane_count> still_broken();
   void look_at_walkers();
-  /// The usual walk, which limits are to allow; the usual style with the steps asked for; all as asked; all but one
-  /// number as asked.
+  /// Examines the usual walk, which limits must allow; the usual style with the requested steps; the full request; and
+  /// the request with one parameter at its usual value.
   void look_at_usual_and_asked();
   void note_try(std::size_t which, std::size_t w, std::size_t lane);
   void try_in(std::size_t lane, const Walker& walker);
-  /// How far the walks go that are tried.
+  /// Computes the extremes of the walks to be tried.
   void look();
-  /// What the walk looked at last breaks most, in parts of the limit.
+  /// Returns the bound that the last examined walk breaks by the largest part of its limit.
   std::optional<Break> worst(std::size_t lane) const;
-  /// One number after another becomes what was asked, and stays so if nothing breaks. A walker's lanes try the next
-  /// numbers, each with those before it: what is tried is right up to the first that breaks something.
+  /// Restores one requested parameter after another, and keeps it if no limit breaks. A walker's lanes try the next
+  /// parameters, each with all before it. Results are valid up to the first one that breaks a limit.
   void give_back();
-  /// Shares of what was asked, as large as nothing breaks, from that of 0 on, of whom `of` says; `set` has one tried. A
-  /// walker's lanes try what the next halvings may come to: a binary tree, whose node n has the children 2n and 2n + 1.
+  /// Finds the largest share of the request at which no limit breaks, by halving, for the walkers selected by `of`.
+  /// Share 0 is accepted unseen. `set` applies a share. A walker's lanes try all possible next halvings as a binary
+  /// tree, in which node n has the children 2n and 2n + 1.
   template <class Of, class Set>
   void halve(Of of, Set set);
 
@@ -106,13 +106,13 @@ class StyleLimitSearch {
   WalkExtremes found_{};
   struct {
     Lanes<float> steady[bound_count], changing[bound_count];
-  } held_;                                       // how far walks may go, as WalkExtremes has it
-  std::array<bool, lane_count> asked_broken_{};  // walkers
+  } held_;                                       // limits for the values of WalkExtremes
+  std::array<bool, lane_count> asked_broken_{};  // by walker
 };
 
 constexpr int halvings = 8;
 
-/// Numbers that are blamed last, the last of them first, where one of several would do.
+/// Parameters that are blamed last, the last of them first, where changing any one of several would do.
 constexpr float GaitStyle::*blamed[] = {&GaitStyle::strike_pitch_deg,
                                         &GaitStyle::strike_knee_deg,
                                         &GaitStyle::stance_knee_deg,
@@ -135,7 +135,7 @@ constexpr float GaitStyle::*blamed[] = {&GaitStyle::strike_pitch_deg,
                                         &GaitStyle::step_asymmetry,
                                         &GaitStyle::time_asymmetry};
 
-/// In which numbers are given back what was asked of them.
+/// Returns the order in which the requested parameters are restored.
 std::array<std::size_t, gait_parameters.size()> giving_back_order() {
   std::array<std::size_t, gait_parameters.size()> order{};
   std::size_t count = 0;
@@ -259,7 +259,7 @@ void StyleLimitSearch::note_try(std::size_t which, std::size_t w, std::size_t la
   if (which == try_as_asked && breaks) walker.why.fill(*breaks);
   if (which >= try_without && !breaks && !walker.culprit) walker.culprit = which - try_without;
   for (std::size_t b = 0; b < bound_count && which == try_usual_walk; ++b) {
-    // What is kept free for turns is not asked of who goes little further than the usual walk, which turns as well.
+    // A walk that exceeds the usual one only slightly needs no margin for turns, because the usual walk turns as well.
     constexpr float little_rad = 0.05F;
     const float usual = found_.steady.value[b][lane], changing = found_.changing.value[b][lane];
     const bool more = for_turns(static_cast<WalkBound>(b), looking_) > 0;
@@ -292,7 +292,7 @@ std::optional<StyleLimitSearch::Break> StyleLimitSearch::worst(std::size_t lane)
     most = by;
     worst = Break{static_cast<WalkBound>(b), reach.value[b][lane], reach.part[b][lane]};
   };
-  // The usual style with the steps asked for needs nothing free for turns.
+  // The usual style with the requested steps needs no margin for turns.
   const bool usual = same_style(gait_row_[lane].style, usual_);
   for (std::size_t b = 0; b < bound_count; ++b) {
     const float steady = held_.steady[b][lane];
@@ -307,7 +307,7 @@ void StyleLimitSearch::give_back() {
   static const auto order = giving_back_order();
   std::array<std::size_t, lane_count> next{};
   for (;;) {
-    std::array<std::array<std::size_t, lane_count>, lane_count> given{};  // places in `order`
+    std::array<std::array<std::size_t, lane_count>, lane_count> given{};  // indices in `order`
     std::array<std::size_t, lane_count> count{};
     bool any = false;
     for (std::size_t w = 0; w < people_; ++w) {
@@ -379,21 +379,21 @@ void StyleLimitSearch::halve(Of of, Set set) {
 
 namespace {
 
-/// Usual steps of the usual style.
+/// Returns true for the usual style with usual steps.
 bool is_usual(float height_m, const Gait<float>& gait) {
   return same_style(gait.style, {}) && has_usual_steps(height_m, gait.speed_m_s, gait.step_length_m);
 }
 
-/// Whether a style is near the usual one, and its stop keeps all limits that its steady walk keeps. Of 12 000 random
-/// styles with each number within a tenth of the usual one, 230 broke a limit in stopping alone; mid-stance was at
-/// 0.910 or lower in all of them. Such styles are looked at roughly first, the others in stopping too.
+/// Returns true if a style is near the usual one, and its stop keeps all limits that its steady walk keeps. Among 12
+/// 000 random styles with each number within a tenth of the usual one, 230 broke a limit only while stopping, all with
+/// mid-stance at 0.910 or lower. Styles that pass are examined roughly first, the others including stops.
 bool stops_as_it_walks(const GaitStyle& style) {
   constexpr float bent_knees = 0.93F;
   return is_near_usual(style) && style.mid_stance_height >= bent_knees;
 }
 
-/// Adds changes of a gait that may have been changed before: what was asked and why stay as they were. The step length
-/// comes first, then the numbers of the style.
+/// Adds changes to a gait that can have earlier changes, whose requested values and reasons stay. The step length comes
+/// first, then the style parameters.
 void add_changes(std::span<const StyleChange> later, std::vector<StyleChange>& changes) {
   for (const StyleChange& change : later) {
     const auto before = std::ranges::find(changes, change.parameter, &StyleChange::parameter);
@@ -449,7 +449,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
       }
     });
   };
-  // Few come near a limit, fewer break one: those come together in blocks of their own.
+  // Few people come near a limit and even fewer break one, so these are collected in blocks of their own.
   const auto keep_broken = [&](std::vector<std::size_t>& people, Looking looking) {
     in_blocks(people, looking, 1, [&](std::span<const std::size_t> some, StyleLimitSearch& block) {
       const auto broken = block.broken();
@@ -472,7 +472,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
     }
   };
   const auto draw_all = [&](std::vector<std::size_t>& people, Looking looking) {
-    // As many lanes each as keep all threads at work in one round.
+    // Uses as many lanes per walker as keep all threads busy in one round.
     std::size_t lanes_each = lane_count;
     while (lanes_each > 1 && people.size() * lanes_each > lane_count * std::max<std::size_t>(jobs.threads, 1))
       lanes_each /= 2;

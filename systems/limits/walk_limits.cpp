@@ -21,7 +21,7 @@ namespace {
 constexpr double limit_degree = 3.14159265358979324 / 180;
 constexpr std::uint32_t max_parts = 4;
 
-/// Of the joint at the origin of a segment, one way.
+/// Returns the limit, in one direction, of the joint at the origin of a segment.
 constexpr double limb_limit(Segment segment, std::string_view joint, std::string_view motion, bool more) {
   for (const JointLimit& limit : limb_limits) {
     if (limit.segment == segment && limit.joint == joint && limit.motion == motion)
@@ -30,10 +30,10 @@ constexpr double limb_limit(Segment segment, std::string_view joint, std::string
   return 0;
 }
 
-/// A column that bends and turns at once does so a little more at some joints than at others.
+/// Factor for a column that bends and turns at once, which moves some joints slightly more than others.
 constexpr double evenly = 0.95;
 
-/// How far the chest goes beside the pelvis, or the head beside the chest, until the first joint between is at its end.
+/// Returns the angle between pelvis and chest at which the first joint between them reaches its limit.
 constexpr double column_limit(double VertebraLimit::*motion, bool both_ways) {
   constexpr ColumnParts parts = column_parts();
   double least = 90;
@@ -103,20 +103,20 @@ static_assert([] {
   return true;
 }());
 
-/// Steps of walks that are not the first one mirrored for ever: the first one, and two of each side when all is even.
+/// Steps examined of walks whose later steps are not the mirrored first one: two of each side, including the first.
 constexpr int uneven_steps = 4;
 
-/// As many as anybody takes who stops.
+/// Maximum number of steps in which a person stops.
 constexpr int stopping_steps = 6;
 
-/// Turns and changes of speed that are looked at, and for how many steps: by their end nearly all walk as before.
+/// Examined turns and changes of speed, and their numbers of steps. By their end nearly all people walk as before.
 constexpr float turned_rad = 1.05F, slowed_to = 0.6F;
 constexpr int turning_steps = 6, scaled_steps = 3, quickening_steps = 5;
 
-/// Heights of the pelvis, sixteen side by side, one instant after the other.
+/// Heights of the pelvis of sixteen walks at successive instants.
 using Heights = std::array<Lanes<float>, 2 * max_parts>;
 
-/// Sixteen walks, step by step, looked at `lag` times in that time.
+/// Sixteen walks, advanced step by step and examined `lag` times in difference_s.
 class WalkLooked {
  public:
   WalkLooked(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, std::uint32_t lag)
@@ -128,15 +128,15 @@ class WalkLooked {
   bool all_stand() const {
     return std::ranges::all_of(plan_.from.speed_m_s.lane, [](float speed_m_s) { return speed_m_s <= 0; });
   }
-  /// From the next step on everybody is to stand, in their own style.
+  /// From the next step on, all walkers stop and stand in their own style.
   void end() { gait_.speed_m_s = gait_.step_length_m = gait_.step_frequency_hz = {}; }
-  /// From the next step on everybody is to head so far beside the way they head now.
+  /// From the next step on, all walkers turn by this angle from their present heading.
   void turn(float rad) {
     gait_.heading_rad = in_every_lane<Lanes<float>>(rad);
     turns_ = true;
   }
-  /// From the next step on everybody is to walk at such a part of their speed, or the lowest that they may, with the
-  /// steps that are usual then.
+  /// From the next step on, all walkers take this part of their speed, but at least the lowest allowed speed, with the
+  /// usual steps for that speed.
   void scale_speed(float part) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const float height_m = size_.height_m[l], speed_m_s = gait_.speed_m_s[l];
@@ -148,18 +148,18 @@ class WalkLooked {
       gait_.step_frequency_hz[l] = slow.step_frequency_hz;
     }
   }
-  /// From the next step on everybody is to walk so.
+  /// From the next step on, all walkers use this gait.
   void walk_as(const Gait<Lanes<float>>& gait) { gait_ = gait; }
   const StepBounds<Lanes<float>>& bounds() const { return bounds_; }
 
-  /// How far this step goes, from nothing on.
+  /// Computes the bounds of this step, starting from cleared ones.
   void walk() {
     clear_bounds(bounds_);
     const float longest_s = *std::ranges::max_element(plan_.duration_s.lane);
-    std::array<Lanes<float>, 2 * max_parts + 1> up_m{};  // at the last instants
+    std::array<Lanes<float>, 2 * max_parts + 1> up_m{};  // at the last few instants
     for (std::uint32_t k = 0; static_cast<float>(k) * instant_s_ <= longest_s; ++k) {
       const float time_s = static_cast<float>(k) * instant_s_;
-      // Who has come to the end waits at the last instant before it, so that others' longer steps show nothing more.
+      // A walker past the end of the step stays at the last instant before it, so longer steps of others add nothing.
       look([&](std::size_t l) { return time_s <= plan_.duration_s[l] ? time_s : state_.time_s[l]; });
       const auto ago = [&](std::uint32_t instants) -> Lanes<float>& { return up_m[(k - instants) % up_m.size()]; };
       ago(0) = bounds_.pelvis_up_m;
@@ -177,7 +177,7 @@ class WalkLooked {
     }
     if (steps_ == 0) note_strike(end_m_, [this](std::size_t l) { return plan_.settled[l] != 0; });
   }
-  /// The next step; the strike between both is noted as its own.
+  /// Advances to the next step. The heel strike between both counts as part of the new one.
   void step() {
     const Heights before_m = end_m_;
     state_.time_s = plan_.duration_s;
@@ -199,7 +199,7 @@ class WalkLooked {
     float& most = bounds_.value[static_cast<std::size_t>(WalkBound::pelvis_shaken)][lane];
     most = std::max(most, pelvis_acceleration(now_m, before_m, first_m));
   }
-  /// Across the strike at which this step begins, after one that ended so.
+  /// Notes the heel strike at which this step begins. `ended_m` contains the final heights of the step before.
   template <class Where>
   void note_strike(const Heights& ended_m, Where where) {
     const auto at = [&](std::uint32_t k) -> const Lanes<float>& {
@@ -256,7 +256,7 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
     for (auto& of_bound : reach->part) of_bound.fill(WalkPart::steady);
   }
   std::ranges::copy(walk.bounds().value, extremes.steady.value);
-  // The left step is the right one mirrored, where all goes on so.
+  // In a settled walk the left step is the mirrored right one.
   const bool all_even = std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; });
   if (!all_even && looking != Looking::at_changes) note_steps(walk, uneven_steps - 1, WalkPart::steady, uneven);
   const auto note_stop = [&](WalkLooked stop, auto whose) {
@@ -294,20 +294,20 @@ constexpr std::array<float, 3> node_heights_m = {1.45F, 1.75F, 2.05F};
 constexpr float lowest_speed = 0.4F, speed_step = 0.3F;  // m/s
 constexpr std::size_t node_speeds = 7;
 constexpr float tenth = 0.1F, rounding = 1e-4F;
-constexpr float grid = 2 * 254;  // half a step of what `snapped` rounds to (systems/gait/asleep.h)
+constexpr float grid = 2 * 254;  // half a rounding step of `snapped` (systems/gait/asleep.h)
 
-/// What of a usual walk is how large, and by how much each number of the style makes it larger or smaller, a tenth of
-/// the number up and down.
+/// Bounds reached by a usual walk, and how much each style parameter adds per unit, measured with the parameter a tenth
+/// higher and a tenth lower.
 struct Node {
   std::array<float, bound_count> usual{};
   std::array<std::array<std::array<float, bound_count>, gait_parameters.size()>, 2> adds{};
-  bool walked = false;  // false: nobody of that height walks so fast
+  bool walked = false;  // false: no person of that height walks so fast
 };
-/// Speeds from the lowest up; the last is to stand.
+/// Index of the node for standing, which follows the speeds in ascending order.
 constexpr std::size_t standing = node_speeds;
 using Nodes = std::array<std::array<Node, node_speeds + 1>, node_heights_m.size()>;
 
-/// What is kept free below a limit, beside what the style adds: heights and speeds between those of the nodes.
+/// Margin below a limit for heights and speeds between the nodes. The effects of the style come on top.
 float spare(WalkBound bound) {
   return bound == WalkBound::under_ground ? 0.002F : bound == WalkBound::pelvis_shaken ? 2.0F : 0.03F;
 }
@@ -323,7 +323,7 @@ void fill(float height_m, float speed_m_s, Node& node) {
   BodySize<float> body{};
   body.height_m = height_m;
   body.mass_kg = 22.5F * height_m * height_m;
-  // Sixteen at a time: number 2·p is a tenth more of number p, 2·p + 1 a tenth less; the last is the usual walk.
+  // Sixteen at a time: walk 2·p has a tenth more of parameter p, walk 2·p + 1 a tenth less. The last is the usual walk.
   constexpr std::size_t count = 2 * gait_parameters.size() + 1;
   std::array<std::array<float, bound_count>, count> value{};
   for (std::size_t first = 0; first < count; first += lane_count) {

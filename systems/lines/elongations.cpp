@@ -11,7 +11,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Whether the way to a member's point never changes; the point past the last is the kneecap's end.
+/// Returns true if no joint changes the segment that ends at point `to`. The kneecap's end follows the last point.
 bool is_constant(const MuscleLines::Member& member, std::size_t to) {
   if (to >= member.path.size()) return false;
   const MuscleLines::Point &a = member.path[to - 1], &b = member.path[to];
@@ -28,11 +28,11 @@ namespace {
 
 constexpr float knots_a_radian = 57.2957795F / static_cast<float>(knee_knot_deg);
 
-/// A block of legs in the frames of their knees. What the thigh bears is scaled and not turned, what the shank bears is
-/// turned about x alone, and edges run along x.
+/// A block of legs in the frames of their knees. Points of the thigh are scaled but not rotated, points of the shank
+/// are rotated only about x, and edges run along x.
 struct Knees {
   WideVec hip, rolled, ankle;
-  WideVec pelvis[3], foot[3];  // axes, as long as the leg is large
+  WideVec pelvis[3], foot[3];  // axes, scaled by the size of the leg
   Wide sine, cosine, knots, cube[knee_knots];
   Wide across, thigh, shank;
 
@@ -85,7 +85,7 @@ HWY_NOINLINE Knees load_knees(const MuscleLines::Track& rolling, const LegScale<
   return k;
 }
 
-/// The part of a member's length that joints change.
+/// Returns the part of a member's length that the joints change.
 HWY_NOINLINE Wide changing_length(const Knees& knees, const MuscleLines::Member& member) {
   const std::size_t points = member.path.size(), corners = member.on_kneecap ? points : points - 1;
   const WideVec end =

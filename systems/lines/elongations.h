@@ -1,5 +1,5 @@
 #pragma once
-// How far the lines of muscles that nobody looks at are drawn out: their lengths alone, without force and frame.
+// Elongation of the lines of action of unseen muscles: only their lengths, without force and frame.
 
 #include <cstddef>
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// The lines of each of the table's muscles: the same for everybody, made once.
+/// Returns the lines of a muscle in the table. They are built once and shared by all people.
 const MuscleLines& lines_of(Muscle muscle);
 
-/// The part of a line's length that no joint changes, m: segments between points of one bone, of a leg of that size.
+/// Returns the part of a line's length that no joint changes, m: segments on one bone, for a leg of that size.
 double constant_length_m(const MuscleLines& lines, const LegScale<float>& scale);
 
-/// L − L₀ of several muscles of a leg, m, within 4 µm of `lines_of_action`'s. `slack_m`: their rest lengths less the
-/// constant ones. A NaN stays in its lane.
+/// Elongations L − L₀ of several muscles of a leg, m, within 4 µm of those of `lines_of_action`. `slack_m` contains
+/// their rest lengths minus the constant lengths. A NaN stays in its lane.
 struct ElongatedLine {
   const MuscleLines* lines;
   const Lanes<float>* slack_m;

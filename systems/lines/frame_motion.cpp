@@ -18,7 +18,7 @@ HWY_INLINE WideVec scale(const Wide& s, const WideVec& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 
-/// The rotation vector (rad) of a turn, the shorter way round.
+/// Returns the rotation vector of a quaternion, rad, for the rotation by at most π.
 HWY_INLINE WideVec rotation_vector(const WideQuat& q) {
   const WideVec axis{q.x, q.y, q.z};
   const Wide sine = max(length(axis), 1e-18F);
@@ -48,7 +48,7 @@ void feel_frame(const LineOfAction<Lanes<float>>& line, FrameHistory<Lanes<float
   const WideVec step_before = select(even, step, load(history.step_m));
   const WideVec turn_before = select(even, turn, load(history.turn_rad));
 
-  // About the last tick, in the frame as it then was.
+  // Load during the last tick, in the frame at that time.
   const Wide rate = wide(1.0F / tick_s), rate2 = wide(1.0F / (tick_s * tick_s));
   const WideQuat inward = conjugate(before);
   WideVec felt = scale(-rate2, step - step_before);

@@ -1,4 +1,4 @@
-// Sixteen legs and the paths of muscles through them. Include it as engine/wide-inl.h says.
+// Blocks of sixteen legs and the paths of muscles in them. See engine/wide-inl.h for how to include it.
 
 #if defined(MOBIL_SYSTEMS_LINES_LEG_PATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_LINES_LEG_PATH_INL_H_
@@ -14,20 +14,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Angle about x of the shank's rotation in the thigh's frame.
+/// Returns the rotation angle of the shank about x in the thigh's frame.
 MOBIL_WIDE_INLINE Wide knee_flexion(const WideQuat& thigh, const WideQuat& shank) {
   const WideQuat q = WideQuat{-thigh.x, -thigh.y, -thigh.z, thigh.w} * shank;
   const WideMask other_sign = q.w < wide(0.0F);
   return wide(2.0F) * atan2(select(other_sign, -q.x, q.x), abs(q.w));
 }
 
-/// A block of legs; places relative to the knee, so that a walk far from the origin loses no digits. Shank and foot are
-/// where the knee rolls to: `rolled` from where their bones are drawn.
+/// A block of legs. Positions are relative to the knee, so no digits are lost far from the origin. Shank and foot are
+/// displaced by `rolled` from the drawn bones, because the knee rolls.
 struct Leg {
   WideVec origin[4];
   WideQuat rotation[4];
   Wide y_scale[4], across;
-  WideVec thigh_x, shank_x;  // the directions that edges have
+  WideVec thigh_x, shank_x;  // directions of the edges
   WideVec knee, rolled;
   Wide flexion, cube[knee_knots];  // of a track's spline: max(flexion / 20° − k, 0)³
 };
@@ -40,7 +40,7 @@ MOBIL_WIDE_INLINE WideVec track_at(const Leg& leg, const MuscleLines::Track& tra
   return at;
 }
 
-/// What is fixed to a bone at that place of the published leg: from the bone's origin, world axes.
+/// Returns the vector from the bone's origin to a point fixed to it at `at` of the published leg, in world axes.
 MOBIL_WIDE_INLINE WideVec turned(const Leg& leg, LegBone bone, const WideVec& at) {
   const auto b = static_cast<std::size_t>(bone);
   return rotate(leg.rotation[b], {leg.across * at.x, leg.y_scale[b] * at.y, leg.across * at.z});
@@ -93,7 +93,8 @@ HWY_INLINE LegBone end_bone(const MuscleLines::Member& member) {
   return member.on_kneecap ? LegBone::shank : member.path.back().bone;
 }
 
-/// Where the shortest path from `from` to `to` over the edge through p touches it, and in which lanes it does.
+/// Point where the shortest path from `from` to `to` over the edge through p touches it, and the lanes in which it
+/// does.
 struct Touch {
   WideMask touched;
   WideVec at;
@@ -109,8 +110,8 @@ MOBIL_WIDE_INLINE Touch over_edge(const WideVec& from, const WideVec& to, const 
   return {side == PathHold::front ? turn < zero : turn > zero, fma(slide, axis, p)};
 }
 
-/// Calls segment(from, to, bone of to, lanes where there is one or null: all) along a member's path, which ends at
-/// `end`. Where an edge is not touched, its segment has no length.
+/// Calls segment(from, to, bone of `to`, mask of the lanes with that segment or null for all) along a member's path.
+/// The path ends at `end`. A segment to an edge that is not touched has no length.
 template <class Segment>
 HWY_INLINE void along_path(const Leg& leg, const MuscleLines::Member& member, const WideVec& end,
                            const Segment& segment) {

@@ -16,10 +16,10 @@ constexpr bool is_distal(LegBone bone, std::size_t joint) {
   return static_cast<std::size_t>(bone) > joint;
 }
 
-/// Axes of positive flexion of what is distal, and axis × centre, relative to the knee.
+/// Axes of positive flexion of the distal parts, and axis × centre, relative to the knee.
 struct Joints {
   WideVec axis[joint_count], moment[joint_count];
-  /// What the knee's rolling moves shank and foot by, per radian of flexion.
+  /// Displacement of shank and foot by the rolling of the knee, per radian of flexion.
   WideVec drift;
   Wide square[knee_knots];  // of a track's slope: 3·max(flexion / 20° − k, 0)²
 };
@@ -28,7 +28,7 @@ HWY_INLINE WideVec negated(const WideVec& v) {
   return {-v.x, -v.y, -v.z};
 }
 
-/// A place fixed to the shank but for its track: how it moves in the world per radian of flexion.
+/// Returns the displacement in the world, per radian of flexion, of a point on a track of the shank.
 HWY_INLINE WideVec drift_of(const Leg& leg, const Joints& joints, const MuscleLines::Track& track,
                             const Wide& y_scale) {
   WideVec slope = wide(track.slope);

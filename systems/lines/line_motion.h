@@ -1,5 +1,5 @@
 #pragma once
-// How fast lines of action lengthen, and by which moment arms they turn the joints.
+// Lengthening speeds of lines of action, and their moment arms about the joints.
 
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/muscle.h>
@@ -7,15 +7,16 @@
 
 namespace mobil::inline v0_3 {
 
-/// Speed (line.length_m − motion.length_m) / tick_s, 0 where motion.length_m is 0, and moment arms about the flexion
-/// axes (the x axes of pelvis, thigh and shank, through hip, knee and ankle), of the leg and the length of this tick.
+/// Computes the speed (line.length_m − motion.length_m) / tick_s, 0 where motion.length_m is 0, and the moment arms, of
+/// this tick's leg and length. Arms are about the x axes of pelvis, thigh and shank, through hip, knee and ankle
+/// (flexion).
 ///
-/// The arms are exact derivatives, not differences: by the principle of virtual work a rotation of all that is distal
-/// changes the length as the unit vector of the segment that crosses the joint turns with it. Over an edge the path is
-/// the shortest one, so that its sliding along the edge adds nothing to first order; the kneecap's own movement and the
-/// knee's rolling add theirs. In single precision they are right to 8 µm.
+/// The arms are exact derivatives, not differences. By the principle of virtual work, a rotation of all distal parts
+/// changes the length as the unit vector of the segment that crosses the joint rotates with it. Over an edge the path
+/// is the shortest one, so sliding along the edge adds nothing to first order. The kneecap's movement and the rolling
+/// of the knee are included. In single precision the arms are accurate to 8 µm.
 ///
-/// For a left leg as for the right one, its mirror image. A NaN stays in its lane.
+/// A left leg is computed as its mirror image, a right leg. A NaN stays in its lane.
 void line_motion(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
                  const LineOfAction<Lanes<float>>& line, LineMotion<Lanes<float>>& motion, float tick_s);
 

@@ -20,14 +20,14 @@ HWY_INLINE Wide path_length(const Leg& leg, const MuscleLines::Member& member, c
   return sum;
 }
 
-/// A place on a path as the bones are drawn.
+/// Returns a point of a path relative to the drawn bones, without the rolling of the knee.
 HWY_INLINE WideVec unrolled(const Leg& leg, LegBone bone, const WideVec& at) {
   return bone < LegBone::shank ? at : at - leg.rolled;
 }
 
-constexpr std::size_t fetched_lines = 40;  // of each thing that is fetched meanwhile
+constexpr std::size_t fetched_lines = 40;  // of each prefetched item
 
-/// Writes line; the elongation L − L₀.
+/// Writes `line` and returns the elongation L − L₀.
 Wide act(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
          LineOfAction<Lanes<float>>& line, Lanes<float>* member_m, std::span<FetchAhead> ahead) {
   const std::size_t lines_each = fetched_lines / std::max<std::size_t>(1, lines.members.size()) + 1;
@@ -57,7 +57,7 @@ Wide act(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const Le
   const auto along_bone = static_cast<std::size_t>(lines.along);
   store(leg.knee + fma(wide(lines.start_m) * leg.y_scale[along_bone], z, anchor), line.start_m);
 
-  // The smallest turn from the bone's −y to z, after the turn that lays the muscle's axes on the bone's.
+  // The smallest rotation from the bone's −y to z, after the rotation of the muscle's axes to those of the bone.
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const Wide half = wide(0.70710678F);
   const WideQuat& bone = leg.rotation[static_cast<std::size_t>(lines.anchor.bone)];
@@ -70,7 +70,7 @@ Wide act(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const Le
   return elongation;
 }
 
-/// from: the last `to`, or this one's where the line had no length yet.
+/// Sets `from` to the last `to`, or to the new value where the line had no length yet.
 HWY_INLINE void follow(const WideMask& first, const Wide& now, Lanes<float>& from, Lanes<float>& to) {
   store(select(first, now, load(to)), from);
   store(now, to);
@@ -92,7 +92,7 @@ void act_on_end(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, c
 
 using Four = hn::Full128<float>;
 
-/// Four rows of four words as four words of four rows.
+/// Transposes four rows of four words.
 HWY_INLINE void turn(hn::Vec<Four> (&v)[4]) {
   const Four d;
   const auto low = hn::InterleaveLower(d, v[0], v[1]), high = hn::InterleaveUpper(d, v[0], v[1]);
@@ -105,7 +105,7 @@ HWY_INLINE void turn(hn::Vec<Four> (&v)[4]) {
 
 constexpr std::size_t leg_words = sizeof(LegFrames<float>) / sizeof(float);
 static_assert(sizeof(PublishedLeg::Leg) >= 4 * ((leg_words + 3) / 4) * sizeof(float));
-// Copied in fours, a leg's frames leave zeros in its clock: who does not walk stands.
+// Copying in fours also writes zeros to the leg's clock, so people who do not walk count as standing.
 static_assert(offsetof(PublishedLeg::Leg, clock) == 4 * leg_words && leg_words % 4 == 1);
 
 void gather_rows(const PublishedLeg::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
@@ -149,7 +149,7 @@ HWY_EXPORT(act_on_end);
 HWY_EXPORT(gather_rows);
 HWY_EXPORT(scatter_rows);
 
-/// `word(i)` is the i-th of a pose's words; put(f, x, sign) makes sign·x what f becomes.
+/// `word(i)` returns word i of a pose. put(f, x, sign) stores sign·x in f.
 template <class Word, class F, class Put>
 void gather(Word word, Side side, LegFrames<F>& legs, Put put) {
   const float mirror = side == Side::left ? -1.0F : 1.0F;

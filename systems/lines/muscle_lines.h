@@ -1,5 +1,5 @@
 #pragma once
-// Paths of muscles as kernels read them.
+// Paths of muscles in the form that kernels read.
 
 #include <cstddef>
 #include <vector>
@@ -8,14 +8,15 @@
 
 namespace mobil::inline v0_3 {
 
-/// The paths of a muscle's members: the table's rows in single precision, at the published leg's size. Immutable, the
-/// same for everybody. How they run: mobil/muscle_table.h.
+/// Paths of a muscle's members: rows of the table in single precision, at the size of the published leg. They are
+/// immutable and shared by all people. mobil/muscle_table.h describes their course.
 struct MuscleLines {
   struct Point {
     LegBone bone;
     Vec3<float> at_m;
     PathHold hold = PathHold::fixed;
-    /// Of an edge: which of the member's points (their number: the path's end) closes the straight line that it bends.
+    /// For an edge, index of the member's point that ends the straight line bent by it. The number of points is the
+    /// path's end.
     std::size_t straight_to = 0;
   };
   using Track = KneeSpline<float>;
@@ -27,15 +28,15 @@ struct MuscleLines {
   };
   std::vector<Member> members;
   Track rolling;  // of the knee
-  // The drawn line: from the anchor towards a point of members[towards], or what its path ends on where it has no such
-  // point; the belly begins start_m from the anchor.
+  // The drawn line runs from the anchor to a point of members[towards], or to the end of that path if it has no such
+  // point. The belly begins start_m from the anchor.
   Point anchor;
   std::size_t towards, point;
-  LegBone along;  // the bone that start_m scales with
+  LegBone along;  // bone with which start_m scales
   float start_m;
 };
 
-/// A muscle's lines: its length is the volume-weighted mean of its members'.
+/// Builds the lines of a muscle. Its length is the volume-weighted mean of its members' lengths.
 MuscleLines make_muscle_lines(Muscle muscle);
 
 }  // namespace mobil::inline v0_3

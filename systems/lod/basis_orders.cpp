@@ -45,7 +45,7 @@ bool BasisOrders::ready(BellyLibrary& library, Muscle muscle, const LegMuscles& 
   if (!order) return false;
   name.ready_tick = tick + making_ticks_;
   ordered.one[ordered.count++] = name;
-  if (library.find_basis(muscle, choice, key) != nullptr) return false;  // it is there, and waits its time all the same
+  if (library.find_basis(muscle, choice, key) != nullptr) return false;  // already made, but not usable before its tick
   auto work = std::make_shared<Work>();
   work->muscle = muscle;
   work->choice = choice;
@@ -61,7 +61,7 @@ bool BasisOrders::ready(BellyLibrary& library, Muscle muscle, const LegMuscles& 
   return false;
 }
 
-/// Made here where nobody has begun; an error is left to whoever asks for the belly.
+/// Adds a finished basis, made here if no thread has started it. A request for the belly reports its error.
 void BasisOrders::take_in(BellyLibrary& library, Muscle muscle, const LegMuscles& choice,
                           const BellyLibrary::BasisKey& key) {
   const auto is = [&](const std::shared_ptr<Work>& work) {

@@ -1,6 +1,6 @@
 #pragma once
-// Bases that methods lack, made apart from the ticks. When one may be taken up follows from ticks, never from when it
-// was done: a fixed time after it was first called for.
+// Makes missing modal bases in the background. A basis becomes usable a fixed number of ticks after its first request,
+// independent of when it was finished.
 
 #include <atomic>
 #include <cstdint>
@@ -14,25 +14,25 @@ namespace mobil::inline v0_3 {
 
 class BasisOrders {
  public:
-  /// Where what is called for later is made, and after how many ticks it may be taken.
+  /// Sets where ordered bases are made, and after how many ticks they become usable.
   void make_by(const Background& background, std::uint32_t making_ticks) {
     background_ = background;
     making_ticks_ = making_ticks;
   }
 
-  /// Whether a belly of that size may have that choice of Method::reduced in this tick: its basis was prepared or
-  /// loaded, or was called for long enough ago; it is in the library then, which waits for it where it is not done.
-  /// Else it is ordered, where `order` says so. `ordered`: all that were, in that order: what choosing depends on.
+  /// Returns true if a belly of this size can use this choice of Method::modal in this tick. Its basis was then
+  /// prepared or loaded, or was ordered long enough ago and is in the library; an unfinished basis is waited for.
+  /// Otherwise orders the basis if `order` is set. `ordered` lists all orders in sequence; choices depend on it.
   bool ready(BellyLibrary& library, Muscle muscle, const LegMuscles& choice, const BellyScale<float>& scale,
              std::uint32_t tick, bool order, OrderedBases& ordered);
 
  private:
-  /// One that is made: whoever claims it first makes it.
+  /// A basis to make. The first thread that claims it makes it.
   struct Work {
     Muscle muscle{};
     LegMuscles choice;
     BellyLibrary::BasisKey key{};
-    std::atomic<int> stage{0};  // 0 waits, 1 is being made, 2 is done
+    std::atomic<int> stage{0};  // 0 waiting, 1 being made, 2 done
     std::unique_ptr<Result<BellyLibrary::Basis>> made;
 
     void make();

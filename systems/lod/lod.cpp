@@ -123,8 +123,8 @@ Result<void> Lod::set_scene(const LodScene& needs) {
   return {};
 }
 
-/// Levels that may be the cheapest for one of the scene's muscles and any walk: for these tolerances, where a cheaper
-/// method must keep to the least part of one; for any, where tolerances follow from a camera or a budget.
+/// Returns the levels that can be the cheapest for one of the scene's muscles at any speed. Tests these tolerances, of
+/// which a cheaper method must keep to `slack`. With a camera or a budget tests all tolerances.
 static std::array<bool, level_count> called_for(const LodWork& work, std::span<const float> tolerances_m) {
   std::array<bool, level_count> called{};
   LevelCase of{.inertia = work.options.leg_muscles.inertia, .active = pulls_alive(work.options.leg_muscles)};
@@ -167,7 +167,7 @@ Result<void> Lod::prepare(std::span<const float> own_tolerances_m,
   return {};
 }
 
-/// All are awake, whole and have muscles, or nobody has changed.
+/// Makes all people full and awake, and gives them muscles where they have none. On an error no person has changed.
 static Result<void> make_ready(const Frame& frame, const LodWork& work, std::span<const Entity> people,
                                const LodOverrides& needs) {
   World::Transaction transaction(frame.world, frame.jobs);
@@ -252,7 +252,7 @@ Result<std::size_t> Lod::manage_asleep(std::span<const Entity> people) {
     for (const Entity person : people)
       if (auto ok = check_leg_moments(frame_.world, person, choice); !ok) return tl::unexpected(ok.error());
   }
-  frame_.world.global<LodProgress>().all_sleepers = 1;  // some may be in view of a camera that stands still
+  frame_.world.global<LodProgress>().all_sleepers = 1;  // some can be in view of a camera that does not move
   const auto kept = keep_choice(frame_.world, *frame_.workspace.get<MuscleMeans>().library, choice);
   const std::array keeps = {component_id(TagValue<SleepsManaged>{1}), component_id(kept)};
   const std::size_t slept = sleep_managed(frame_, people, keeps);
@@ -273,7 +273,7 @@ Result<void> Lod::release(std::span<const Entity> people) {
   std::vector<Entity> whole;
   for (const Entity person : people) {
     if (!is_managed(frame_.world, person)) return fail("release: somebody is not managed", Status::missing);
-    // Nobody else would begin the muscles that are to come.
+    // A person with pending muscles is made full, because nothing else would begin those muscles.
     const bool stays_compact = is_compact(frame_.world, person) &&
                                (frame_.world.has<CompactMuscles>(person) || !kept_choice(frame_.world, person));
     if (!stays_compact) whole.push_back(person);
@@ -294,7 +294,7 @@ Result<void> Lod::force(Entity person, Muscle muscle, const MuscleMethod& method
   if (!lod_state || m >= max_muscles || !bit_at(lod_state->muscles, m))
     return fail("force: that person, or that muscle of theirs, is not managed; manage it first",
                 lod_state ? Status::missing : lod_state.error());
-  struct AsBefore {  // where it is refused, or memory runs out: once the transaction is undone
+  struct AsBefore {  // runs after the rollback of the transaction, on a refusal or if memory runs out
     World& world;
     Entity person;
     LodState<float> lod_state;

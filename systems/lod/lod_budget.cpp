@@ -16,7 +16,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr float easing = 0.97F;  // how fast tolerances come back when there is time again, an update
+constexpr float easing = 0.97F;  // factor per update by which tolerances tighten again when time is available
 
 double deformation_s(const Schedule& schedule) {
   double sum = 0;
@@ -60,7 +60,7 @@ void LodRound::plan_budget() {
   progress_.factor = afforded > progress_.factor ? afforded : std::max(afforded, easing * progress_.factor);
 }
 
-/// In their order, until the update has spent `max_ps` on changes.
+/// Makes changes in order until the update has spent `max_ps` on them.
 void LodRound::change_first(std::span<const Switch> all, std::int64_t max_ps, bool within_budget) {
   for (const Switch& one : all) {
     const float us = (one.active ? active_switch_us : switch_us)[one.level];
@@ -71,7 +71,7 @@ void LodRound::change_first(std::span<const Switch> all, std::int64_t max_ps, bo
   }
 }
 
-/// Cheaper ones get half of the turns and of the time, or what dearer ones leave, or under too high a cost all.
+/// Gives cheaper switches half of the count and time, or what dearer ones leave; above the budget they get all.
 void LodRound::carry_out() {
   const auto first = [](const Switch& a, const Switch& b, bool most) {
     if (a.excess != b.excess) return most ? a.excess > b.excess : a.excess < b.excess;
@@ -100,22 +100,22 @@ void LodRound::carry_out() {
       work_.now.cheaper.size() + work_.now.dearer.size() - report_.switched - (report_.refused - refused_before);
 }
 
-/// Whether what a level shares is there, or time has come for it.
+/// Returns true if the level's shared data exists, or its waiting time has passed.
 bool LodRound::at_hand(const Switch& one, std::uint32_t level, bool order) {
   const MuscleMethod method = level_method(level, one.points, one.active);
   if (work_.options.background.run == nullptr || method.method != Method::modal) return true;
   const auto muscle = static_cast<Muscle>(one.muscle);
   auto choice = choice_of(world_, one.person);
-  if (!choice) return true;  // set_method says so
+  if (!choice) return true;  // set_method reports the error
   choice->method = method.method;
   choice->modal = method.modal;
   const auto plan = make_muscle_plan(*make_body(body_request(world_, one.person)), muscle);
   return work_.orders.ready(library(), muscle, *choice, plan->scale, frame_.tick.index, order, progress_.ordered);
 }
 
-/// False where it waits for what its method shares.
+/// Returns false if the change waits: for the person to be full, or for the method's shared data.
 bool LodRound::change(const Switch& one) {
-  if (is_compact(world_, one.person)) return false;  // waits to be whole
+  if (is_compact(world_, one.person)) return false;  // waits until the person is full
   auto lod_state = *world_.get<LodState>(one.person);
   const std::uint32_t now = level_at(lod_state.level, one.muscle);
   const LevelCase of = level_case(lod_state, one.muscle, one.points);

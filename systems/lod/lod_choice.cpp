@@ -20,19 +20,19 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr float closest_m = 0.3F;
-constexpr float leave_m = 0.5F;  // how much farther out somebody seen must be to be seen no more
+constexpr float leave_m = 0.5F;  // how much farther out a seen person must be to become unseen
 constexpr float reference_height = static_cast<float>(reference_body_height_m);
-/// How far a pelvis is from the point of the line beside the stance foot, at most.
+/// Maximum distance of a pelvis from the point of the line at the stance foot.
 constexpr float off_the_line_m = 0.6F;
-/// How much farther out than where they would wake people must be to fall asleep.
+/// Factor on the waking distance, beyond which people fall asleep.
 constexpr float falls_asleep = 1.5F;
 
 struct Sight {
   View view;
-  float tolerance_m;  // by distance; 0 without a camera
+  float tolerance_m;  // from the distance to the camera
 };
 
-/// `cosine`, `sine`: of the camera's half angle; `blur_m`: how far somebody may be from `at`.
+/// `cosine` and `sine` are of the camera's half-angle. `blur_m` is the person's maximum distance from `at`.
 Sight sight(const Viewpoint& camera, float cosine, float sine, float tolerance_px, const Vec3<float>& at, View before,
             float blur_m) {
   const Vec3<float> v = {at.x - camera.position_m.x, at.y - camera.position_m.y, at.z - camera.position_m.z};
@@ -54,7 +54,7 @@ Sight sight(const Viewpoint& camera, float cosine, float sine, float tolerance_p
 
 }  // namespace
 
-/// Where somebody's pelvis is; of who is compact, within off_the_line_m.
+/// Returns the position of a person's pelvis; for a compact person it is within off_the_line_m.
 Vec3<float> LodRound::pelvis_of(const Table& table, const Columns& at, std::size_t b, std::uint32_t lane) {
   if (!at.pose) {
     const auto& state = at.state.at(table, b);
@@ -64,7 +64,7 @@ Vec3<float> LodRound::pelvis_of(const Table& table, const Columns& at, std::size
   return {pelvis.x[lane], pelvis.y[lane], pelvis.z[lane]};
 }
 
-/// Who is to be whole, and who may be compact: of whom nothing is seen and who waits for nothing.
+/// Queues a compact person for expansion if seen or with a pending change, and a full one for compaction if neither.
 void LodRound::decide_compact(Entity person, bool compact, const LodState<float>& lod_state, bool settled, float excess,
                               Looked& out) const {
   const bool looked_at = static_cast<View>(lod_state.view) == View::seen;
@@ -74,8 +74,8 @@ void LodRound::decide_compact(Entity person, bool compact, const LodState<float>
     out.unseen.push_back(person);
 }
 
-/// Tables come and stay. Their order follows from what they are, not from which came first: where not everybody's turn
-/// can be at once, the same people come first in a world that was restored.
+/// Adds new tables; none is ever removed. Their order follows from archetypes, not from creation, so that a restored
+/// world processes the same people first under limits per tick.
 void LodRound::find_tables() {
   const auto& managed = frame_.workspace.get<ManagedPeople>().tables.found();
   if (work_.tables_seen == managed.size()) return;
@@ -116,7 +116,7 @@ void LodWork::Looked::add(const Looked& more) {
   counted_ps += more.counted_ps;
 }
 
-/// This turn's part of the crowd, in runs of blocks on all threads; the lists are joined in the order of the blocks.
+/// Evaluates this turn's part of the crowd in runs of blocks on all threads. Joins the lists in block order.
 std::size_t LodRound::look_at_the_awake() {
   constexpr std::size_t together = 16;  // blocks
   work_.now.clear();
@@ -150,7 +150,7 @@ std::size_t LodRound::look_at_the_awake() {
   return people;
 }
 
-/// Where it throws, the same people are looked at again: what has been changed by then stays.
+/// After an exception the same people are evaluated again. Changes made before it stay.
 void LodRound::run() {
   const LodProgress before = progress_;
   try {
@@ -190,7 +190,7 @@ void LodRound::choose() {
   add_report();
 }
 
-/// To that of the ticks before.
+/// Adds this tick's report to that of the ticks before.
 void LodRound::add_report() {
   const LodReport before = std::exchange(work_.report, report_);
   for (const auto count :
@@ -235,7 +235,7 @@ void LodRound::evaluate(Table& table, const Columns& at, std::size_t b, Looked& 
       view = of.view;
       lod_state.tolerance_m = of.tolerance_m;
       if (work_.scene.asleep_beyond_m && view > View::near) {
-        view = View::near;  // soon, perhaps
+        view = View::near;  // can be near soon
         if (!(own_view && needs.looked_at != 0) && at.plan &&
             gap(pelvis) > falls_asleep * *work_.scene.asleep_beyond_m &&
             may_be_steady(at.gait.at(table, b), at.plan.at(table, b), at.state.at(table, b), lane))
@@ -260,11 +260,11 @@ void LodRound::decide(Entity person, LodState<float>& lod_state, std::uint32_t w
   const auto view = static_cast<View>(lod_state.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
   const float size =
-      lod_state.relative_size / lod_state.tolerance_m;  // errors as parts of the tolerance, over the table's
+      lod_state.relative_size / lod_state.tolerance_m;  // from errors of the table to multiples of the tolerance
   const float limit = progress_.factor / size;
   if ((lod_state.effects & lod_bare) != 0) return decide_bare(person, lod_state, wanted_muscles, compact, out);
   const bool over = work_.scene.budget_s && progress_.cost_ps > progress_.budget_ps;
-  // Where nothing is seen of any of them, and nothing was forced, all go at once.
+  // If no muscle is simulated and none was forced, all are removed together.
   bool idle = work_.scene.asleep_beyond_m && lod_state.muscles != 0, settled = true;
   float excess = 0;
   const std::size_t dearer = out.dearer.size(), cheaper = out.cheaper.size();
@@ -280,7 +280,7 @@ void LodRound::decide(Entity person, LodState<float>& lod_state, std::uint32_t w
     LevelCase as_seen = as_is;
     as_seen.points = looked_at;
     const std::int64_t cost = work_.lod_table.cost_ps(as_is, now);
-    if (!compact) out.counted_ps += cost;  // what is compact is no part of what a budget is for
+    if (!compact) out.counted_ps += cost;  // the budget excludes compact people
     std::uint32_t goal = 0;
     if (simulated && bit_at(wanted_muscles, m)) {
       if (work_.scene.budget_s && !compact) out.counting.add(work_.lod_table, as_seen, size);
@@ -293,7 +293,7 @@ void LodRound::decide(Entity person, LodState<float>& lod_state, std::uint32_t w
     const bool modal = levels_of(as_is.active)[goal].method == Method::modal;
     if (goal == now && (points == shown || !modal)) continue;
     const std::int64_t more = work_.lod_table.cost_ps(as_seen, goal) - cost;
-    const bool lit = shown && !points;  // until then there is nothing to be seen of it
+    const bool lit = shown && !points;  // not visible until then
     const std::uint32_t worst = more > 0 ? (lit ? 0 : now) : goal;
     settled = false;
     const float misses = work_.lod_table.error_m(as_seen, worst) * size;

@@ -11,7 +11,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Whether every level, view and speed is one that there is.
+/// Returns true if every level, view and speed step is valid.
 bool is_sound_state(const LodState<float>& lod_state) {
   for (std::uint32_t m = 0; m < max_muscles; ++m) {
     const std::uint32_t level = level_at(lod_state.level, m), goal = level_at(lod_state.goal, m);

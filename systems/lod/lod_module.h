@@ -1,16 +1,16 @@
 #pragma once
-// What level of detail keeps, as a module, and when it chooses.
+// The module of level of detail, and its phase.
 
 #include <mobil/engine/module.h>
 
 namespace mobil::inline v0_3 {
 
-/// The module; Simulation has it among its own.
+/// Returns the module; every Simulation has it.
 Module lod_module();
 
-/// Before the systems: methods are chosen, people wake and fall asleep (Lod).
+/// Returns the phase before the systems that chooses methods, wakes people and puts them to sleep (Lod).
 Phase detail_chosen();
-/// Counts of Lod::report begin at 0.
+/// Resets the counts of Lod::report to 0.
 void begin_lod_report(const Frame& frame);
 
 }  // namespace mobil::inline v0_3

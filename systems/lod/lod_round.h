@@ -1,6 +1,6 @@
 #pragma once
-// One tick's look at a crowd for level of detail: who is seen, what their muscles need, which method each gets, and who
-// wakes or falls asleep.
+// Level of detail in one tick. Finds people in view and the needs of their muscles, chooses methods, and wakes people
+// or puts them to sleep.
 
 #include <array>
 #include <cstdint>
@@ -17,23 +17,23 @@
 
 namespace mobil::inline v0_3 {
 
-/// What choosing remembers from one tick to the next besides people's rows, as a global of the world: state.
+/// State that choosing keeps between ticks, in addition to people's rows: a global of the world.
 struct LodProgress {
   CostSpectrum crowd, counting;  // of the last round, and of the one under way
   MachineFactor machine;
-  /// Of methods as they are; of those counted in this round.
+  /// Predicted costs of current methods: of all people, and of those counted in this round.
   std::int64_t cost_ps = 0, counted_ps = 0, budget_ps = 0;
   float factor = 1;
   std::uint32_t turn = 0, last_tick = 0;
-  std::uint32_t all_sleepers = 1;  // are looked at next
+  std::uint32_t all_sleepers = 1;  // 1: check all sleepers next
   OrderedBases ordered{};
-  Vec3<float> eye_m{}, gaze{};        // of the last look; a gaze of no length: there was no camera
-  std::array<float, 4> saw{};         // then: half its angle, rad; reach_m, near_m, asleep_beyond_m
-  std::uint32_t sleepers_looked = 0;  // up to which of the sleepers' blocks
+  Vec3<float> eye_m{}, gaze{};        // at the last look; without a camera `gaze` has length 0
+  std::array<float, 4> saw{};         // at the last look: half-angle, rad; reach_m, near_m, asleep_beyond_m
+  std::uint32_t sleepers_looked = 0;  // next of the sleepers' blocks
   std::uint32_t spare = 0;
 };
 
-/// Whether there is anybody to choose for, in the simulation's workspace.
+/// Tables of managed people, awake or asleep, in the simulation's workspace.
 struct ManagedPeople {
   explicit ManagedPeople(std::pmr::memory_resource* memory)
       : tables({type_id<LodState<float>>(), type_id<SleepsManaged>()}, memory) {}
@@ -41,49 +41,49 @@ struct ManagedPeople {
   TableList tables;
 };
 
-/// What the host gave, and what choosing works in, which lies in the simulation's workspace.
+/// The host's settings and scratch memory of choosing, in the simulation's workspace.
 struct LodWork {
-  /// Where a table of people keeps what is needed.
+  /// Columns of a table of people.
   struct Columns {
     TableColumn<LodRequest> needs;
     TableColumn<LodState> lod_state;
     TableColumn<Pose> pose;
     TableColumn<BodySize> size;
-    TableColumn<Gait> gait;  // walkers have this and the next
+    TableColumn<Gait> gait;  // walkers have this and the next two
     TableColumn<StepPlan> plan;
     TableColumn<GaitState> state;
   };
   struct Switch {
-    float excess;  // error over tolerance: as it is, to be dearer; as it will be, to be cheaper
+    float excess;  // error over tolerance: current for dearer switches, future for cheaper ones
     Entity person;
     std::uint8_t muscle, level;
     bool points, active;
-    std::int64_t cost_ps;  // more than now
+    std::int64_t cost_ps;  // in addition to the current cost
   };
 
-  /// Who wakes without muscles and is to have them: all by one level.
+  /// A person who woke without muscles and needs them, all at one level.
   struct Bare {
     float excess;
     Entity person;
     std::uint32_t level;
     bool points;
   };
-  /// Who is compact and is to be whole.
+  /// A compact person who must become full.
   struct Expanding {
     float excess;
     Entity person;
   };
-  /// What looking at some people came to.
+  /// Decisions for the evaluated people.
   struct Looked {
     std::vector<Switch> dearer, cheaper;
     std::vector<Bare> bare;
     std::vector<Expanding> expanding;
     std::vector<Entity> drowsy, idle, unseen;
-    CostSpectrum counting;  // with a budget
+    CostSpectrum counting;  // only with a budget
     std::int64_t counted_ps = 0;
 
     void clear();
-    void add(const Looked& more);  // all but `counting`
+    void add(const Looked& more);  // all except `counting`
   };
 
   LodOptions options;
@@ -91,9 +91,9 @@ struct LodWork {
   LodTable lod_table{accuracy_table()};
   BasisOrders orders;
   LodReport report;
-  std::size_t tables_seen = 0;  // of those of ManagedPeople
+  std::size_t tables_seen = 0;  // of ManagedPeople
   std::vector<std::pair<Table*, Columns>> tables;
-  /// What was decided of those looked at: in this tick, and by each run of blocks of it.
+  /// Decisions of this tick, and of each of its runs of blocks.
   Looked now;
   std::vector<Looked> looked;
   struct BlockOf {
@@ -106,7 +106,7 @@ struct LodWork {
     bool seen;
   };
   std::vector<Table*> sleeping_tables;
-  std::vector<std::size_t> sleeping_blocks;  // up to and with a table
+  std::vector<std::size_t> sleeping_blocks;  // cumulative, including the table's own
   std::vector<std::uint16_t> near_lanes;
   std::vector<WakingSleeper> waking;
   std::vector<Entity> people;
@@ -122,12 +122,12 @@ class LodRound {
 
   void run();
 
-  /// Muscles of people who woke without them begin on that level.
+  /// Gives people who woke without muscles their muscles, on this level.
   Result<void> begin_muscles(std::span<const Entity> people, std::uint32_t level, bool points);
   std::uint32_t wanted(const LodRequest<float>& needs) const;
-  /// How much slower this machine is than the one of the table.
+  /// Returns how much slower this machine is than the one on which the table was measured.
   MachineFactor machine() const;
-  /// By which tolerances are missed under the budget.
+  /// Returns the factor by which tolerances are exceeded under the budget.
   float factor() const { return progress_.factor; }
 
  private:
@@ -150,7 +150,7 @@ class LodRound {
   void wake_sleepers();
   void look_at_sleepers();
   void list_all_sleepers();
-  std::array<float, 4> sees() const;  // with a camera and a distance of sleep
+  std::array<float, 4> sees() const;  // needs a camera and asleep_beyond_m
   LodState<float> begin_tiers(const LegMuscles* choice) const;
   void decide_bare(Entity person, const LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact,
                    Looked& out) const;
@@ -172,8 +172,8 @@ class LodRound {
   LodWork& work_;
   LodProgress& progress_;
   LodReport report_{};                 // of this tick
-  std::int64_t switching_ps_ = 0;      // spent in it
-  float cone_cos_ = 1, cone_sin_ = 0;  // of the camera's half angle
+  std::int64_t switching_ps_ = 0;      // spent on switches in this tick
+  float cone_cos_ = 1, cone_sin_ = 0;  // of the camera's half-angle
 };
 
 }  // namespace mobil::inline v0_3

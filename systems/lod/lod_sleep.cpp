@@ -25,14 +25,14 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr float fastest_m_s = 2.6F;  // of walkers
-/// Who turns or changes speed is not yet where the words of a sleeper say: off by this at most.
+/// Maximum error of a sleeper's predicted position while the person turns or changes speed, m.
 constexpr float unsettled_m = 8;
 
 float length(const Vec3<float>& v) {
   return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
-/// How high sleepers' hips are; over the ground that they fell asleep on where it is not level.
+/// Returns the heights of sleepers' pelves, m, above the ground on which they fell asleep.
 Lanes<float> pelvis_heights(const Table& table, std::size_t block) {
   Lanes<float> up_m;
   const TableColumn<Footing> footing(table);
@@ -42,7 +42,7 @@ Lanes<float> pelvis_heights(const Table& table, std::size_t block) {
   return up_m;
 }
 
-/// How much nearer to being seen anybody can have come as a camera has moved so.
+/// Returns an upper bound of how much closer to being seen a person has come by the camera's movement, m.
 float camera_moved_m(const Viewpoint& now, const Vec3<float>& eye, const Vec3<float>& gaze) {
   if (length(gaze) == 0) return INFINITY;
   const Vec3<float>& p = now.position_m;
@@ -59,7 +59,7 @@ std::array<float, 4> LodRound::sees() const {
   return {camera.half_angle_rad, camera.reach_m, camera.near_m, *work_.scene.asleep_beyond_m};
 }
 
-/// Everybody, in the order of their handles.
+/// Lists all sleepers with equal priority, so that they wake in the order of their handles.
 void LodRound::list_all_sleepers() {
   work_.waking.clear();
   const bool seen = !work_.scene.camera && work_.scene.looked_at;
@@ -68,8 +68,8 @@ void LodRound::list_all_sleepers() {
       for (std::uint32_t l = 0; l < table->live(b); ++l) work_.waking.push_back({0, table->entities(b)[l], seen});
 }
 
-/// Looks at a part of the sleepers, which grows with the camera's movement. Each sleeper is looked at again before
-/// camera and walker together can have covered nine tenths of `asleep_beyond_m`.
+/// Checks a part of the sleepers, which grows with the camera's movement. Each sleeper is checked again before camera
+/// and walker together can have covered 0.9 × `asleep_beyond_m`.
 void LodRound::look_at_sleepers() {
   const Viewpoint& camera = *work_.scene.camera;
   work_.sleeping_blocks.clear();
@@ -77,7 +77,7 @@ void LodRound::look_at_sleepers() {
   for (const Table* const table : work_.sleeping_tables)
     work_.sleeping_blocks.push_back(blocks += table->block_count());
   const auto tick_s = frame_.tick.dt_s;
-  // After a change of the angle or of a distance anybody may be in view.
+  // After a change of the angle or of a distance, any person can be in view.
   const float moved_m = sees() == progress_.saw
                             ? camera_moved_m(camera, progress_.eye_m, progress_.gaze) + fastest_m_s * tick_s
                             : INFINITY;
@@ -124,7 +124,7 @@ void LodRound::look_at_sleepers() {
     for (std::uint32_t left = work_.near_lanes[i]; left != 0; left &= left - 1) {
       const auto l = static_cast<std::uint32_t>(std::countr_zero(left));
       const float dx = x_m[l] - camera.position_m.x, dz = z_m[l] - camera.position_m.z;
-      // Who is seen comes before who is not, then the nearer one.
+      // Seen people come before unseen ones, then nearer people before farther ones.
       const float unseen_m = std::max(gap({x_m[l], pelvis_heights(*table, block)[l], z_m[l]}), 0.0F);
       work_.waking.push_back(
           {std::sqrt(dx * dx + dz * dz) + 1000 * unseen_m, table->entities(block)[l], unseen_m == 0});
@@ -151,7 +151,7 @@ void LodRound::wake_sleepers() {
   report_.to_wake = work_.waking.size() - now;
   progress_.all_sleepers = report_.to_wake > 0;
   work_.waking.resize(now);
-  // Who is not seen yet has no pose until then; with forces there is one.
+  // An unseen person wakes compact, without a pose, unless the person has forces or a footing.
   const auto whole = [&](const WakingSleeper& one) {
     return !work_.scene.compact_unseen || one.seen || world_.has<SleepsWithForces>(one.person) ||
            world_.has<Footing>(one.person);
@@ -171,7 +171,7 @@ void LodRound::wake_sleepers() {
   }
 }
 
-/// Who misses most first.
+/// Expands people in the order of their excess, largest first.
 void LodRound::make_full() {
   const auto first = [](const Expanding& a, const Expanding& b) {
     return a.excess != b.excess ? a.excess > b.excess : a.person.index < b.person.index;
@@ -192,7 +192,7 @@ void LodRound::make_full() {
 }
 
 void LodRound::make_compact() {
-  // People who cannot be compact do not count.
+  // People who cannot be compact do not count toward the limit.
   for (std::span<const Entity> left(work_.now.unseen); !left.empty() && report_.compacted < work_.options.compacts;) {
     const auto some = left.first(std::min<std::size_t>(left.size(), work_.options.compacts - report_.compacted));
     report_.compacted += compact(frame_, some);
@@ -200,7 +200,7 @@ void LodRound::make_compact() {
   }
 }
 
-/// Of who has woken without muscles; `choice`: what they are to be, null where there will be none.
+/// Returns the state of a person who woke without muscles. `choice`: the muscles to come, null without any.
 LodState<float> LodRound::begin_tiers(const LegMuscles* choice) const {
   LodState<float> lod_state{};
   lod_state.view = static_cast<std::uint32_t>(View::out_of_reach);
@@ -214,7 +214,7 @@ LodState<float> LodRound::begin_tiers(const LegMuscles* choice) const {
   return lod_state;
 }
 
-/// The level that all of a person's muscles begin with: the dearest that one of them calls for.
+/// Chooses the level with which all of a person's muscles begin: the dearest that one of them needs.
 void LodRound::decide_bare(Entity person, const LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact,
                            Looked& out) const {
   const auto view = static_cast<View>(lod_state.view);
@@ -247,8 +247,8 @@ void LodRound::begin_muscles() {
   report_.to_begin = work_.now.bare.size() - count;
   work_.now.bare.resize(count);
   std::erase_if(work_.now.bare,
-                [&](const Bare& one) { return is_compact(world_, one.person); });  // they wait to be whole
-  // Those of one choice and level together.
+                [&](const Bare& one) { return is_compact(world_, one.person); });  // they wait until they are full
+  // People with the same choice and level are handled together.
   for (std::size_t i = 0; i < work_.now.bare.size(); ++i) {
     if (work_.now.bare[i].level == 0) continue;
     const Bare one = work_.now.bare[i];
@@ -270,7 +270,7 @@ void LodRound::begin_muscles() {
   }
 }
 
-/// What they are to be is kept on the person's row.
+/// Removes muscles that are not simulated. The person's row keeps their choice.
 void LodRound::end_muscles() {
   std::erase_if(work_.now.idle, [&](Entity person) {
     return is_compact(world_, person) || !world_.alive(world_.first_member(person));
@@ -278,7 +278,7 @@ void LodRound::end_muscles() {
   work_.now.idle.resize(std::min<std::size_t>(work_.now.idle.size(), work_.options.begins));
   work_.people.clear();
   for (const Entity person : work_.now.idle) {
-    // What an earlier end has kept is that of muscles that may have changed since.
+    // A choice kept earlier gives only method and modes, because the muscles can have changed since.
     LegMuscles now = *choice_of(world_, person);
     const LegMuscles* const kept = world_.shared<LegMuscles>(person);
     if (kept != nullptr) now.method = kept->method, now.modal = kept->modal;
@@ -291,7 +291,7 @@ void LodRound::end_muscles() {
     world_.each_member(person, [&](Entity member) {
       if (world_.has<MuscleOwner>(member)) work_.people.push_back(member);
     });
-  for (const Entity person : work_.now.idle) {  // who is marked must have none: nothing fails from here on
+  for (const Entity person : work_.now.idle) {  // people so marked must have no muscles: nothing fails from here on
     auto lod_state = *world_.get<LodState>(person);
     lod_state.effects |= lod_bare;
     world_.set(person, lod_state);
@@ -305,7 +305,7 @@ Result<void> LodRound::begin_muscles(std::span<const Entity> people, std::uint32
   const MuscleMethod method = level_method(level, points, pulls_alive(choice));
   choice.method = method.method;
   choice.modal = method.modal;
-  // Who is seen already has no time to come within the tolerance.
+  // Muscles of people in view must begin within the tolerance.
   float within_m = INFINITY;
   for (const Entity person : people)
     if (points) within_m = std::min(within_m, world_.get<LodState>(person)->tolerance_m);
@@ -329,7 +329,7 @@ void LodRound::put_to_sleep() {
   constexpr std::array plain = {component_id(TagValue<SleepsManaged>{1})};
   constexpr std::array needy = {component_id(TagValue<SleepsManaged>{1}), component_id<LodRequest>()};
   work_.now.drowsy.resize(std::min<std::size_t>(work_.now.drowsy.size(), work_.options.sleeps));
-  // Who has needs of their own keeps them.
+  // People with requests of their own keep them.
   const auto own = std::stable_partition(work_.now.drowsy.begin(), work_.now.drowsy.end(),
                                          [&](Entity person) { return world_.get<LodRequest>(person)->own == 0; });
   const auto without = static_cast<std::size_t>(own - work_.now.drowsy.begin());

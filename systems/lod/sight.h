@@ -1,5 +1,5 @@
 #pragma once
-// How far somebody is from being seen.
+// Distance of people from being seen.
 
 #include <algorithm>
 #include <cmath>
@@ -9,23 +9,23 @@
 
 namespace mobil::inline v0_3 {
 
-/// People count as balls of this radius round the pelvis, m.
+/// Radius of the ball around the pelvis that represents a person, m.
 inline constexpr float person_radius_m = 1;
-/// Height of a pelvis where no pose says better, m.
+/// Height of a pelvis without a pose, m.
 inline constexpr float pelvis_m = 0.95F;
 
-/// How far people are from being seen.
+/// Distance of people from being seen.
 class Gap {
  public:
-  /// `cosine`, `sine`: of the camera's half angle, which take longer than all the rest.
+  /// `cosine` and `sine` are of the camera's half-angle; they cost more than all the rest.
   Gap(const Viewpoint& camera, float cosine, float sine) : camera_(camera), cos_(cosine), sin_(sine) {
     const Vec3<float>& f = camera.forward;
     const float length = std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z);
     forward_ = {f.x / length, f.y / length, f.z / length};
   }
 
-  /// How far, at least, a person and the camera must come together for the person to be seen, or near: 0 and less for
-  /// who is. Of the cone and the ball of what is in reach each is a bound.
+  /// Returns a lower bound of the distance, m, by which person and camera must approach for the person to be seen or
+  /// near. It is at most 0 for a person who is. The cone and the ball of radius reach_m each give a bound.
   float operator()(const Vec3<float>& at) const {
     const Vec3<float> v = from_camera(at);
     const float distance = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
@@ -34,7 +34,7 @@ class Gap {
     const float unseen = std::max(aside * cos_ - along * sin_ - person_radius_m, distance - camera_.reach_m);
     return std::min(unseen, distance - camera_.near_m);
   }
-  /// The square of a distance; of who is further than reach_m + gap and near_m + gap the gap is larger.
+  /// Returns the squared distance from the camera, m². Beyond `farthest(gap_m)` the gap exceeds gap_m.
   float squared(const Vec3<float>& at) const {
     const Vec3<float> v = from_camera(at);
     return v.x * v.x + v.y * v.y + v.z * v.z;

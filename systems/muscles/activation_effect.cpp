@@ -21,11 +21,11 @@ constexpr std::uint32_t design_words = sizeof(MemberDesign<float>) / sizeof(floa
 constexpr std::uint32_t state_words = sizeof(MemberState<float>) / sizeof(float);
 using Excitations = std::array<Lanes<float>, max_row_members>;
 
-/// What all muscles of a row of the table share.
+/// Constants common to all muscles of a row of the table.
 struct RowMembers {
   RowExcitation excitation;
   std::array<float, max_row_members> weight{};
-  std::array<std::size_t, max_row_members> number{};  // among the leg's
+  std::array<std::size_t, max_row_members> number{};  // among the leg's members
 };
 
 const RowMembers& row_members(Muscle muscle) {
@@ -45,7 +45,7 @@ const RowMembers& row_members(Muscle muscle) {
   return all[static_cast<std::size_t>(muscle)];
 }
 
-/// The columns of a block as their members'.
+/// Returns the columns of a block as members.
 MemberBlock block_of(const RowMembers& row, const float* design, const float* length, const Excitations& excitation,
                      float* state) {
   return {row.excitation.members,
@@ -56,7 +56,7 @@ MemberBlock block_of(const RowMembers& row, const float* design, const float* le
           reinterpret_cast<MemberState<Lanes<float>>*>(state)};
 }
 
-/// Of whose person nothing is asked, nothing.
+/// Gathers the requested forces of muscles; 0 for a person without requests.
 void take_forces(const LookupPublished<AskedForces>& asked, const MuscleOwner<Lanes<float>>& owner,
                  const RowMembers& row, Excitations& of_most) {
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -91,7 +91,7 @@ void pull(LegsOfOwners posts, LookupPublished<AskedForces> asked, const MuscleOw
 }
 
 Module module() {
-  row_members(Muscle{});  // made here, not in a tick
+  row_members(Muscle{});  // made here, not during a tick
   return {.name = "activation",
           .parts = {component_id<Activation>(), component_id<Musculotendon>(),
                     component_id(TagValue<ExcitationSource>{}), component_id(FieldWidth<MemberLength>{}),
@@ -129,7 +129,7 @@ LegClock<Lanes<float>> present_clock(const World& world, Entity person, Side sid
   return broadcast(posts[0].leg[side].clock);
 }
 
-/// The first lane of a block of members' words, as rows' fields have them.
+/// Returns the first lane of a block of members, in the layout of a row's field.
 template <class T>
 std::vector<float> first_words(const T* block, std::size_t members) {
   std::vector<float> words;
@@ -138,8 +138,8 @@ std::vector<float> first_words(const T* block, std::size_t members) {
   return words;
 }
 
-/// At rest as hard as it is excited now (by the phase, before moments are known), or, where the host will say, not at
-/// all.
+/// Starts at rest at the activation of the current excitation; for `moments`, not known yet, that of the phase. With
+/// excitation by the host, starts at min_activation.
 void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<Activation>(start.entity)) return;
   const auto members = members_of(start.kind.muscle);

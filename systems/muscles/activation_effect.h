@@ -1,5 +1,5 @@
 #pragma once
-// The effect LegMuscles::activation: muscles that pull, with elastic tendons.
+// Effect LegMuscles::activation: active muscles with elastic tendons.
 
 #include "systems/muscles/muscle_effect.h"
 

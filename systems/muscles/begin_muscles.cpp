@@ -20,7 +20,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// First values of one part, in blocks of sixteen rows.
+/// Initial values of one component, in blocks of sixteen rows.
 struct Column {
   std::uint64_t part;
   std::size_t words;
@@ -35,7 +35,7 @@ class Columns {
     all_.push_back({part.id, static_cast<std::size_t>(part.value),
                     std::make_unique_for_overwrite<Lanes<float>[]>(blocks * part.value)});
   }
-  /// Null where there is none.
+  /// Returns null for a component without a column.
   const Column* find(std::uint64_t part) const {
     const auto at = std::ranges::find(all_, part, &Column::part);
     return at == all_.end() ? nullptr : &*at;
@@ -44,7 +44,7 @@ class Columns {
   C<Lanes<float>>& block(std::size_t b) const {
     return *reinterpret_cast<C<Lanes<float>>*>(find(type_id<C<float>>())->block(b));
   }
-  /// Null where there is no such column.
+  /// Returns null if the column does not exist.
   template <class Tag>
   Lanes<float>* field(std::size_t b) const {
     const Column* const column = find(type_id<Tag>());
@@ -57,12 +57,12 @@ class Columns {
 
 /// Muscles of one kind, which share a table.
 struct Group {
-  std::size_t muscle;  // of the choice's
+  std::size_t muscle;  // index among the choice's muscles
   MuscleKind kind;
   SharedBelly common;
   std::vector<std::uint32_t> who;
   std::vector<ComponentId> parts;
-  Columns both;                 // alike on both sides
+  Columns both;                 // equal on both sides
   std::array<Columns, 2> side;  // by side
 
   std::size_t blocks() const { return (who.size() + lane_count - 1) / lane_count; }
@@ -70,8 +70,8 @@ struct Group {
 
 constexpr std::uint64_t alike_on_both_sides[] = {type_id<LegScale<float>>(), type_id<BellyScale<float>>(),
                                                  type_id<ModalMotion>(), type_id<ModalShape>()};
-/// Velocities, states and reports begin with zeros; but for the states of tuned bellies whose frame's loads have them
-/// at rest elsewhere than without tension.
+/// Components that start with zeros, except the states of tuned bellies with frame loads, whose rest position depends
+/// on tension.
 constexpr std::uint64_t zero_at_first[] = {type_id<NodalVelocity>(), type_id<ModalState>(),
                                            type_id<BellyReport<float>>()};
 
@@ -97,12 +97,12 @@ struct BeginningMuscles {
   const LegMuscles& choice;
   std::span<const Entity> people;
   std::span<const MuscleSize> size;
-  std::size_t muscles;  // a person
+  std::size_t muscles;  // per person
   std::uint32_t tick;
   float tick_s;
 };
 
-/// One block of a group that begins.
+/// Initialises one block of a group.
 class Block {
  public:
   Block(const BeginningMuscles& all, const Group& group, std::size_t b)
@@ -150,7 +150,7 @@ class Block {
     }
   }
 
-  /// What an effect begins with goes from rows to lanes.
+  /// Copies the initial rows of each effect to lanes.
   void begin_effects() {
     RecentPoses recent;
     for (const MuscleEffect& effect : muscle_effects()) {
@@ -244,14 +244,14 @@ class Block {
     }
   }
 
-  /// Lanes without a row are copies of the first.
+  /// Fills lanes without a row with copies of the first lane.
   void park(const Column& column) const {
     for (std::size_t lane = count_; lane < lane_count; ++lane) {
       for (std::size_t w = 0; w < column.words; ++w) column.block(b_)[w][lane] = column.block(b_)[w][0];
     }
   }
 
-  /// At finite strain: in place of `from`, or beside it.
+  /// Adds the shape at finite strain to `from`, or stores the sum in ShownDisplacement if the row has that column.
   void show_shape(const NextBelly& next, const Columns& of, std::size_t lane, Beginning& from) const {
     std::vector<float> shown = from.displacement;
     const BellyMotion offset = shape_offset(next, next.load.activation);
@@ -268,7 +268,7 @@ class Block {
   std::size_t b_, count_;
 };
 
-/// Both sides' rows.
+/// Creates the rows of both sides.
 void create_rows(World& world, const Jobs& jobs, const Group& group, std::vector<Entity>& all_made) {
   for (const Side side : {Side::right, Side::left}) {
     std::vector<PartValue> parts;
@@ -280,7 +280,7 @@ void create_rows(World& world, const Jobs& jobs, const Group& group, std::vector
     std::vector<Entity> made(group.who.size());
     world.create_many(parts, made, jobs);
     all_made.insert(all_made.end(), made.begin(), made.end());
-    // One of each block: they lie side by side.
+    // One row of each block, because the new rows are contiguous.
     const std::size_t before = world.locate(made.front())->row % lane_count;
     in_parallel(jobs, (before + made.size() + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) place_now(world, made[b == 0 ? 0 : b * lane_count - before]);

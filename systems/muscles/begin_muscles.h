@@ -1,5 +1,5 @@
 #pragma once
-// Muscles that begin, on one person or on many at once, sixteen to a block.
+// Creation of muscles, on one person or on many at once, sixteen to a block.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,17 +18,16 @@
 
 namespace mobil::inline v0_3 {
 
-/// The present tick, and what muscles share.
+/// Number of the current tick, and its length.
 struct MuscleTime {
   std::uint32_t tick;
   double tick_s;
 };
 
-/// Muscles of a choice in range begin on people who are in the world and have none of them, at rest where these stand
-/// (with inertia under the load of that moment). `size`: of each muscle chosen, in the table's order, person after
-/// person. Entities are appended to `made` as they come, for which there is room:
-/// after an error, or when memory runs out, the caller undoes them. Errors: a fixed step above an individual's critical
-/// step, which names the muscle and the limit.
+/// Creates the muscles of a valid choice for people in the world who have none of them. Bellies start at rest in the
+/// current pose, with inertia under the current load. `size` has an entry for each chosen muscle in the table's order,
+/// person by person. Appends entities to `made`, which must have room; after an error, or if memory runs out, the
+/// caller undoes them. Errors: a fixed step above an individual's critical step; the message names muscle and limit.
 tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, const LegMuscles& choice,
                                           const MuscleTime& time, const Jobs& jobs, std::span<const Entity> people,
                                           std::span<const MuscleSize> size, std::vector<Entity>& made);

@@ -23,26 +23,26 @@ struct OneChange : MuscleChange {
   Entity muscle;
 };
 
-/// What a muscle is about to become.
+/// New components of a muscle, and their values.
 struct NextMuscle {
   Entity muscle;
   RowValues values;
   std::vector<PartValue> parts;
 };
 
-/// The control points' mesh; nothing where a muscle has no belly.
+/// Returns the mesh of the control points; nothing for a muscle without a belly.
 std::optional<Cells> cells_of(const MuscleKind& kind) {
   if (kind.basis.resource != nullptr) return kind.basis->options.control_cells;
   if (kind.shape.resource != nullptr) return kind.shape->mesh.cells;
   return std::nullopt;
 }
 
-/// Whether displacements of nodes are the state itself.
+/// Returns true if displacements of nodes are the method's state.
 bool is_full(Method method) {
   return method != Method::modal && method != Method::none;
 }
 
-/// A muscle's line as it is, or as a first tick would write it.
+/// Returns a muscle's current line, or the line that a first tick would write.
 FirstLine present_line(const World& world, const OneChange& change) {
   const MusclePlan& plan = change.belly.plan;
   const BellyTemplate& shape = *change.belly.shape;
@@ -67,7 +67,7 @@ FirstLine present_line(const World& world, const OneChange& change) {
   return first;
 }
 
-/// What is shown of a muscle now, and how that moves, `computed` being what its method says.
+/// Returns the shown displacement of a muscle and its velocity; `computed` is the result of the muscle's method.
 BellyMotion shown_motion(const World& world, const OneChange& change, const MuscleKind& was, const NextBelly& next,
                          const BellyMotion& computed) {
   BellyMotion shown = computed;
@@ -85,7 +85,7 @@ BellyMotion shown_motion(const World& world, const OneChange& change, const Musc
   return shown;
 }
 
-/// Where the far end is along z at a tick's start and end, m: that of a held one is known, of another `computed` says.
+/// Returns the far end's displacement along z at a tick's start and end, m: prescribed if held, else from `computed`.
 EndDrive<float> end_of(const World& world, const OneChange& change, const MuscleKind& was,
                        const BellyMotion& computed) {
   const auto drive = world.get<EndDrive>(change.muscle);
@@ -96,22 +96,22 @@ EndDrive<float> end_of(const World& world, const OneChange& change, const Muscle
   return {to - speed * static_cast<float>(change.time.tick_s), to};
 }
 
-/// The far end is elsewhere at once, because its tendon stretches now or no longer does: the belly follows statically.
+/// Moves the belly statically with a far end that jumps because its tendon starts or stops stretching.
 void move_end(const EndDrive<float>& was, const NextBelly& next, BellyMotion& motion) {
   if (next.load.far_end != FarEnd::held) return;
   BellyLoad jump = next.load;
   jump.frame.reset();
-  jump.activation = 0;  // only what moves
+  jump.activation = 0;  // only the displacement of the end
   jump.from = jump.to = next.load.to - was.to;
   const BellyMotion moved = deformation_method(next.choice.method)->at_rest({next.belly, next.choice, next.line, jump});
   for (std::size_t i = 0; i < motion.displacement.size(); ++i) motion.displacement[i] += moved.displacement[i];
 }
 
-/// Linear and finite strain have a belly at rest in different places, which `motion` goes from and to: what moved about
-/// the one goes on about the other.
+/// Converts `motion` between linear and finite strain, whose rest positions differ. Motion relative to the old rest
+/// position becomes the same motion relative to the new one.
 void change_strain(const World& world, const OneChange& change, const EndDrive<float>& was, const NextBelly& next,
                    BellyMotion& motion) {
-  // A held end is where it was; a sliding one is pulled as it will be. The muscle pulls as it did.
+  // A held end keeps its old displacement, a sliding end has its new load. Activation is the old one.
   BellyLoad load = next.load;
   if (load.far_end == FarEnd::held) {
     load.from = was.from;
@@ -127,8 +127,8 @@ void change_strain(const World& world, const OneChange& change, const EndDrive<f
   }
 }
 
-/// What the belly begins with; `offset`: what it will show beside what its method computes, or nothing. Empty
-/// throughout where all goes on as it is.
+/// Returns the initial values of a belly. `offset` is the displacement that it will show in addition to its method's
+/// result, or empty. Returns empty fields if all values continue unchanged.
 Beginning beginning(const World& world, MuscleWork& work, const OneChange& change, const NextBelly& next,
                     const BellyMotion& offset) {
   const DeformationMethod* const method = deformation_method(next.choice.method);
@@ -161,7 +161,7 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
   return method->go_on(next, past, keeps);
 }
 
-/// `offset`, where it is not empty, lies on top of what the method computes: in place, or beside it.
+/// Sets the values of a belly. Adds `offset`, unless empty, to the method's result, in place or in ShownDisplacement.
 void set_belly(const Beginning& from, const Belly& belly, const BellyMotion& offset, const MuscleKind& kind,
                RowValues& values) {
   values.set(belly.plan.scale);
@@ -232,8 +232,8 @@ std::uint32_t fade_ticks(float tick_s) {
 
 void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const MuscleChange& change,
                     std::span<const Belly> bellies, std::span<const MuscleRef> own) {
-  // All that takes memory comes first. A muscle's rows come from and go to tables of that muscle alone, so that none of
-  // those that go before takes the room of another.
+  // All allocations happen first. Rows of a muscle move only between tables of that muscle, so no earlier move takes
+  // the room of a later one.
   std::vector<NextMuscle> next;
   next.reserve(2 * bellies.size());
   for (std::size_t m = 0; m < bellies.size(); ++m) {

@@ -1,5 +1,5 @@
 #pragma once
-// Muscles that are there and become otherwise: another method, other effects, other tissue.
+// Changes of existing muscles: another method, other effects, other tissue.
 
 #include <cstdint>
 #include <span>
@@ -13,18 +13,18 @@
 
 namespace mobil::inline v0_3 {
 
-/// What changes keep from one to the next to save work: nothing of it is state.
+/// Scratch data that changes keep to save work; none of it is state.
 struct MuscleWork {
   RecentPoses recent;
   LastReducedBelly last;
-  // Tables with fades, of those seen so far; and whose fades ended after this tick.
+  // Tables with fades among the first `tables_seen`, and muscles whose fades ended in this tick.
   std::size_t tables_seen = 0;
   std::vector<std::size_t> fading;
   std::vector<Entity> faded;
 };
 
-/// What a person's muscles are to be. Where it `goes_on`, so does what is shown, whatever the methods; else full
-/// methods take the fields of one another as they are, and a belly that was not there before begins at rest.
+/// New choice for a person's muscles. If `goes_on`, the shown displacement continues without a jump for all methods. If
+/// not, full methods take over each other's fields unchanged, and a belly that did not exist starts at rest.
 struct MuscleChange {
   Entity person;
   const LegMuscles& choice;
@@ -32,12 +32,12 @@ struct MuscleChange {
   MuscleTime time;
 };
 
-/// Whole ticks until nothing is left of what fades, up to rounding.
+/// Returns the whole ticks after which a fade is zero, up to rounding.
 std::uint32_t fade_ticks(float tick_s);
 
-/// The entities of `own`, one for each belly, come to have just the muscle parts that their method and effects
-/// need; a host's parts stay with them, stale handles are passed over. Where memory runs out that throws
-/// std::bad_alloc, and nothing has changed.
+/// Gives each muscle of `own`, one for each belly, exactly the muscle components that its method and effects need. A
+/// host's components stay; stale handles are skipped. Throws std::bad_alloc if memory runs out, and changes nothing
+/// then.
 void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const MuscleChange& change,
                     std::span<const Belly> bellies, std::span<const MuscleRef> own);
 

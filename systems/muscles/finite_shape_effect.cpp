@@ -18,7 +18,7 @@ ShapeBlock block_of(const FiniteShape& shape, const BellyScale<Lanes<float>>& sc
   return {shape, scale, end.to, activation.block == nullptr ? nullptr : &activation.block->activation};
 }
 
-/// Of methods whose displacements are their state.
+/// Shows bellies of methods whose displacements are their state.
 void show(const Table& table, Shared<FiniteShape> shape, const BellyScale<Lanes<float>>& scale,
           const EndDrive<Lanes<float>>& end, Maybe<Activation> activation, Field<const NodalDisplacement> computed,
           Field<ShownDisplacement> shown) {
@@ -27,8 +27,8 @@ void show(const Table& table, Shared<FiniteShape> shape, const BellyScale<Lanes<
   add_shape(block, blend_of(block), true, computed.data, shown.data);
 }
 
-/// Of modal bellies: placed as they vibrate about their linear answer to what the tables do not reach, which mostly
-/// is nothing, and the shape on top.
+/// Shows modal bellies. Places them with their vibration about the linear solution of the load beyond the tables, which
+/// is mostly zero, and adds the shape.
 void show_in_place(Shared<FiniteShape> shape, Shared<ModalBasis> basis, const BellyScale<Lanes<float>>& scale,
                    const EndDrive<Lanes<float>>& end, Maybe<Activation> activation, Maybe<FrameLoad> frame,
                    MaybeField<const ModalState> state, Field<const ModalShape> rest,
@@ -39,7 +39,7 @@ void show_in_place(Shared<FiniteShape> shape, Shared<ModalBasis> basis, const Be
   const ModalBlock belly{*basis, scale, const_cast<float*>(state.data), nullptr, frame.block};  // only read here
   const ControlPoints points{rest.data, displacement.data, false, rest.next};
   const bool within = std::ranges::all_of(blend.beyond_m.lane, [](float beyond_m) { return beyond_m == 0.0F; });
-  if (state.data == nullptr && frame.block == nullptr && within) {  // at rest, but for the shape
+  if (state.data == nullptr && frame.block == nullptr && within) {  // at rest, except the shape
     std::fill_n(displacement.data, std::size_t{displacement.words} * lane_count, 0.0F);
   } else if (state.data == nullptr) {
     place_static(belly, points, {FarEnd::held, beyond});
@@ -75,7 +75,7 @@ void parts(const MuscleKind& kind, std::vector<ComponentId>& to) {
   to.push_back(component_id(kind.finite));
 }
 
-/// It has no state, and a first tick shows it; until then see shape_offset.
+/// Does nothing: the effect has no state, and the first tick shows it. Until then see shape_offset.
 void begin(const EffectStart&, RowValues&) {}
 
 }  // namespace of_finite_shape
@@ -93,7 +93,7 @@ BellyMotion shape_offset(const NextBelly& next, float activation) {
   const FiniteShape& shape = *next.belly.finite;
   const std::size_t width = shape.even.size();
   const auto scale = broadcast(next.belly.plan.scale);
-  BellyLoad within = next.load;  // without the frame's
+  BellyLoad within = next.load;  // without the frame's load
   within.frame.reset();
   const auto place = [&](float end_m, float& within_m) {
     std::vector<Lanes<float>> at(width);

@@ -1,5 +1,5 @@
 #pragma once
-// The effect LegMuscles::finite_shape: bellies look as their tissue does at finite strain.
+// Effect LegMuscles::finite_shape: bellies show the shape of their tissue at finite strain.
 
 #include "systems/deformation/belly_motion.h"
 #include "systems/muscles/muscle_effect.h"
@@ -8,13 +8,13 @@ namespace mobil::inline v0_3 {
 
 extern const MuscleEffect finite_shape_effect;
 
-/// Whether what is shown lies apart from what the method computes: where that is the method's state. Modal bellies
-/// are shown in place.
+/// Returns true if the shown displacement is stored separately from the method's result, because that is the method's
+/// state. Modal bellies are shown in place.
 bool shows_apart(const MuscleKind& kind);
 bool shows_apart(const Archetype& key);
 
-/// What the effect adds to what the belly's method (one with control points) computes under its load, and how fast that
-/// changes as long as activation stays.
+/// Returns the displacement that the effect adds to the result of the belly's method under its load, and its rate of
+/// change at constant activation. The method must have control points.
 BellyMotion shape_offset(const NextBelly& next, float activation);
 
 }  // namespace mobil::inline v0_3

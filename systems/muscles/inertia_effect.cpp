@@ -22,7 +22,7 @@ void parts(const MuscleKind&, std::vector<ComponentId>& to) {
   to.push_back(component_id<FrameHistory>());
 }
 
-/// The motion of the muscle's frame up to now, as far as it is known, as the ticks before would have recorded it.
+/// Sets the past motion of the muscle's frame, as far as it is known, as the previous ticks would have recorded it.
 void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<FrameHistory>(start.entity) && start.world.has<FrameLoad>(start.entity)) return;
   look_back(start.world, start.person, start.tick, start.tick_s, start.recent);

@@ -1,5 +1,5 @@
 #pragma once
-// The effect LegMuscles::inertia: gravity and the acceleration of the muscle's frame, as loads of the belly.
+// Effect LegMuscles::inertia: gravity and the acceleration of the muscle's frame, as loads on the belly.
 
 #include "systems/muscles/muscle_effect.h"
 

@@ -19,7 +19,7 @@ namespace mobil::inline v0_3 {
 namespace {
 namespace of_leg_moments {
 
-/// The single muscles' lines, by their number.
+/// Returns the lines of the single muscles, by number.
 const std::vector<MuscleLines>& single_lines() {
   static const std::vector<MuscleLines> all = [] {
     std::vector<MuscleLines> lines;
@@ -67,7 +67,7 @@ void share(const LegDesign<Lanes<float>>& design, const Pose<Lanes<float>>& pose
   }
 }
 
-/// All of the parts or none, and all with moments.
+/// Checks that a row has all of these components or none, and has moments with them.
 Result<void> check_key(const Archetype& key, const World&) {
   const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool design = has(type_id<LegDesign<float>>()), reserve = has(type_id<MomentReserve<float>>());
@@ -80,7 +80,7 @@ Result<void> check_key(const Archetype& key, const World&) {
 }  // namespace
 
 Module leg_moments_module() {
-  of_leg_moments::single_lines();  // made here, not in a tick
+  of_leg_moments::single_lines();  // made here, not during a tick
   return {.name = "leg moments",
           .parts = {component_id<LegDesign>(), component_id<MomentReserve>(), component_id(Publishes<AskedForces>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("leg moments", &of_leg_moments::share); },
@@ -102,7 +102,7 @@ void set_leg_moments(World& world, Entity person, const Body& body, const LegMus
     design.member[i++] = member_design(member, plan.member[0]);
     design.scale = plan.leg_scale;
   }
-  // Remade, so that a World::Transaction can undo it.
+  // A change of archetype, which a World::Transaction can undo.
   world.change_archetype(
       {&person, 1},
       std::array<PartValue, 3>{PartValue{component_id<LegDesign>(), nullptr},

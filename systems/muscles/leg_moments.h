@@ -1,6 +1,6 @@
 #pragma once
-// The moments at a person's joints, shared among the muscles of each leg: what muscles with ExcitationSource::moments
-// follow. Parts of the person's row; who has no such muscles has none of them.
+// Moments at a person's joints, shared among the muscles of each leg, for muscles with ExcitationSource::moments. The
+// components are on the person's row, only if the person has such muscles.
 
 #include <mobil/components/body.h>
 #include <mobil/components/leg_muscles.h>
@@ -15,11 +15,11 @@ Module leg_moments_module();
 inline bool follows_moments(const LegMuscles& choice) {
   return choice.activation == ExcitationSource::moments;
 }
-/// Whether a person may have such muscles: moments are of who has forces, asleep too.
+/// Returns an error if a choice needs moments and the person, awake or asleep, has no forces.
 Result<void> check_leg_moments(const World& world, Entity person, const LegMuscles& choice);
-/// Gives the person's row these parts, from its body, or takes them, as a checked choice asks.
+/// Adds these components to the person's row, from its body, or removes them, as a checked choice requires.
 void set_leg_moments(World& world, Entity person, const Body& body, const LegMuscles& choice);
-/// The row loses these parts, if it has them.
+/// Removes these components from the row, if it has them.
 void forget_leg_moments(World& world, Entity person);
 
 }  // namespace mobil::inline v0_3

@@ -20,7 +20,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// What a scene has made so far is undone unless it is `done`.
+/// New rows of a scene; the destructor undoes them unless `done`.
 class NewRows {
  public:
   NewRows(const MuscleScene& scene, std::size_t room, std::span<Entity> entities = {})
@@ -30,13 +30,13 @@ class NewRows {
   ~NewRows() {
     if (done) return;
     scene_.world.undo_create(made);
-    scene_.work.recent = {};  // others will have these handles
+    scene_.work.recent = {};  // these handles will be reused
     std::ranges::fill(entities_, Entity{});
   }
   NewRows(const NewRows&) = delete;
   NewRows& operator=(const NewRows&) = delete;
 
-  std::vector<Entity> made;  // people and muscles as they came; there is room for all that will
+  std::vector<Entity> made;  // people and muscles in order of creation; has room for all
   bool done = false;
 
  private:
@@ -48,7 +48,7 @@ tl::unexpected<Error> not_there() {
   return fail("that person is not there (a stale handle); spawn one first", Status::stale_entity);
 }
 
-/// The sizes of muscles that people asked for, one person's after the other's.
+/// Sizes of the requested muscles, person by person.
 class Sizes {
  public:
   explicit Sizes(std::span<const SpawnRequest> people) : people_(people), first_(people.size() + 1) {
@@ -94,7 +94,7 @@ tl::expected<void, NotMade> check_choices(std::span<const SpawnRequest> people, 
   return {};
 }
 
-/// The muscles of some people who are in the world, each choice together. `first`: the number of the first of them.
+/// Creates the muscles of people in the world, one choice at a time. `first`: number of the first person.
 tl::expected<void, NotMade> begin_each_choice(const MuscleScene& scene, std::span<const SpawnRequest> people,
                                               std::span<const Entity> entities, std::size_t first, Sizes& sizes,
                                               std::vector<Entity>& made) {
@@ -120,7 +120,7 @@ tl::expected<void, NotMade> begin_each_choice(const MuscleScene& scene, std::spa
   return {};
 }
 
-/// What a muscle of that plan would be; errors name it.
+/// Returns the belly of a muscle of that plan; errors name the muscle.
 Result<Belly> belly_of(BellyLibrary& library, const MusclePlan& plan, Muscle muscle, const LegMuscles& choice,
                        double tick_s) {
   auto belly = library.belly(plan, choice, tick_s);
@@ -182,7 +182,7 @@ Shared<LegMuscles> keep_choice(World& world, BellyLibrary& library, const LegMus
 
 tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<const SpawnRequest> people,
                                          std::span<Entity> entities) {
-  constexpr std::size_t batch_size = 512;  // people whose rows are made before they are written
+  constexpr std::size_t batch_size = 512;  // people whose rows are computed before they are written
   if (auto ok = check_choices(people, scene.time.tick_s); !ok) return ok;
   Sizes sizes(people);
   std::vector<BodySize<float>> body(people.size());
@@ -222,7 +222,7 @@ Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> pe
       rows.push_back(person);
     }
     world.destroy_many(rows, jobs);
-  } catch (const std::bad_alloc&) {  // one by one takes no memory
+  } catch (const std::bad_alloc&) {  // destroying one at a time allocates no memory
     for (const Entity person : people) {
       for (Entity member = world.first_member(person); world.alive(member); member = world.first_member(person))
         world.destroy(member);
@@ -247,7 +247,7 @@ Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity>
   NewRows rows(scene, 2 * size.size());
   auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, people, size, rows.made);
   if (!begun) return tl::unexpected(begun.error().error);
-  // Who has lost their forces meanwhile has no moments to follow.
+  // A person who lost forces meanwhile has no moments to follow.
   for (const Entity person : people)
     if (follows_moments(choice) && world.has<JointMoments>(person))
       set_leg_moments(world, person, *make_body(body_request(world, person)), choice);
@@ -280,7 +280,7 @@ Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double
   return {};
 }
 
-/// Muscles that are there keep their handles, others begin; those that are no longer asked for go.
+/// Existing muscles keep their handles, missing ones are created, and those outside the choice are destroyed.
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice) {
   World& world = scene.world;
   if (!is_person(world, person)) return not_there();
@@ -328,7 +328,7 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
     if (world.has<MuscleOwner>(member) && count < rows.size()) rows[count++] = member;
   });
   if (count == 0) return Status::missing;
-  // At once, so that where memory runs out nothing has gone; LegMuscles: those that somebody who woke was to have.
+  // A single call, so that nothing is removed if memory runs out. LegMuscles is the kept choice of a person who woke.
   const Status status = world.remove_parts(person, {type_id<LegDesign<float>>(), type_id<MomentReserve<float>>(),
                                                     type_id<AskedForces>(), type_id<LegMuscles>()});
   if (status != Status::ok) return status;
@@ -380,7 +380,7 @@ void move_muscles(World& world, Entity person, const Placing& way) {
   world.each_member(person, [&](Entity muscle) {
     const auto owner = world.get<MuscleOwner>(muscle);
     if (!owner) return;
-    // A left muscle's world is the mirror image's.
+    // A left muscle is stored in the mirror image of the world.
     const float mirrored = owner->side == Side::left ? -1.0F : 1.0F;
     const Vec3<float> from = {mirrored * way.from_x_m, 0, way.from_z_m}, to = {mirrored * way.to_x_m, 0, way.to_z_m};
     const double half = 0.5 * double{mirrored} * double{way.turn_rad()};
@@ -402,7 +402,7 @@ void move_muscles(World& world, Entity person, const Placing& way) {
 }
 
 void shift_muscles(World& world, float x_m, float z_m) {
-  // A left muscle's world is the mirror image.
+  // A left muscle is stored in the mirror image of the world.
   const auto shift = [&](const MuscleOwner<Lanes<float>>& owner, Vec3<Lanes<float>>& at) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       at.x[lane] -= owner.side[lane] == Side::left ? -x_m : x_m;

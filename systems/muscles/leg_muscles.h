@@ -1,6 +1,6 @@
 #pragma once
-// A person's leg muscles: they come with people, are added, change and go. Each muscle is an entity that belongs to its
-// person (World::each_member) and has the choice that it was made with.
+// A person's leg muscles: spawning, adding, changing and removing. Each muscle is an entity that belongs to its person
+// (World::each_member) and has the choice that it was made with.
 
 #include <array>
 #include <memory>
@@ -21,15 +21,15 @@
 
 namespace mobil::inline v0_3 {
 
-/// What changes of muscles need throughout a simulation: templates and bases, the length of a tick, and what muscles
-/// that begin are run ahead by (WarmingRoom).
+/// Resources for changes of muscles throughout a simulation: templates and bases, the length of a tick, and the modules
+/// that simulate new muscles' past (WarmingRoom).
 struct MuscleMeans {
   std::shared_ptr<BellyLibrary> library;
   double tick_s = 0;
   std::span<const Module> modules{};  // the library's own
 };
 
-/// What is needed to make and change muscles.
+/// Context of functions that make and change muscles.
 struct MuscleScene {
   World& world;
   BellyLibrary& library;
@@ -38,33 +38,33 @@ struct MuscleScene {
   MuscleTime time;
 };
 
-/// A person's muscles in the table's order; empty for a stale handle. A side that is gone has a stale handle.
+/// Returns a person's muscles in the table's order; empty for a stale handle. A side that is gone has a stale handle.
 std::vector<MuscleRef> muscles_of(const World& world, Entity person);
-/// Whether there are any. Takes no memory.
+/// Returns true if the person has muscles. Allocates no memory.
 bool has_muscles(const World& world, Entity person);
-/// A person's muscle of that side; a stale handle where there is none.
+/// Returns a person's muscle of that side, or a stale handle if the person does not have it.
 Entity muscle_of(const World& world, Entity person, Muscle muscle, Side side);
-/// What a person's muscles were chosen as: their tissue and effects, the method of the first one. Nothing without
-/// muscles.
+/// Returns the choice of a person's muscles: their tissue and effects, and the method of the first one. Returns nothing
+/// without muscles.
 std::optional<LegMuscles> choice_of(const World& world, Entity person);
 
-/// A choice with muscles and method, to be kept on the row of a person who has no muscles for a while; equal choices
-/// give the same handle.
+/// Returns a choice with muscles and method, for the row of a person who has no muscles for a while. Equal choices give
+/// the same handle.
 Shared<LegMuscles> keep_choice(World& world, BellyLibrary& library, const LegMuscles& choice);
 
-/// All people with their muscles, or none; `entities` as long as `people`. Errors name the first person who cannot be.
+/// Spawns all people with muscles, or none; `entities` is as long as `people`. Errors name the first invalid person.
 tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<const SpawnRequest> people,
                                          std::span<Entity> entities);
-/// People and all that belongs to them go. Where one is stale or named twice, Status::stale_entity, and all stay.
+/// Removes people and all that belongs to them. Removes none if a handle is stale or named twice: Status::stale_entity.
 Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> people);
 
-/// The muscles of a choice in range begin on people who are there and have none, at rest where they stand. Errors: as
-/// add_leg_muscles; where there is one, or memory runs out, none has any.
+/// Creates the muscles of a valid choice for people who exist and have none, at rest in the current pose. Errors: those
+/// of add_leg_muscles. After an error, or if memory runs out, no person has new muscles.
 Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice);
 
-/// As the members of Simulation of these names (mobil/simulation.h); messages without that name.
+/// Implement the functions of Simulation with similar names (mobil/simulation.h). Messages lack the function's name.
 Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
-/// Whether a person, awake or not, may have these muscles: whatever they would be refused for.
+/// Returns the error with which these muscles would be refused to a person, awake or not, if there is one.
 Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double tick_s, Entity person,
                                const LegMuscles& choice);
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
@@ -73,14 +73,14 @@ Result<void> check_excitation(const World& world, Entity person, Muscle muscle, 
 Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side side, float excitation);
 Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method);
 
-/// Places of a person's muscles, and what they remember of places, go along a way through the world.
+/// Moves a person's muscles and their stored past positions rigidly from the old place to the new one.
 void move_muscles(World& world, Entity person, const Placing& way);
-/// A person's muscles forget where their frames were, so that no inertia is felt of a jump.
+/// Clears the past motion of a person's muscle frames, so that a jump causes no inertial load.
 void forget_motion(World& world, Entity person);
-/// Places of all muscles, and what they remember of places, less (x, 0, z).
+/// Subtracts (x, 0, z) from the positions of all muscles and from their stored past positions.
 void shift_muscles(World& world, float x_m, float z_m);
 
-/// Fades that are over leave their rows. After a tick.
+/// Removes finished fades from their rows. Runs after a tick.
 void end_fades(World& world, float tick_s, MuscleWork& work);
 
 }  // namespace mobil::inline v0_3

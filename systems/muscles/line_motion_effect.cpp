@@ -29,7 +29,7 @@ void parts(const MuscleKind&, std::vector<ComponentId>& to) {
   to.push_back(component_id<LineMotion>());
 }
 
-/// A line that has just begun does not lengthen yet.
+/// Sets the moment arms of a new line; its speed is 0.
 void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<LineMotion>(start.entity)) return;
   LineMotion<Lanes<float>> motion{};

@@ -1,5 +1,5 @@
 #pragma once
-// The effect LegMuscles::line_motion: how fast a line of action lengthens, and its moment arms.
+// Effect LegMuscles::line_motion: lengthening speed and moment arms of a line of action.
 
 #include "systems/muscles/muscle_effect.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// An effect of a muscle beside its method, as one value: the parts that it puts on the row, what these begin with, and
-// its systems. Each has a file of its own here (line_motion_effect, inertia_effect) and a row in `muscle_effects`.
+// An effect of a muscle, separate from its method: the components that it adds to the row, their initial values, and
+// its systems. Each has its own file here (line_motion_effect, inertia_effect) and an entry in `muscle_effects`.
 
 #include <cstdint>
 #include <cstring>
@@ -20,7 +20,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Values that rows begin with, by part: whole rows of components and fields. Of a part set twice the last holds.
+/// Initial values of a row by component: complete components and fields. If one is set twice, the last value holds.
 class RowValues {
  public:
   template <template <class> class C>
@@ -39,7 +39,7 @@ class RowValues {
     std::memcpy(&row, words, sizeof(row));
     return row;
   }
-  /// A part's words; null where it has none here: it keeps what the row has, or begins with zeros.
+  /// Returns a component's words, or null if no value is set. The row then keeps its value, or starts with zeros.
   const float* find(std::uint64_t part) const;
 
  private:
@@ -53,7 +53,7 @@ class RowValues {
   std::vector<float> words_;
 };
 
-/// A muscle that begins with an effect. `entity` may be stale: then it has nothing of the effect yet.
+/// A muscle that gets an effect. A stale `entity` has no components of the effect yet.
 struct EffectStart {
   const World& world;
   Entity entity, person;
@@ -67,13 +67,13 @@ struct EffectStart {
 };
 
 struct MuscleEffect {
-  /// Its systems, and every part that it puts on rows.
+  /// Returns its systems and every component that it adds to rows.
   Module (*module)();
   bool (*wanted)(const MuscleKind& kind);
-  /// The values that its parts begin with; those of a muscle that has them go on. It may set what drives the belly's
-  /// end (EndDrive) too.
+  /// Sets initial values of its components; a muscle that has them keeps its values. It can also set the drive of the
+  /// belly's end (EndDrive).
   void (*begin)(const EffectStart& start, RowValues& values);
-  /// Appends the parts that a muscle of that kind has of it.
+  /// Appends the effect's components for a muscle of that kind.
   void (*parts)(const MuscleKind& kind, std::vector<ComponentId>& parts);
 };
 

@@ -27,7 +27,7 @@ void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ah
   FetchAhead(next_scale.block).fetch(all_lines);
   FetchAhead(next_line.block).fetch(all_lines);
   FetchAhead(next_end.block).fetch(all_lines);
-  // Modal muscles have too little work themselves to hide memory's latency.
+  // Modal muscles have too little work of their own to hide the latency of memory.
   std::array later = {FetchAhead(state.data, std::size_t{state.words} * sizeof(Lanes<float>)),
                       FetchAhead(motion.data, std::size_t{motion.words} * sizeof(Lanes<float>))};
   lines_of_action(*lines, scale, legs_of(posts, owner, ahead), static_cast<FarEnd>(far_end.value), line, end,
@@ -43,7 +43,7 @@ void fade(const Table& table, float tick_s, Field<const NodalDisplacement> displ
 Result<void> check_key(const Archetype& key, const World& world) {
   const auto is_ours = [](const ComponentId& part) { return std::ranges::binary_search(muscle_part_ids(), part.id); };
   const bool ours = std::ranges::any_of(key, is_ours);
-  // What muscles are to be that a person does not have yet is kept on the person's row.
+  // The choice of muscles that do not exist yet is kept on the person's row.
   const bool person = (find_component(key, type_id<Asleep<float>>()) != nullptr ||
                        find_component(key, type_id<Physique<float>>()) != nullptr) &&
                       find_component(key, type_id<LegMuscles>()) != nullptr && std::ranges::count_if(key, is_ours) == 1;
@@ -51,7 +51,7 @@ Result<void> check_key(const Archetype& key, const World& world) {
   return damaged("the parts of a muscle");
 }
 
-/// Sides that lists are read by, those of the lanes without a row too.
+/// Checks sides, which index arrays, also in lanes without a row.
 Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
   const std::uint32_t owner = saved.column(table, type_id<MuscleOwner<float>>());
   if (owner == Table::no_column) return {};
@@ -62,7 +62,7 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
   return damaged("the side of a muscle");
 }
 
-/// The kind that a key's tags and resources tell of; nothing where they tell of no muscle.
+/// Returns the kind that an archetype's tags and resources describe; nothing if they do not describe a muscle.
 std::optional<MuscleKind> recognised(const Archetype& key, const World& world) {
   const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const auto shared = [&]<class T>(Shared<T>& to) {
@@ -102,7 +102,7 @@ std::optional<MuscleKind> recognised(const Archetype& key, const World& world) {
   return kind;
 }
 
-/// Whether what is shared fits the kind, and each other.
+/// Returns true if the shared resources fit the kind and each other.
 bool fits_together(const MuscleKind& kind) {
   const auto* shape = kind.shape.resource;
   const auto* basis = kind.basis.resource;

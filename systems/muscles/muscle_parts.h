@@ -1,6 +1,6 @@
 #pragma once
-// The one list of what a muscle consists of. Making, changing, checking and saving muscles all read it; parts of a
-// host's own on the same row are left alone.
+// The only list of a muscle's components, used to make, change, check and save muscles. A host's own components on the
+// same row are left alone.
 
 #include <cstdint>
 #include <optional>
@@ -14,26 +14,26 @@
 
 namespace mobil::inline v0_3 {
 
-/// Lines of action: what every muscle has, and what those with control points or a belly have whatever their method.
+/// Returns the module of lines of action: components of all muscles, and those common to control points and bellies.
 Module muscles_module();
-/// What a change of method left over (mobil/components/fade.h).
+/// Returns the module that fades out the difference left by a change of method (mobil/components/fade.h).
 Module fade_module();
-/// All of muscles' modules in the order of their data: these two, effects and methods.
+/// Returns all modules of muscles in data-flow order: these two, effects and methods.
 std::vector<Module> muscle_modules();
 
-/// The kind that a muscle of a choice becomes; `world` takes a share in what it shares.
+/// Returns the kind that a muscle of a choice becomes. `world` becomes a co-owner of the kind's resources.
 MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const LegMuscles& choice,
                    const SharedBelly& belly);
-/// The parts of a muscle of that kind, in no order.
+/// Returns the components of a muscle of that kind, unsorted.
 std::vector<ComponentId> muscle_parts(const MuscleKind& kind);
-/// The kind of muscle that has these parts; nothing where they are no muscle's or do not fit each other. Resources are
-/// those of `world`.
+/// Returns the kind of a muscle with these components; nothing if they are not a muscle's or do not fit each other.
+/// Resources are those of `world`.
 std::optional<MuscleKind> muscle_kind(const Archetype& key, const World& world);
-/// The same of an entity; nothing for a stale handle too.
+/// Returns the kind of an entity; nothing for a stale handle or an entity that is not a muscle.
 std::optional<MuscleKind> muscle_kind(const World& world, Entity muscle);
-/// How a muscle is simulated; Method::none for a stale handle and for what is no muscle.
+/// Returns the method of a muscle; Method::none for a stale handle or an entity that is not a muscle.
 MuscleMethod muscle_method(const World& world, Entity muscle);
-/// Ids of all parts that muscles of whatever kind have, sorted: what a change of a muscle decides.
+/// Returns the ids, sorted, of the components of all kinds of muscles: those that a change of a muscle sets or removes.
 std::span<const std::uint64_t> muscle_part_ids();
 
 }  // namespace mobil::inline v0_3

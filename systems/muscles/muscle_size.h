@@ -1,5 +1,5 @@
 #pragma once
-// What rows of a person's muscle say of its size.
+// Sizes of a person's muscle, as stored in its rows.
 
 #include <array>
 

@@ -10,9 +10,9 @@ namespace {
 constexpr PublishedLeg::Leg nobodys_leg{
     {{0, 1, 0}, {0, 0.5F, 0}, {0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}}, {0, 0}};
 
-/// The legs of the owners of sixteen muscles; both legs of a person are mostly beside each other.
+/// Finds the legs of the owners of sixteen muscles; both legs of a person are mostly in adjacent lanes.
 void find_legs(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner, const PublishedLeg::Leg** legs) {
-  Entity last{};  // nobody, who has none
+  Entity last{};  // an invalid handle, without a leg
   const PublishedLeg* post = nullptr;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const Entity person{owner.index[lane], owner.generation[lane]};
@@ -29,7 +29,7 @@ LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lan
   find_legs(posts, owner, from);
   LegFrames<Lanes<float>> leg;
   take_legs(from, leg);
-  // Fetched meanwhile: the third block's owners, the places of the second's owners, the legs of the next block's.
+  // Prefetches the owners of the third block, the places of the second's owners, and the legs of the next block's.
   FetchAhead(ahead.third).fetch(all_lines);
   if (ahead.second != nullptr)
     for (std::size_t lane = 0; lane < lane_count; ++lane)

@@ -24,7 +24,7 @@ FirstLine first_line(const MuscleLines& lines, const LegScale<float>& scale, Far
   return {first_lane(line), first_lane(end)};
 }
 
-/// The ground of the step before; of its first foothold nothing is known.
+/// Returns the footing of the previous step; its first foothold is unknown.
 Footing<float> a_step_before(Footing<float> footing) {
   constexpr auto leaving = index(FootholdOf::leaving);
   constexpr auto stance = index(FootholdOf::stance);
@@ -39,7 +39,7 @@ Footing<float> a_step_before(Footing<float> footing) {
 
 void look_back(const World& world, Entity person, std::uint32_t tick, float tick_s, RecentPoses& recent) {
   if (recent.person == person && recent.tick == tick) return;
-  recent.person = {};  // not valid, should reserve throw
+  recent.person = {};  // invalid if reserve throws
   recent.poses.clear();
   recent.poses.reserve(4);
   recent.person = person;

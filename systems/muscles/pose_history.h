@@ -1,6 +1,5 @@
 #pragma once
-// Lines of action as a first tick would write them, and the poses of the ticks before: for muscles that begin under
-// way.
+// Lines of action as a first tick would write them, and poses of the previous ticks, for muscles that start in motion.
 
 #include <cstdint>
 #include <vector>
@@ -15,10 +14,10 @@ namespace mobil::inline v0_3 {
 struct MuscleLines;  // systems/lines/muscle_lines.h
 class World;
 
-/// One leg of a pose, in all lanes.
+/// Returns one leg of a pose, in all lanes.
 LegFrames<Lanes<float>> leg_of(const Pose<float>& pose, Side side);
 
-/// The line of action of a leg of a given pose, with the end where it then is, as a first tick would write them.
+/// Line of action of a leg in a given pose, and the drive of its end, as a first tick would write them.
 struct FirstLine {
   LineOfAction<float> line;
   EndDrive<float> end;
@@ -26,8 +25,8 @@ struct FirstLine {
 FirstLine first_line(const MuscleLines& lines, const LegScale<float>& scale, FarEnd far_end,
                      const LineOfAction<float>& rest, const Pose<float>& pose, Side side);
 
-/// The last poses of a person, the present one at the end: a walker's four as far as they are known, of a posed person
-/// that one alone. Kept for the person's other muscles.
+/// Last poses of a person, the current one at the end: up to four of a walker, as far as they are known, and only the
+/// current one of a posed person. Kept for the person's other muscles.
 struct RecentPoses {
   Entity person;
   std::uint32_t tick = 0;

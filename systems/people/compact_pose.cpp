@@ -48,7 +48,7 @@ struct PosedBlock {
 }  // namespace
 
 struct FullPoseWork::Blocks {
-  static constexpr std::size_t most = 64;  // at once
+  static constexpr std::size_t most = 64;  // blocks in a batch
   std::array<Pose<Lanes<float>>, most> pose;
   std::array<JointAngles<Lanes<float>>, most> angles;
   std::array<Feet<Lanes<float>>, most> feet;

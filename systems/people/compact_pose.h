@@ -1,6 +1,5 @@
 #pragma once
-// Walkers without a pose of their own, who are compact (mobil/components/compact.h): what their pose would be, and how
-// they get it back.
+// Poses of compact walkers (mobil/components/compact.h), who store none: computed on request, or restored to the row.
 
 #include <cstdint>
 #include <memory>
@@ -11,24 +10,24 @@
 
 namespace mobil::inline v0_3 {
 
-/// A walker who is awake and has no pose; false for a stale handle.
+/// Returns true for an awake walker without a pose; false for a stale handle.
 bool is_compact(const World& world, Entity person);
-/// The parts that a walker has of its pose, and somebody compact has not: their ids, sorted.
+/// Returns the ids, sorted, of the pose components that a full walker has and a compact one lacks.
 std::span<const std::uint64_t> pose_part_ids();
 
-/// Pose, JointAngles, Feet or CentreOfMass as they would be, into `row`, which is one of them. Status::missing where
-/// there is no such part or nobody is compact.
+/// Computes Pose, JointAngles, Feet or CentreOfMass of a compact person into `row`, which has that type. Returns
+/// Status::missing for any other component and for a person who is not compact.
 Status read_compact(const World& world, Entity person, std::uint64_t part, void* row);
 
-/// Memory that people become whole in, kept from one time to the next.
+/// Scratch memory of make_full, reused between calls.
 struct FullPoseWork {
   FullPoseWork();
   ~FullPoseWork();
   struct Blocks;
   std::unique_ptr<Blocks> blocks;
 };
-/// Compact people of one table, named once each, have their pose again; of the parts that `gone` names (ids, sorted)
-/// they keep none.
+/// Restores the pose of compact people of one table, each named once, and removes the components in `gone` (ids,
+/// sorted).
 void make_full(World& world, const Jobs& jobs, std::span<const Entity> people, std::span<const std::uint64_t> gone,
                FullPoseWork& work);
 

@@ -19,7 +19,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// People have fat, awake or asleep.
+/// Checks that only people, awake or asleep, have fat components.
 Result<void> check_fat_key(const Archetype& key, const World&) {
   const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool awake = !has(type_id<FatWobble<float>>()) || has(type_id<BodySize<float>>());

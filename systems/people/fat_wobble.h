@@ -1,5 +1,5 @@
 #pragma once
-// The effect of fat that wobbles (mobil/components/fat.h) on people: for skin in close view.
+// Wobbling fat of people (mobil/components/fat.h), for skin in close view.
 
 #include <span>
 
@@ -13,14 +13,14 @@ namespace mobil::inline v0_3 {
 
 Module fat_module();
 
-/// People, named once each, walkers and posed, have fat that wobbles, or have it no more; who is so already is left
-/// alone. All or none. Errors: Status::stale_entity.
+/// Switches the wobbling fat of walkers and posed people on or off; each is named once. Skips people who are in that
+/// state already. Changes all or none. Errors: Status::stale_entity.
 Status set_fat_wobble(World& world, const Jobs& jobs, std::span<const Entity> people, bool on);
-/// Awake or asleep; false for a stale handle.
+/// Returns true if a person, awake or asleep, has wobbling fat; false for a stale handle.
 bool has_fat(const World& world, Entity person);
-/// Fat that wobbles begins at rest beside the skeleton: who is posed elsewhere has jumped, who was compact is whole.
+/// Resets wobbling fat to rest relative to the skeleton, after a jump of the pose or a change from compact to full.
 void settle_fat(World& world, Entity person);
-/// A walker was put elsewhere on the ground plane: it goes along, as if the world had been moved under it.
+/// Moves wobbling fat rigidly with a walker who was placed elsewhere on the ground plane.
 void place_fat(World& world, Entity person, const Placing& way);
 
 }  // namespace mobil::inline v0_3

@@ -15,7 +15,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// What people of one table have of forces from the first on, sixteen together.
+/// Initial force components of people of one table, sixteen to a block.
 struct Beginning {
   std::vector<BodyMotion<Lanes<float>>> motion;
   std::vector<GroundReaction<Lanes<float>>> ground;
@@ -67,7 +67,7 @@ void begin_forces(World& world, const Jobs& jobs, std::span<const Entity> people
   world.change_archetype(people, parts, {}, jobs);
 }
 
-/// What goes with forces, and what needs them: their ids, sorted.
+/// Returns the ids, sorted, of the force components and of the components that depend on them.
 std::span<const std::uint64_t> force_part_ids() {
   static const auto ids = [] {
     std::array all = {type_id<PoseHistory<float>>(),  type_id<BodyMotion<float>>(), type_id<GroundReaction<float>>(),
@@ -79,7 +79,7 @@ std::span<const std::uint64_t> force_part_ids() {
   return ids;
 }
 
-/// A pose near the origin, where single precision is finest, in the lanes that `from` is to be taken.
+/// Copies `from` minus `origin_m`, near the origin, where single precision is finest, in lanes with `taken` set.
 void take_near(const Pose<Lanes<float>>& from, const Vec3<Lanes<float>>& origin_m, const Lanes<std::uint32_t>& taken,
                Pose<Lanes<float>>& to) {
   for (std::size_t s = 0; s < segment_count; ++s) {

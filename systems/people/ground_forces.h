@@ -1,5 +1,5 @@
 #pragma once
-// The effect of ground reaction and joint moments (mobil/forces.h) on one person.
+// Ground reaction and joint moments (mobil/forces.h) of people: switching them, and the system for posed people.
 
 #include <span>
 
@@ -11,16 +11,16 @@
 
 namespace mobil::inline v0_3 {
 
-/// Or will have, on waking.
+/// Returns true if a person has forces, or will have them on waking.
 bool has_forces(const World& world, Entity person);
-/// From now on, or no more; of people who are awake and whole, each named once. All of them, or nobody: stale handles
-/// answer Status::stale_entity, and where memory runs out nothing has changed.
+/// Switches forces on or off for awake people who have a pose, each named once. Changes all or none: returns
+/// Status::stale_entity for stale handles, and leaves everything unchanged if memory runs out.
 Status set_forces(World& world, const Jobs& jobs, std::span<const Entity> people, bool on);
-/// A posed person who has them has jumped: how the pose moves is known from the third tick on.
+/// Clears the pose history of a posed person with forces after a jump. Motion is known again from the third tick on.
 void clear_pose_history(World& world, Entity person);
 
-/// Of people whose host animates them, at the instant of the last tick's pose: where the poses before and after it are
-/// known, too, with what they accelerate, else as if at rest. The ground is level and as high as the lower sole.
+/// Computes forces of posed people at the instant of the last tick's pose. Accelerations are included if the poses
+/// before and after it are known; if not, people are taken to be at rest. The ground is level, at the lower sole.
 void press_posed(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose, const Feet<Lanes<float>>& feet,
                  PoseHistory<Lanes<float>>& past, float tick_s, GroundReaction<Lanes<float>>& ground,
                  JointMoments<Lanes<float>>& moments);

@@ -1,5 +1,5 @@
 #pragma once
-// Entities of one table together, for what changes rows of one kind at once (World::change_archetype).
+// Grouping of entities by table, for functions that change many rows of a table at once (World::change_archetype).
 
 #include <algorithm>
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// Each of them once, in the order of their indices.
+/// Sorts entities by index and removes duplicates.
 inline void drop_repeated(std::vector<Entity>& entities) {
   std::ranges::sort(entities, {}, &Entity::index);
   entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
 }
 
-/// f(entities of one table), table by table, in the order in which they are named; they are alive. What `f` makes of
-/// them counts no more: tables are those of before.
+/// Calls f(entities of one table) for each table, with entities in the given order. Entities must be alive. Tables are
+/// those before the first call; changes by `f` do not affect the grouping.
 template <class F>
 void group_by_table(const World& world, std::span<const Entity> entities, const F& f) {
   std::vector<std::pair<std::uint32_t, Entity>> placed;

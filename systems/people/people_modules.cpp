@@ -27,7 +27,8 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Of a block three further on, what every tick asks for: otherwise there is too little work to hide memory's latency.
+/// Prefetches the clock of the block three ahead, which every tick reads. One block has too little work to hide the
+/// latency of memory.
 void fetch_clock(const GaitState<Lanes<float>>* state) {
   if (state != nullptr) FetchAhead(&state->time_s).fetch(1);
 }
@@ -74,8 +75,7 @@ void publish_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<flo
   set_clocks(size, plan, state, posts.row);
 }
 
-/// A skeleton has all of its parts, and a walker all of those that gait works on; of the pose's all or, of who is
-/// compact, none.
+/// Checks that a skeleton has all of its components and a walker all of gait's. A compact walker has no pose component.
 Result<void> check_walker_key(const Archetype& key, const World&) {
   const auto count = [&](std::initializer_list<std::uint64_t> ids) {
     return std::count_if(ids.begin(), ids.end(), [&](std::uint64_t id) { return find_component(key, id) != nullptr; });
@@ -91,7 +91,7 @@ Result<void> check_walker_key(const Archetype& key, const World&) {
   return damaged("the parts of a person");
 }
 
-/// Forces have all of their parts, and those of walkers or of posed people.
+/// Checks that forces are complete and match a walker (BodyMotion) or a posed person (PoseHistory).
 Result<void> check_forces_key(const Archetype& key, const World&) {
   const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool walks = has(type_id<Gait<float>>()), forces = has(type_id<GroundReaction<float>>());
@@ -101,7 +101,7 @@ Result<void> check_forces_key(const Archetype& key, const World&) {
   return damaged("the forces of a person");
 }
 
-/// Every body is one that can live.
+/// Checks that every saved body is within the ranges of check_body().
 Result<void> check_walker_rows(const SavedWorld& saved, std::uint32_t table) {
   const std::uint32_t size = saved.column(table, type_id<BodySize<float>>());
   const std::uint32_t physique = saved.column(table, type_id<Physique<float>>());

@@ -19,12 +19,12 @@ double twist_about_x(const Quat<double>& rotation) {
 JointAngles<float> joint_angles(const Pose<float>& pose) {
   using enum Segment;
   const auto of = [&](Segment s) { return to_double(pose.rotation[index(s)]); };
-  /// How far the lower segment is turned about the upper one's x axis: backward.
+  /// Returns the backward rotation of the lower segment about the upper one's x axis.
   const auto turned = [&](Segment upper, Segment lower) {
     return static_cast<float>(twist_about_x(product(conjugate(of(upper)), of(lower))));
   };
   JointAngles<float> angles{};
-  // The pelvis is turned about y, then z, then x.
+  // The pelvis rotates about y, then z, then x.
   const auto [to_left, up, ahead] = columns(of(pelvis));
   const Vec chest_to_left = columns(of(T1))[0];
   const auto heading = [](const Vec& left_axis) { return std::atan2(-left_axis.z, left_axis.x); };

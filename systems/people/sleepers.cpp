@@ -15,14 +15,14 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Sixteen walkers who may be steady.
+/// Sixteen walkers to check for a steady walk.
 struct Candidates {
   WalkingBlock walkers;
   SteadyWalk<Lanes<float>> walk;
   Lanes<std::uint32_t> tick;
 };
 
-/// Of a step only what tells whether it is steady: all of it would be a thousand lines of memory.
+/// Reads only the fields of a step plan that decide if it is steady; a whole plan is a thousand cache lines.
 bool read_times(const World& world, Entity person, StepPlan<float>& plan) {
   const auto place = world.find(person);
   if (!place) return false;
@@ -37,7 +37,7 @@ bool read_times(const World& world, Entity person, StepPlan<float>& plan) {
   return true;
 }
 
-/// Moves a walk's anchor to where it is at that tick, less (x, 0, z).
+/// Moves a walk's anchor to the walker's place at that tick, minus (x, 0, z).
 void shift(SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, float tick_s, float x_m, float z_m) {
   GaitState<Lanes<float>> state;
   steady_state(walk, tick, tick_s, state);
@@ -48,7 +48,7 @@ void shift(SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, flo
   walk.anchor_steps = state.steps;
 }
 
-/// Who is asleep does not turn their shoulders back, and is to wake with them as they are drawn then.
+/// Straightens sleepers' shoulders, which nothing turns back in sleep; sleepers must wake in the pose that was drawn.
 void face_their_way(World& world, std::span<const Entity> people) {
   const auto avoids = [](Table& table) { return static_cast<bool>(TableColumn<AvoidanceState>(table)); };
   if (std::ranges::none_of(world.tables(), avoids)) return;
@@ -180,13 +180,13 @@ void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> 
     std::uint32_t table;
     Entity entity;
   };
-  std::vector<Begins> begins(asked.size());  // who is steady, in which table
+  std::vector<Begins> begins(asked.size());  // steady sleepers and their tables
   in_parallel(jobs, asked.size(), [&](std::size_t first, std::size_t last) {
     for (; first < last; ++first) {
       const Entity one = asked[first].entity;
       const auto since = unsettled_of(world, one);
       begins[first] = {since ? none : world.locate(one)->table, one};
-      if (since && since->until_tick != 0)  // steady again since; else asked for something else in this tick already
+      if (since && since->until_tick != 0)  // steady again; 0 after an earlier request in this tick
         world.set(one, Unsettled<float>{world.get<Asleep>(one)->walk, time.tick, 0});
     }
   });
@@ -226,7 +226,7 @@ void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> 
 
 void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, UnsettledTables& tables,
                    std::vector<Entity>& work, std::vector<Entity>& restless) {
-  constexpr std::uint32_t rounds = 16;  // ticks in which everybody is looked at once
+  constexpr std::uint32_t rounds = 16;  // ticks in which each block is checked once
   constexpr std::array part = {type_id<Unsettled<float>>()};
   for (; tables.seen < world.tables().size(); ++tables.seen) {
     const Table& table = world.tables()[tables.seen];

@@ -44,7 +44,7 @@ Result<void> check(const SpawnRequest& request, BodySize<float>& size, Gait<floa
   return each(person, *body);
 }
 
-/// What kinematics makes of walkers' first instants, sixteen to a block.
+/// Components of walkers at their first instant, sixteen to a block.
 struct FirstInstants {
   explicit FirstInstants(std::size_t blocks)
       : size(std::make_unique_for_overwrite<BodySize<Lanes<float>>[]>(blocks)),
@@ -101,7 +101,7 @@ struct FirstInstants {
 tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const SpawnRequest> people,
                                          std::span<BodySize<float>> size, std::span<Gait<float>> gait,
                                          const std::function<Result<void>(std::size_t, const Body&)>& each) {
-  std::atomic<std::size_t> wrong = people.size();  // the first of those who cannot be
+  std::atomic<std::size_t> wrong = people.size();  // the first invalid request
   in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (check(people[i], size[i], gait[i], i, each)) continue;

@@ -22,7 +22,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Before the clocks go on.
+/// Runs before the clocks advance.
 void watch_ahead(Previous<StepPlan> plan, Previous<GaitState> state, Published<StepEvents> events, float tick_s) {
   begin_step_events(*plan, *state, tick_s, events.row);
 }
@@ -32,7 +32,7 @@ void watch_behind(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<floa
   end_step_events(plan, state, tick_s, events.row);
 }
 
-/// Walkers are watched, awake or asleep.
+/// Checks that only walkers, awake or asleep, have step events.
 Result<void> check_step_events_archetype(const Archetype& key, const World&) {
   const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool awake = !has(type_id<StepEvents>()) || has(type_id<GaitState<float>>());
@@ -41,13 +41,13 @@ Result<void> check_step_events_archetype(const Archetype& key, const World&) {
   return damaged("whose steps are watched");
 }
 
-/// Of a person in some ticks at most: at two steps a tick where these are longer than steps, at six steps a second.
+/// Returns the maximum number of a person's events: three a step, at up to two steps a tick and six steps a second.
 std::size_t max_events(std::uint32_t ticks, float tick_s) {
   const double steps = std::min(2.0 * ticks, 6.0 * ticks * static_cast<double>(tick_s)) + 1;
   return static_cast<std::size_t>(std::ceil(3 * steps));
 }
 
-/// How high the ground is where that came to pass, and how far the foothold is moved, of a walker after the tick.
+/// Returns the height of the ground at an event and the offset of its foothold, from a walker's footing after the tick.
 Vec3<float> ground_of(const StepEvents::One& one, const Footing<Lanes<float>>& footing, std::uint32_t stance_side,
                       std::size_t lane) {
   FootholdOf where = FootholdOf::stance;
@@ -137,7 +137,7 @@ void StepLog::take(std::uint32_t tick, float tick_s) {
     }
   }
   const auto order = [](const StepEvent& e) {
-    return std::tuple(e.part, e.person.index, e.kind);  // those of earlier ticks are in order
+    return std::tuple(e.part, e.person.index, e.kind);  // events of earlier ticks are sorted already
   };
   std::sort(events_.begin() + first, events_.end(),
             [&](const StepEvent& a, const StepEvent& b) { return order(a) < order(b); });

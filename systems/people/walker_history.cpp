@@ -18,7 +18,7 @@ std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<f
   state.line_z_m -= plan.length_before_m * exact::cos(state.heading_rad);
   state.turn_rad = state.chord_rad = state.bend_next_per_m = 0.0F;
   state.shift_next_m = state.shift_m;
-  state.shift_m = state.shift_before_m;  // and the one before that is too long ago to matter
+  state.shift_m = state.shift_before_m;  // the shift before that is too long ago to matter
   return state;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where a walker was a few ticks ago: for effects that begin under way and look back.
+// A walker's state a few ticks ago, for effects that start in mid-walk and need a history.
 
 #include <optional>
 
@@ -7,7 +7,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Where a walker was some seconds before, as far as the present step and one like it before that tell.
+/// Returns a walker's state `seconds` earlier, within the current step or, for a steady walk, the equal one before it.
 std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<float>& plan, float seconds);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// The hosts' axes against ours: which of ours becomes each of theirs, and its sign.
+// Axes of hosts relative to the library's: the library's axis for each of the host's, and its sign.
 
 #include <array>
 #include <cstddef>
@@ -13,18 +13,18 @@ struct AxisMap {
   std::array<std::size_t, 3> ours;
   std::array<float, 3> sign;
 
-  /// −1 where the host's frame is a mirror image of ours: rotations then turn the other way round.
+  /// Returns −1 if the host's frame is a mirror image of the library's; rotations then have the opposite sense.
   constexpr float mirrored() const { return sign[0] * sign[1] * sign[2]; }
 };
 
-/// By PoseAxes.
+/// Axis maps, indexed by PoseAxes.
 inline constexpr AxisMap axes_of[] = {{{0, 1, 2}, {1, 1, 1}},
                                       {{0, 1, 2}, {-1, 1, 1}},
                                       {{2, 0, 1}, {1, 1, 1}},
                                       {{2, 0, 1}, {1, -1, 1}},
                                       {{0, 1, 2}, {-1, 1, -1}}};
 
-/// A host's place in our axes, m.
+/// Returns a host's position in the library's axes, m.
 constexpr Vec3<double> place_from(PoseAxes axes, float units_per_m, const Vec3<float>& theirs) {
   const AxisMap& map = axes_of[static_cast<std::size_t>(axes)];
   const float from[3] = {theirs.x, theirs.y, theirs.z};
@@ -35,7 +35,7 @@ constexpr Vec3<double> place_from(PoseAxes axes, float units_per_m, const Vec3<f
   return {to[0], to[1], to[2]};
 }
 
-/// A host's rotation in our axes.
+/// Returns a host's rotation in the library's axes.
 constexpr Quat<double> rotation_from(PoseAxes axes, const Quat<float>& theirs) {
   const AxisMap& map = axes_of[static_cast<std::size_t>(axes)];
   const float from[3] = {theirs.x, theirs.y, theirs.z};

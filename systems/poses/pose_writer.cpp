@@ -26,13 +26,13 @@ namespace {
 
 constexpr std::array<std::size_t, 3> form_floats = {7, 12, 8};
 
-/// As a tick does it after the pose.
+/// Rotates shoulders for avoidance, as a tick does after the pose.
 void turn_as_avoided(const Table& table, std::size_t block, Pose<Lanes<float>>& pose) {
   if (const TableColumn<AvoidanceState> courses(table); courses)
     turn_shoulders(courses.at(table, block).turn_rad, pose);
 }
 
-/// A block of walkers where they will be; their shoulders as they are.
+/// Computes the pose of a block of walkers `ahead_s` later; shoulders keep their current rotation.
 void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<float>>& pose) {
   const auto& size = TableColumn<BodySize>(table).at(table, block);
   const TableColumn<Footing> footing(table);
@@ -45,7 +45,7 @@ void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<fl
   turn_as_avoided(table, block, pose);
 }
 
-/// A block of walkers without a pose of their own.
+/// Computes the pose of a block of walkers who store none.
 void pose_compact(const Table& table, std::size_t block, Pose<Lanes<float>>& pose) {
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
@@ -65,7 +65,7 @@ void segment_of(const Pose<Lanes<float>>& pose, std::size_t s, Placed& out) {
   std::memcpy(out.turn, &pose.rotation[s], sizeof out.turn);
 }
 
-/// `placed`, seen from `from`.
+/// Transforms `placed` to the frame of `from`.
 void seen_from(const Placed& from, Placed& placed) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const Quat<float> back = {-from.turn[0][l], -from.turn[1][l], -from.turn[2][l], from.turn[3][l]};
@@ -78,7 +78,7 @@ void seen_from(const Placed& from, Placed& placed) {
   }
 }
 
-/// In other axes and units. A mirrored frame turns the sense of a rotation round.
+/// Converts to other axes and units. A mirrored frame reverses the sense of rotations.
 void change_axes(const AxisMap& axes, float units_per_m, const Placed& from, Placed& to) {
   for (std::size_t i = 0; i < 3; ++i) {
     const float length = axes.sign[i] * units_per_m, sense = axes.sign[i] * axes.mirrored();
@@ -90,7 +90,7 @@ void change_axes(const AxisMap& axes, float units_per_m, const Placed& from, Pla
   std::memcpy(to.turn[3], from.turn[3], sizeof to.turn[3]);
 }
 
-/// A segment's numbers as the host has them, of sixteen people.
+/// A segment's numbers in the host's format, for sixteen people.
 using Numbers = float[12][lane_count];
 
 void as_matrix(const Placed& p, Numbers& out) {
@@ -113,12 +113,12 @@ void as_dual_quaternion(const Placed& p, Numbers& out) {
   }
 }
 
-/// The same, person after person.
+/// These numbers, person by person.
 struct PersonRows {
   float of[lane_count][12];
 };
 
-/// Four by four, for compilers do not see it by themselves.
+/// Transposes in 4×4 tiles, which compilers do not find by themselves.
 void turn_over(const Numbers& numbers, std::size_t count, PersonRows& rows) {
   using Four = float __attribute__((vector_size(16)));
   for (std::size_t n = 0; n < count; n += 4) {
@@ -188,7 +188,7 @@ void PoseWriter::Work::write_block(std::size_t b) const {
     }
     pose = &then;
   }
-  // Person after person, so that memory is written in order; as many segments at once as a cache holds.
+  // Writes person by person, so that memory is written in order, with as many segments at once as a cache holds.
   constexpr std::size_t at_once = 16;
   const std::size_t count = layout.segments.empty() ? segment_count : layout.segments.size();
   PersonRows rows[at_once];

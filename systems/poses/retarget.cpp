@@ -22,7 +22,7 @@ using Rotation = Quat<double>;
 
 constexpr std::int32_t no_bone = SkeletonBones::no_bone;
 
-/// The shortest rotation that takes one direction to another.
+/// Returns the shortest rotation from one direction to another.
 Rotation arc(const Vec& from, const Vec& to) {
   const Vec a = normalised(from), b = normalised(to);
   const double cosine = dot(a, b);
@@ -44,7 +44,7 @@ Rotation normalised_rotation(const Rotation& q) {
   return {part * q.x, part * q.y, part * q.z, part * q.w};
 }
 
-/// Part of the way from one rotation to another, the shorter way round.
+/// Interpolates between two rotations along the shorter arc.
 Rotation part_way(const Rotation& from, const Rotation& to, double share) {
   const double sign = from.x * to.x + from.y * to.y + from.z * to.z + from.w * to.w < 0 ? -1 : 1;
   const double cosine = std::min(std::abs(from.x * to.x + from.y * to.y + from.z * to.z + from.w * to.w), 1.0);
@@ -66,7 +66,7 @@ Rotation turn_about_x(double angle) {
 Result<void> check_place(const BonePlace& bone, std::size_t number, float units_per_m) {
   const auto& [at, turn] = bone;
   const float most = farthest_m * units_per_m;
-  // No comparison holds for what is not a number.
+  // Comparisons with NaN are false.
   const bool placed = std::fabs(at.x) < most && std::fabs(at.y) < most && std::fabs(at.z) < most;
   if (!placed)
     return fail(fmt::format("retarget: bone {} is at ({}, {}, {}); give a finite place within 1000 km", number, at.x,
@@ -77,7 +77,7 @@ Result<void> check_place(const BonePlace& bone, std::size_t number, float units_
   return {};
 }
 
-/// Every bone that is named, each once; what is needed is there.
+/// Checks that each named bone exists and is named once, and that all required bones are named.
 Result<void> check_bones(const SkeletonBones& bones, std::size_t count) {
   std::vector<std::pair<std::string_view, std::int32_t>> named = {{"pelvis", bones.pelvis}, {"head", bones.head}};
   for (const std::int32_t bone : bones.spine) named.emplace_back("spine", bone);
@@ -111,7 +111,7 @@ Result<void> check_bones(const SkeletonBones& bones, std::size_t count) {
   return {};
 }
 
-/// Where the joints are at rest, m, in our axes.
+/// Returns the positions of the joints at rest, m, in the library's axes.
 Result<std::vector<Vec>> rest_joints(const SkeletonBones& bones, std::span<const BonePlace> rest,
                                      const BoneUnits& units) {
   if (units.axes > PoseAxes::y_up_z_back || !(units.units_per_m >= 1e-3F && units.units_per_m <= 1e6F))
@@ -174,7 +174,7 @@ Result<Retarget> Retarget::make(const Body& body, const SkeletonBones& bones, st
   return map;
 }
 
-/// Bones turn what is above their joints: each vertebra lies between the middles of two of them.
+/// Each bone rotates the spine above its joint; vertebrae are interpolated between the midpoints of two bones.
 void Retarget::set_column(const SkeletonBones& bones, std::span<const Vec> joint) {
   std::vector<std::int32_t> column = {bones.pelvis};
   column.insert(column.end(), bones.spine.begin(), bones.spine.end());
@@ -215,7 +215,7 @@ void Retarget::set_leg(const SkeletonBones::Limbs& limbs, std::size_t side, std:
   const Rotation shank = product(arc(rotated(thigh, {0, -1, 0}), at(limbs.foot) - at(limbs.shank)), thigh);
   of(thigh_right) = {limbs.thigh, no_bone, 0, thigh};
   of(shank_right) = {limbs.shank, no_bone, 0, shank};
-  Rotation foot = facing_;  // flat, and where it points
+  Rotation foot = facing_;  // flat, in the direction of the toes
   if (limbs.toes != no_bone) {
     const Vec ahead = at(limbs.toes) - at(limbs.foot);
     if (std::hypot(ahead.x, ahead.z) > 1e-3) foot = turn_about_y(std::atan2(ahead.x, ahead.z));

@@ -21,7 +21,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Sixteen walkers' roots.
+/// Roots of sixteen walkers.
 struct RootBlock {
   RootPlace<Lanes<float>> place;
   Lanes<float> line_x_m, line_z_m;
@@ -49,7 +49,7 @@ struct RootBlock {
   }
 };
 
-/// Under the pelvis, and where its front faces.
+/// Returns the root of a posed person: the point under the pelvis, and the direction of the pelvis' front.
 Root posed_root(const Pose<float>& pose) {
   const std::size_t pelvis = index(Segment::pelvis);
   const Quat<float>& q = pose.rotation[pelvis];
@@ -75,7 +75,7 @@ Root sleeping_root(const World& world, Entity person, const SleepTime& time, flo
   return block.of(0);
 }
 
-/// Some of the people, one after the other; a block is made again where the next one is of another.
+/// Reads the roots of people in order; computes a block when the next person is in a different one.
 void read_some(const World& world, std::span<const Entity> people, const SleepTime& time, float ahead_s, Root* out) {
   RootBlock block;
   const Table* made = nullptr;

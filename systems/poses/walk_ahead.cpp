@@ -11,8 +11,8 @@ WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>
                      const Footing<Lanes<float>>* footing, float ahead_s)
     : state_(state), plan_(&plan), uneven_(footing != nullptr) {
   if (uneven_) footing_ = *footing;
-  // What rounding leaves of a frame that ends with a tick; clocks count in units of it, of which there would be too
-  // many.
+  // Rounding residue of a frame that ends with a tick is ignored. The clock's unit is a fraction of `ahead_s`; a
+  // shorter time would give too many units.
   constexpr float min_s = 1e-6F;
   if (!(ahead_s > min_s)) return;
   advance_gait(plan, state_, ahead_s);

@@ -1,5 +1,5 @@
 #pragma once
-// Walkers a part of a tick later: nothing in the world changes.
+// Walkers a part of a tick later; the world does not change.
 
 #include <cstddef>
 
@@ -9,11 +9,11 @@
 
 namespace mobil::inline v0_3 {
 
-/// How far ahead may be asked for, s: less than any step takes, so that one at most begins on the way.
+/// Maximum time ahead, s. It is shorter than any step, so that at most one step begins in it.
 inline constexpr double furthest_ahead_s = 0.2;
 
-/// A block of walkers where they will be `ahead_s` later, above 0; who begins a step on the way takes the one that they
-/// will.
+/// A block of walkers `ahead_s` later, for times above 0. A step that begins in that time is solved as the tick will
+/// solve it.
 class WalkAhead {
  public:
   WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, const StepPlan<Lanes<float>>& plan,
@@ -23,7 +23,7 @@ class WalkAhead {
 
   const StepPlan<Lanes<float>>& plan() const { return *plan_; }
   const GaitState<Lanes<float>>& state() const { return state_; }
-  /// Null on level ground. What comes after the step under way is as high as what it ends on.
+  /// Null on level ground. Ground after the current step is taken to be as high as the foothold that ends the step.
   const Footing<Lanes<float>>* footing() const { return uneven_ ? &footing_ : nullptr; }
 
  private:

@@ -1,4 +1,4 @@
-"""Only what pyproject.toml cannot say: the wheel holds a library, for one kind of machine and any Python 3."""
+"""Options that pyproject.toml cannot express: the wheel contains a library for one platform and any Python 3."""
 
 from setuptools import Distribution, setup
 from wheel.bdist_wheel import bdist_wheel

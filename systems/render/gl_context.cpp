@@ -14,7 +14,7 @@ Function entry_point(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
-/// An OpenGL ES 3 context of that display, or none.
+/// Returns an OpenGL ES 3 context of that display, or null.
 EGLContext context_of(EGLDisplay display) {
   if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) return EGL_NO_CONTEXT;
   const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
@@ -31,7 +31,7 @@ EGLContext context_of(EGLDisplay display) {
   return context;
 }
 
-/// What there is to draw with.
+/// Available EGL devices.
 struct Devices {
   std::array<EGLDeviceEXT, 16> device{};
   std::array<bool, 16> is_software{};
@@ -68,7 +68,7 @@ Result<GlContext> GlContext::create() {
   const auto platform_display = entry_point<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
   if (platform_display != nullptr) {
     const Devices devices = all_devices();
-    for (std::size_t i = 0; i < devices.count; ++i)  // what draws in hardware comes first
+    for (std::size_t i = 0; i < devices.count; ++i)  // hardware first
       if (!devices.is_software[i] && try_display(platform_display(EGL_PLATFORM_DEVICE_EXT, devices.device[i], nullptr)))
         return made;
     if (try_display(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr))) return made;

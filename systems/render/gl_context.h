@@ -7,12 +7,12 @@
 
 namespace mobil::inline v0_3 {
 
-/// Owns one context; every OpenGL object made in it goes with it. The display is shared by the whole process and stays
-/// initialised, since EGL does not count its users.
+/// Owns one context, and all OpenGL objects made in it. The display is shared by the whole process and stays
+/// initialised, because EGL does not count its users.
 class GlContext {
  public:
-  /// Tries each EGL device that draws in hardware, then Mesa's surfaceless platform, devices in software, and the
-  /// default display. Error: no driver answers.
+  /// Creates a context on the first available of: EGL devices with hardware rendering, Mesa's surfaceless platform,
+  /// devices with software rendering, the default display. Errors: no driver.
   static Result<GlContext> create();
 
   GlContext() = default;
@@ -36,7 +36,7 @@ class GlContext {
   void* context_ = nullptr;
 };
 
-/// Makes a context current on this thread for a scope and gives the thread back what it had.
+/// Makes a context current on this thread for a scope, then restores the previous one.
 class CurrentContext {
  public:
   explicit CurrentContext(const GlContext& context);
@@ -44,7 +44,7 @@ class CurrentContext {
   CurrentContext(const CurrentContext&) = delete;
   CurrentContext& operator=(const CurrentContext&) = delete;
 
-  /// False where another thread holds the context or the driver refuses.
+  /// Returns false if another thread has the context, or the driver refuses.
   explicit operator bool() const { return current_; }
 
  private:

@@ -38,7 +38,7 @@ Result<void> check(const DrawMesh& mesh) {
   return {};
 }
 
-/// Appends the mesh's positions and normals to `out`; a wireframe's corner by corner.
+/// Appends the mesh's positions and normals to `out`, for a wireframe those of each corner.
 void append(const DrawMesh& mesh, std::span<const Vec3<float>> normal, std::vector<Vec3<float>>& out,
             StoredMesh& stored) {
   const auto add = [&](const auto& values) {
@@ -82,7 +82,7 @@ Result<StoredMesh> MeshStore::place(const DrawMesh& mesh) {
   }
   StoredMesh stored;
   if (mesh.key == 0) {
-    // Parts of one surface share its vertices, if they come one after the other with normals of their own.
+    // Consecutive parts of one surface, with given normals, share its vertices.
     const bool again = !mesh.normal.empty() && !mesh.wireframe && last_places_ == mesh.position.data() &&
                        last_normals_ == mesh.normal.data();
     if (again) {

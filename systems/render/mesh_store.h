@@ -1,5 +1,5 @@
 #pragma once
-// Meshes on the graphics device: those sent once and kept by key, and those of this frame in one stream.
+// Meshes on the graphics device: stored ones with a key, which are sent once, and those of this frame in one stream.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Where a mesh lies: byte offsets into its buffers. Wireframes are three vertices a triangle, without indices.
+/// Location of a mesh: byte offsets into its buffers. Wireframes have three vertices per triangle and no indices.
 struct StoredMesh {
   unsigned vertex_buffer = 0, index_buffer = 0;
   std::size_t position_at = 0, normal_at = 0, index_at = 0;
@@ -20,19 +20,19 @@ struct StoredMesh {
   capture_math::Box box;
 };
 
-/// Its functions need the context current. The context takes the buffers with it.
+/// Store of meshes. All functions need a current context, which owns the buffers.
 class MeshStore {
  public:
   void create_buffers();
 
-  /// Begins a frame: forgets the stream of the last.
+  /// Begins a frame and clears the stream of the last one.
   void begin_frame();
 
-  /// Places a mesh, sending it at once if it is a new keyed one. Error: triangles not in threes, an index out of range,
-  /// sizes beyond what the device counts.
+  /// Adds a mesh to the stream, or returns a stored one. A new mesh with a key is sent at once. Errors: a number of
+  /// indices that is not a multiple of three, an index out of range, sizes beyond the range of the device.
   Result<StoredMesh> place(const DrawMesh& mesh);
 
-  /// Sends the frame's stream; before it, no mesh without key may be drawn.
+  /// Sends the frame's stream. It must be called before a mesh without a key is drawn.
   void send_stream();
 
   void forget(std::uint64_t key);
@@ -51,7 +51,7 @@ class MeshStore {
   unsigned stream_vertices_ = 0, stream_indices_ = 0;
   std::vector<Vec3<float>> vertices_, normal_, own_vertices_;
   std::vector<std::uint32_t> indices_;
-  StoredMesh last_;  // of the stream, and what it was made of
+  StoredMesh last_;  // the last mesh of the stream, and its source
   const Vec3<float>* last_places_ = nullptr;
   const Vec3<float>* last_normals_ = nullptr;
 };

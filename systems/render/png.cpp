@@ -20,7 +20,7 @@ bool opaque(const Image& image) {
   return true;
 }
 
-/// libpng leaves by longjmp when it fails, so nothing here has a destructor.
+/// Writes the picture to a file. libpng fails by longjmp, so no local object has a destructor.
 bool encode(std::FILE* file, const Image& image, bool with_opacity, PngEffort effort) {
   png_structp png =
       png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, [](png_structp, png_const_charp) {});

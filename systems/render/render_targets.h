@@ -1,5 +1,5 @@
 #pragma once
-// What is drawn into: the multisampled picture, the plain one it is resolved into, and the shadow map.
+// Render targets: the multisampled picture, the picture that it is resolved into, and the shadow map.
 
 #include <mobil/engine/error.h>
 
@@ -7,12 +7,12 @@ namespace mobil::inline v0_3 {
 
 inline constexpr int shadow_map_size = 2048;
 
-/// Framebuffer objects of the context they were made in, which takes them with it.
+/// Framebuffer objects, owned by the context in which they were made.
 struct RenderTargets {
   unsigned multisampled = 0, resolved = 0, shadow = 0, shadow_texture = 0;
 };
 
-/// In the current context. Error: the driver cannot hold a picture of that size.
+/// Makes the targets in the current context. Errors: a size that the driver does not support.
 Result<RenderTargets> make_render_targets(int width, int height);
 
 }  // namespace mobil::inline v0_3

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int largest_picture = 8192;
 
-/// The columns of a placement's 4×3 matrix.
+/// Columns of a placement's 4×3 matrix.
 using PlacementColumns = std::array<Vec3<float>, 4>;
 
 PlacementColumns columns(const Placement& p) {
@@ -30,12 +30,12 @@ PlacementColumns columns(const Placement& p) {
   return {p.scale.x * axis[0], p.scale.y * axis[1], p.scale.z * axis[2], p.position};
 }
 
-/// A screen's sRGB value to linear light, near enough for lighting.
+/// Converts an sRGB value to linear light, approximately.
 float linear(float encoded) {
   return std::pow(std::clamp(encoded, 0.0F, 1.0F), 2.2F);
 }
 
-/// A mesh with its copies: those that keep the winding first, then the mirrored ones.
+/// A mesh with its copies: first those with unchanged winding, then the mirrored ones.
 struct MeshDraw {
   StoredMesh mesh;
   const DrawMesh* asked;
@@ -116,7 +116,7 @@ Result<void> Renderer::Device::prepare() {
   return {};
 }
 
-/// Sends the scene's meshes, copies, lines and points, and finds what casts shadows.
+/// Sends the scene's meshes, copies, lines and points, and computes the box of shadow casters.
 Result<void> Renderer::Device::collect(const Scene& scene) {
   store.begin_frame();
   placements.clear();
@@ -201,7 +201,7 @@ void Renderer::Device::draw_meshes(bool depth_only) const {
     if (!draw.asked->wireframe && (depth_only || draw.asked->opacity >= 1)) draw_mesh(draw, solid);
   }
   if (!depth_only) {
-    // Of a pixel's samples a part is covered, the same by all layers of one opacity: of those the nearest is seen.
+    // Layers of equal opacity cover the same samples of a pixel, so only the nearest of them is visible.
     glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     for (const MeshDraw& draw : draws) {
       if (!draw.asked->wireframe && draw.asked->opacity < 1) draw_mesh(draw, solid);

@@ -21,8 +21,8 @@ layout(std140) uniform Frame {
 };
 )";
 
-// Light reaching a point from the key lamp: the mean of depth comparisons on a small disc, each of which the sampler
-// itself interpolates.
+// Fraction of the key light that reaches a point: the mean of depth comparisons on a small disc, each interpolated by
+// the sampler.
 const char* const shadow = R"(
 uniform sampler2DShadow shadow_map;
 const vec2 disc[8] = vec2[8](vec2(0.35, 0.05), vec2(-0.25, 0.40), vec2(-0.30, -0.35), vec2(0.30, -0.65),
@@ -37,8 +37,7 @@ float lit(vec3 p, float texels, bool faces_lamp) {
 }
 )";
 
-// Key, fill and sky light, a soft highlight and a brighter rim; everything in linear light, then rolled off and
-// encoded for the screen.
+// Key, fill and sky light, a soft highlight and a brighter rim, computed in linear light, then tone-mapped and encoded.
 const char* const shade = R"(
 vec3 encode(vec3 c) { return pow(c, vec3(1.0 / 2.2)); }
 
@@ -61,7 +60,7 @@ vec3 shade(vec3 albedo, float wetness, vec3 n, vec3 p, float key) {
 }
 )";
 
-// The room: light at the horizon, a little darker above and below and towards the picture's edges.
+// Background: bright at the horizon, slightly darker above, below and towards the picture's edges.
 const char* const room = R"(
 vec3 room() {
   vec2 at = gl_FragCoord.xy / picture.xy;
@@ -138,7 +137,7 @@ void main() {
 )"});
 }
 
-// A line is a strip with the outline of a stadium: half a disc at either end.
+// A line segment is a strip with the outline of a stadium, half a disc at each end.
 std::string line_vertex_source() {
   return joined({head, R"(
 layout(location = 6) in vec3 from;
@@ -185,7 +184,7 @@ void main() {
 )"});
 }
 
-// A ball is the disc where its silhouette lies, for whoever looks from `facing`; inside it a ray finds the sphere.
+// A ball is the disc of its silhouette as seen from `facing`. The fragment shader intersects a ray with the sphere.
 std::string point_vertex_source() {
   return joined({head, "#define POINT_VERTICES ", std::to_string(point_vertices), R"(
 layout(location = 8) in vec3 centre;
@@ -242,8 +241,8 @@ void main() {
 )"});
 }
 
-// How much of a pixel's footprint the grid's lines cover is the difference of their running integral at its two ends,
-// so far lines fade into an even tone instead of shimmering.
+// The coverage of a pixel's footprint by grid lines is the difference of their running integral at its two ends, so
+// distant lines fade to an even tone without shimmering.
 std::string ground_fragment_source() {
   return joined({head, samples(8), shadow, room, R"(
 in vec3 world;

@@ -1,5 +1,5 @@
 #pragma once
-// Smooth normals for a surface whose vertices move.
+// Smooth normals of a surface with moving vertices.
 
 #include <cstdint>
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Unit normal of every vertex: the mean of its triangles' normals weighted by their areas; up (+Y) where a vertex has
-/// no triangle or they cancel. Indices must be below position.size(). `normal` is resized and keeps its memory.
+/// Computes the unit normal of every vertex: the area-weighted mean of the normals of its triangles, or +Y for a vertex
+/// without triangles or with a zero sum. Indices must be below position.size(). `normal` is resized.
 void vertex_normals(std::span<const Vec3<float>> position, std::span<const std::uint32_t> triangle,
                     std::vector<Vec3<float>>& normal);
 

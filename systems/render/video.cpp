@@ -87,8 +87,8 @@ std::vector<std::string> ffmpeg_arguments(const std::string& to, int width, int 
 }
 // clang-format on
 
-/// Starts ffmpeg from the PATH, without a shell and with no signal blocked or ignored, whatever its host does with
-/// them. Returns 0 or an errno.
+/// Starts ffmpeg from the PATH, without a shell and with default signal handling, independent of the host's. Returns 0
+/// or an errno.
 int start(const std::vector<std::string>& arguments, int input, int log, pid_t& process) {
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
@@ -129,7 +129,7 @@ struct VideoWriter::Encoder {
     finish();
   }
 
-  /// Ends the stream and waits; true where ffmpeg is content.
+  /// Ends the stream and waits for ffmpeg. Returns true if it succeeded.
   bool finish() {
     pictures_in.reset();
     int status = 0;
@@ -142,7 +142,7 @@ struct VideoWriter::Encoder {
     return content;
   }
 
-  /// After ffmpeg failed: its first words, and nothing left behind.
+  /// Removes the unfinished file after a failure and returns the first line of ffmpeg's message.
   tl::unexpected<Error> give_up() {
     if (process > 0) finish();
     place.reset();
@@ -183,7 +183,7 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
   encoder->width = width;
   encoder->height = height;
   encoder->log = Descriptor(memfd_create("ffmpeg errors", MFD_CLOEXEC));
-  // A socket instead of a pipe: writing to one whose reader died is an error value here, not a signal.
+  // A socket instead of a pipe, because writing after the reader has died gives an error instead of a signal.
   std::array<int, 2> ends{-1, -1};
   if (encoder->log.get() < 0 || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return fail(

@@ -36,13 +36,13 @@ Matrix4 perspective(const Camera& camera, int width, int height, float near, flo
           0};
 }
 
-/// Clip space of the lamp, its size in m the same in x and y.
+/// Clip space of the lamp, and its size in x and y, m.
 struct LampView {
   Matrix4 clip_from_world;
   float size_m;
 };
 
-/// Sizes go in steps and the middle sits on whole texels, so that the shadow of someone who walks does not shimmer.
+/// Computes the lamp's view, with steps of size and a centre on whole texels, so that moving shadows do not shimmer.
 LampView lamp_view(Vec3<float> light, const Box& casters) {
   const Vec3<float> side =
       normalised(cross(std::abs(light.y) < 0.99F ? Vec3<float>{0, 1, 0} : Vec3<float>{0, 0, 1}, light));

@@ -18,7 +18,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// An open file or folder, closed at the end.
+/// Descriptor of an open file or folder, closed on destruction.
 class Handle {
  public:
   Handle(const std::filesystem::path& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}

@@ -17,7 +17,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Lists of the front, each as long as its header says.
+/// Lists of the front, with the lengths in its header.
 struct SavedFront {
   FrontHeader header{};
   Records<SavedModule> modules;
@@ -55,7 +55,7 @@ SavedModule pack(const Module& module) {
   return saved;
 }
 
-/// Looks at tables that came since.
+/// Lists unnamed components of tables that are new since the last call.
 void learn_unnamed(const SnapshotScene& scene, SnapshotWork& work) {
   const auto& tables = scene.world.tables();
   for (; work.tables_seen < tables.size(); ++work.tables_seen) {
@@ -77,7 +77,7 @@ void each_unnamed(const SnapshotScene& scene, const SnapshotWork& work, F&& f) {
   }
 }
 
-/// How long the front's lists are. Marks resources that tables with rows have.
+/// Counts the entries of the front's lists. Marks resources that tables with rows have.
 FrontHeader count(const SnapshotScene& scene, SnapshotWork& work) {
   std::vector<std::uint8_t>& used = work.used;
   FrontHeader header{};
@@ -99,7 +99,7 @@ FrontHeader count(const SnapshotScene& scene, SnapshotWork& work) {
   return header;
 }
 
-/// As the table's module says. It captures a span alone, so that a std::function of it takes no memory.
+/// Returns a function for a table's omitted component (Module::follows). Its std::function allocates no memory.
 auto left_out_by(std::span<const Module> modules) {
   return [modules](const Archetype& key) -> std::uint64_t {
     for (const Module& module : modules) {
@@ -121,7 +121,7 @@ void make_left_out(const RestoreScene& scene) {
       };
       try {
         in_parallel(scene.jobs, table.block_count(), make);
-      } catch (...) {  // a host's jobs that throw, though they must not
+      } catch (...) {  // a host's jobs threw, although they must not
         make(0, table.block_count());
       }
     }
@@ -149,7 +149,7 @@ Result<SavedFront> read_front(std::span<const std::byte> bytes) {
   return front;
 }
 
-/// Every part is known here, by a module or by a row.
+/// Checks that every component exists here, in a module or on a row.
 Result<void> check_parts(const SavedFront& front, const SavedWorld& saved, const RestoreScene& scene) {
   for (std::size_t i = 0; i < front.parts.size(); ++i) {
     const SavedPartName part = front.parts[i];
@@ -166,7 +166,7 @@ Result<void> check_parts(const SavedFront& front, const SavedWorld& saved, const
   return {};
 }
 
-/// Where a saved global's value is among the bytes of all; nothing where it was at its first value.
+/// Returns the bytes of a saved global's value; empty if it had its first value.
 std::span<const std::byte> saved_global(const SavedFront& front, std::uint64_t id) {
   std::span<const std::byte> left = front.global_bytes;
   for (std::size_t i = 0; i < front.globals.size(); ++i) {
@@ -177,7 +177,7 @@ std::span<const std::byte> saved_global(const SavedFront& front, std::uint64_t i
   return {};
 }
 
-/// Every saved global is a module's, as large as here, and sound.
+/// Checks that every saved global belongs to a module, has the same size as here, and is valid.
 Result<void> check_globals(const SavedFront& front, std::span<const Module> modules) {
   std::uint64_t bytes = 0;
   for (std::size_t i = 0; i < front.globals.size(); ++i) {
@@ -262,7 +262,7 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
     if (!number) return tl::unexpected(number.error());
     work.shared.push_back({resource_type(saved.recipe), saved.number, *number});
   }
-  // One reference is captured, so that a std::function of it takes no memory.
+  // Only one reference is captured, so that a std::function of it allocates no memory.
   const struct {
     const RestoreScene& scene;
     const ResourceList& resources;

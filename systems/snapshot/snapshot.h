@@ -1,6 +1,6 @@
 #pragma once
-// The state of a simulation as bytes, and back: a world's rows, entities and time, with what its shared resources are
-// made from. It knows nothing of people: modules say which parts there are and check their own (mobil/engine/module.h).
+// Saving and restoring the state of a simulation as bytes: a world's rows, entities and time, and recipes of its shared
+// resources. The code is independent of people: modules list and check their components (mobil/engine/module.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// What a snapshot is taken of, `W` a World, const where it is only read.
+/// Source or target of a snapshot. `W` is World, const for saving.
 template <class W>
 struct SnapshotSceneOf {
   W& world;
@@ -36,13 +36,13 @@ struct SnapshotTime {
   std::uint32_t tick = 0;
 };
 
-/// A part that no module names, and the tables (their numbers) that have it.
+/// A component that no module names, and the numbers of the tables that have it.
 struct UnnamedPart {
   ComponentId part;
   std::vector<std::size_t> tables;
 };
 
-/// What saving and restoring keep from one time to the next.
+/// Scratch memory of saving and restoring, reused between calls.
 struct SnapshotWork {
   ResourceList resources;
   WorldSnapshot world;
@@ -54,12 +54,12 @@ struct SnapshotWork {
 };
 
 std::size_t snapshot_bytes(const SnapshotScene& scene, SnapshotWork& work);
-/// Bytes written. Errors: too little room; a shared resource that no module names.
+/// Writes a snapshot and returns its size, bytes. Errors: too little room; a shared resource that no module names.
 Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime& time, SnapshotWork& work,
                                   std::span<std::byte> out);
-/// The time saved. `present`: of the simulation; its ticks must be as long. Errors: bytes that are no snapshot of this
-/// version, were altered, or do not fit the modules; what does not fit in memory or is beyond the limits. The world is
-/// unchanged then.
+/// Restores a snapshot and returns its time. `present`: the simulation's time; its ticks must have the same length.
+/// Errors: bytes that are not a snapshot of this version, were altered, do not fit the modules, or exceed memory or the
+/// limits. The world is unchanged then.
 Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
                                       const RestoreLimits& limits, std::span<const std::byte> in);
 

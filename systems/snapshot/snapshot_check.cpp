@@ -18,8 +18,8 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Which words of a table's rows are floats: those of components that are, and of fields all. (Where a field has two
-/// numbers a word, the upper one is looked at.)
+/// Returns which words of a table's rows are floats: the float words of components, and all words of fields. (Of fields
+/// with two numbers a word, the upper number is checked.)
 std::vector<bool> float_words(const SavedWorld& world, std::uint32_t table, std::span<const Module> modules) {
   const SavedTable of = world.tables[table];
   std::vector<bool> found(of.words, false);
@@ -34,12 +34,12 @@ std::vector<bool> float_words(const SavedWorld& world, std::uint32_t table, std:
   return found;
 }
 
-/// How many steps an explicit belly of a choice takes in a tick, about: of one 4 cm across whose elements are cubes.
+/// Estimates the steps a tick of an explicit belly of a choice, for a belly 4 cm across with cubic elements.
 double likely_steps(const LegMuscles& choice, double tick_s) {
   const Material& m = choice.material;
   const double modulus = m.young_pa * (1 - m.poisson) / ((1 + m.poisson) * (1 - 2 * m.poisson));
   const double element_m = 0.04 / std::max({choice.cells[0], choice.cells[1], 1U});
-  const double half_1_s = std::sqrt(modulus / m.density_kg_m3) / element_m;  // of the highest frequency
+  const double half_1_s = std::sqrt(modulus / m.density_kg_m3) / element_m;  // half of the highest frequency
   const double damped = choice.stiffness_damping_s * half_1_s;
   return tick_s * half_1_s * (std::sqrt(1 + damped * damped) + damped);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Whether an untrusted snapshot fits the modules of a simulation.
+// Checks of an untrusted snapshot against the modules of a simulation.
 
 #include <span>
 
@@ -12,14 +12,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// Parts are laid out as their modules have them, of the version that these have here, and their rows are sound.
+/// Checks that modules have the same version and component layouts here, and that their rows are valid.
 Result<void> check_modules(const Records<SavedModule>& saved, const SavedWorld& world, std::span<const Module> modules);
-/// Every number of every row is finite. With the simulation's jobs.
+/// Checks that every number of every row is finite, with the simulation's jobs.
 Result<void> check_numbers(const SavedWorld& world, std::span<const Module> modules, const Jobs& jobs);
-/// A table's shared resources are those of one muscle; and what its modules make sure of.
+/// Checks that a table's shared resources belong to one muscle, and runs the modules' checks of its archetype.
 Result<void> check_key(const Archetype& key, const World& world, const ResourceList& resources,
                        std::span<const Module> modules);
-/// A muscle takes at most so many steps in a tick: as its table says, and as a choice says that later muscles follow.
+/// Checks that a muscle takes at most `most` steps a tick: by its table, and by a choice for later muscles.
 Result<void> check_steps(const Archetype& key, const World& world, double tick_s, std::size_t most);
 
 }  // namespace mobil::inline v0_3

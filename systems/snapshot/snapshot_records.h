@@ -1,5 +1,5 @@
 #pragma once
-// What a snapshot has beside a world, as plain records without padding.
+// Records of a snapshot in addition to its world, without padding.
 
 #include <cstdint>
 #include <cstring>
@@ -13,40 +13,40 @@ struct FrontHeader {
   std::uint32_t tick, resources, modules, parts, globals, global_bytes;
 };
 
-/// A part that rows have and no module names: for messages.
+/// A component on saved rows that no module names; for messages.
 struct SavedPartName {
   std::uint64_t id;
-  char name[56];  // its beginning, zeros behind
+  char name[56];  // truncated, padded with zeros
 };
 
-/// A module that rows have parts of.
+/// A module with components on saved rows, or with changed globals.
 struct SavedModule {
-  char name[60];  // its beginning, zeros behind
+  char name[60];  // truncated, padded with zeros
   std::uint32_t version;
 };
 
-/// A global that is not at its first value; its bytes lie behind the list, one after the other.
+/// A global that differs from its first value; the values are stored after the list, in its order.
 struct SavedGlobal {
   std::uint64_t id, bytes;
 };
 
-/// `named`: a module's, by names.
+/// `named`: a module's resource, found by names.
 enum class ResourceKind : std::uint32_t { unknown, choice, shape, lines, solver, basis, finite, named };
 
-/// What a shared resource is made from, in one form: what it does not depend on is as in a LegMuscles{}. Of a choice of
-/// muscles `choice` is the resource itself; its `muscle` is max_muscles: any.
+/// Recipe of a shared resource in canonical form: options that do not affect it are those of LegMuscles{}. The recipe
+/// of a choice of muscles has the choice itself, and max_muscles (any) as `muscle`.
 struct Recipe {
   ResourceKind kind;
   std::uint32_t muscle;
   LegMusclesWords choice;
-  std::uint64_t dt, across, along;             // of a solver: doubles; of a basis across / along and their product;
-                                               // of a named one: hashes of the module's name and its own, its part
+  std::uint64_t dt, across, along;             // of a solver: doubles; of a basis: across / along and their product;
+                                               // of a named one: hashes of the module's and its own name, component
   std::uint32_t method, mass, modes, spare;    // of a solver; of a basis
 
   friend bool operator==(const Recipe& a, const Recipe& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
 };
 
-/// A resource that a table with rows has, by its number in the world that was saved; these ascend.
+/// A resource of a table with rows, by its number in the saved world. Numbers ascend.
 struct SavedResource {
   Recipe recipe;
   std::uint64_t fingerprint;  // of its numbers

@@ -15,7 +15,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Takes numbers in.
+/// Hash of a sequence of numbers.
 class Fingerprint {
  public:
   template <class T>
@@ -115,7 +115,7 @@ std::uint64_t fingerprint(const FiniteShape& shape) {
   return print.hash();
 }
 
-/// Only what the tissue depends on, and who is driven how.
+/// Return the options of a choice that tissue depends on, and those together with the drive.
 LegMuscles tissue_of(const LegMuscles& choice) {
   LegMuscles tissue;
   tissue.material = choice.material;
@@ -141,7 +141,7 @@ Recipe recipe_of(ResourceKind kind, Muscle muscle, const LegMuscles& choice) {
 Recipe shape_recipe(ResourceKind kind, const BellyTemplate& made) {
   LegMuscles alike = driven(made.choice, made.muscle);
   alike.stiffness_damping_s = made.choice.stiffness_damping_s;
-  const Method method = made.choice.method;  // whose critical step it tells
+  const Method method = made.choice.method;  // of its critical steps
   alike.method = method == Method::implicit_central || method == Method::finite ? method : Method::explicit_central;
   return recipe_of(kind, made.muscle, alike);
 }
@@ -166,17 +166,17 @@ BellyScale<float> scale_of(double across, double along) {
   return {static_cast<float>(across), static_cast<float>(along)};
 }
 
-/// Whether it can be the size of a belly against its template's.
+/// Returns true if a number can be a belly's size relative to its template.
 bool sound(double size) {
   return size >= 1e-2 && size <= 1e2;
 }
 
-/// Whether a choice's bases have the usual mesh, as those do that say nothing of bases.
+/// Returns true if a choice's bases have the default mesh, as in choices without options for bases.
 bool has_usual_basis(const LegMuscles& choice) {
   return choice.modal.cells == ModalOptions{}.cells;
 }
 
-/// Of the mesh that it takes to make this, or what a choice leads to later.
+/// Returns the number of nodes of the mesh that a resource needs, or that a choice will need later.
 std::size_t nodes_of(const Recipe& recipe) {
   const auto choice = choice_of(recipe.choice);
   if (!choice) return 0;
@@ -326,7 +326,7 @@ Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary
   const auto muscle = static_cast<Muscle>(recipe.muscle);
   const double across = number(recipe.across), along = number(recipe.along);
   if (recipe.kind == ResourceKind::basis) {
-    // The ranges that these are the middles of are found again from any size within.
+    // These are midpoints of ranges; any size within a range leads to it.
     if (!sound(across) || !sound(along)) return fail("its recipe is damaged");
     auto basis = library.basis(muscle, *choice, scale_of(std::sqrt(along * across), std::sqrt(along / across)));
     if (!basis) return tl::unexpected(basis.error());

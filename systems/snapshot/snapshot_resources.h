@@ -1,5 +1,5 @@
 #pragma once
-// What a world's shared resources are made from, and the same made again from that.
+// Recipes of a world's shared resources, and their reconstruction from recipes.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace mobil::inline v0_3 {
 
-/// The part's id of a shared resource; 0 of unknown ones.
+/// Returns the component id of a shared resource; 0 for unknown ones.
 std::uint64_t resource_type(const Recipe& recipe);
 
-/// Of each resource of a world, by number: what it is made from, and a hash of its numbers. Others than those of the
-/// library and of modules are unknown.
+/// Recipe of each resource of a world, by number, and a hash of its numbers. Resources that are neither the library's
+/// nor a module's are unknown.
 class ResourceList {
  public:
   struct Known {
@@ -26,17 +26,17 @@ class ResourceList {
     std::uint64_t fingerprint = 0;
   };
 
-  /// Learns of resources that came since; takes memory for those alone.
+  /// Adds resources that are new since the last call; allocates memory only for those.
   void learn(const World& world, const BellyLibrary& library, std::span<const Module> modules);
   const std::vector<Known>& known() const { return known_; }
 
-  /// The number of that resource in this world, found or made again and shared. Errors: a
-  /// recipe that the library refuses, or of a mesh with more nodes than that; numbers that come out otherwise.
+  /// Returns the number of a resource in this world; makes and shares it if missing. Errors: a recipe that the library
+  /// refuses, or that needs a mesh of more than `max_nodes` nodes; a result that differs from the saved one.
   Result<std::uint64_t> number_of(const SavedResource& saved, std::size_t max_nodes, World& world,
                                   BellyLibrary& library, std::span<const Module> modules);
 
  private:
-  /// Whether the library has it, so that making it takes no time.
+  /// Returns true if the library has the resource, so that making it takes no time.
   static bool is_there(const Recipe& recipe, BellyLibrary& library);
   Result<void> make(const Recipe& recipe, World& world, BellyLibrary& library);
 

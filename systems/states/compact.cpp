@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint8_t not_compact = 0xFF;
 
-/// What a muscle of that table is in a compact row; not_compact where it cannot be in one.
+/// Returns the code of a muscle of that kind in a compact row, or not_compact if it cannot be in one.
 std::uint8_t code_of(const MuscleKind& kind) {
   const ModalOptions& modal = kind.method.modal;
   const bool plain = !kind.inertia && !kind.line_motion && kind.activation == ExcitationSource::none && !kind.fading &&
@@ -42,7 +42,7 @@ MuscleMethod method_of(std::uint32_t code, const ModalOptions& mesh) {
   return {Method::modal, modal};
 }
 
-/// What is kept of a choice: all but the methods, which the codes are.
+/// Returns the part of a choice that is kept: everything except the methods, which the codes store.
 LegMuscles kept_of(const LegMuscles& tissue, const std::optional<ModalOptions>& mesh, MuscleSet muscles) {
   LegMuscles kept = tissue;
   kept.muscles = muscles;
@@ -54,7 +54,7 @@ LegMuscles kept_of(const LegMuscles& tissue, const std::optional<ModalOptions>& 
   return kept;
 }
 
-/// What a table's muscles are.
+/// Returns the kind of a table's muscles.
 const CompactWork::Known& known_of(const World& world, std::uint32_t table, CompactWork& work) {
   if (work.known.size() < world.tables().size()) work.known.resize(world.tables().size());
   CompactWork::Known& known = work.known[table];
@@ -63,7 +63,7 @@ const CompactWork::Known& known_of(const World& world, std::uint32_t table, Comp
   known.code = not_compact;
   const Archetype& key = world.tables()[table].key();
   const auto kind = muscle_kind(key, world);
-  // A host's own part would be lost.
+  // A host's own component would be lost.
   if (!kind || key.size() != muscle_parts(*kind).size()) return known;
   known.code = code_of(*kind);
   known.number = static_cast<std::uint8_t>(kind->muscle);
@@ -76,7 +76,7 @@ bool same_mesh(const ModalOptions& a, const ModalOptions& b) {
   return a.corrected == b.corrected && a.cells == b.cells;
 }
 
-/// Lists a person and their muscles, if they may be compact.
+/// Lists a person and their muscles, if they can be compact.
 void look_at(const MuscleScene& scene, Entity person, CompactWork& work) {
   const World& world = scene.world;
   const auto* const at = world.locate(person);
@@ -117,7 +117,7 @@ void look_at(const MuscleScene& scene, Entity person, CompactWork& work) {
       {person, at->table, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own.size()), all, kept});
 }
 
-/// Sixteen-lane columns out of the muscles' rows of people of one kind.
+/// Gathers sixteen-lane columns from the muscle rows of people of one kind.
 void gather_compact(const World& world, std::span<const CompactWork::Person> people, const CompactLayout& width,
                     CompactWork& work) {
   const std::size_t blocks = (people.size() + lane_count - 1) / lane_count;
@@ -157,7 +157,7 @@ void gather_compact(const World& world, std::span<const CompactWork::Person> peo
   }
 }
 
-/// People of one table, choice and kind of muscles.
+/// Makes people of one table, choice and kind of muscles compact.
 void compact_alike(const MuscleScene& scene, std::span<const CompactWork::Person> people, CompactWork& work) {
   World& world = scene.world;
   const Shared<LegMuscles>& choice = people.front().choice;
@@ -182,11 +182,11 @@ void compact_alike(const MuscleScene& scene, std::span<const CompactWork::Person
   world.change_archetype(work.entities, parts, owned, scene.jobs);
 }
 
-/// What somebody compact was, before they are whole again.
+/// Data of a compact person, read before the change to full.
 struct Kept {
   std::uint64_t codes;
   const LegMuscles* choice;
-  bool begun;  // has muscles; without, the choice is of those that are to come
+  bool begun;  // has muscles; if not, the choice is kept for later
 };
 Kept kept_by(const World& world, Entity person) {
   const auto codes = world.get<CompactMuscles>(person);
@@ -200,13 +200,13 @@ constexpr std::array<std::uint64_t, 4> compact_part_ids() {
   return ids;
 }
 
-/// Muscles of one choice and kinds begin on people who are whole again; `states`: the fields that these had, one after
-/// the other.
+/// Starts muscles of one choice and codes on people who are full again. `states`: their former fields, person by
+/// person.
 Result<void> begin_alike(const MuscleScene& scene, std::span<const Entity> people, const Kept& kept,
                          std::span<const float> states) {
   World& world = scene.world;
   const std::uint32_t width = compact_width(kept.codes).state;
-  std::uint32_t begun = 0;  // places
+  std::uint32_t begun = 0;  // a bit for each place
   std::array<std::uint8_t, max_compact> numbers{};
   std::size_t count = 0;
   for (std::size_t m = 0; m < kept.choice->muscles.size(); ++m)
@@ -259,7 +259,7 @@ std::size_t compact_people(const MuscleScene& scene, std::span<const Entity> peo
     return std::tuple(p.table, p.codes, p.choice.resource == nullptr ? 0 : p.choice.index + 1);
   };
   std::ranges::stable_sort(work.people, {}, order);
-  // Muscles go when everybody is compact: to become so takes memory, and can be undone.
+  // Muscles are destroyed last: becoming compact allocates memory, and can be undone.
   work.rows.clear();
   World::Transaction transaction(scene.world, scene.jobs);
   for (auto first = work.people.begin(); first != work.people.end();) {
@@ -278,7 +278,7 @@ Result<void> expand_people(const MuscleScene& scene, std::span<const Entity> peo
   work.entities.clear();
   for (const Entity person : people)
     if (is_compact(world, person)) work.entities.push_back(person);
-  // Those of one table have the same muscles.
+  // People of one table have the same muscles.
   std::ranges::stable_sort(work.entities, {}, [&](Entity person) { return world.locate(person)->table; });
   for (std::span<const Entity> left = work.entities; !left.empty();) {
     const std::uint32_t table = world.locate(left.front())->table;

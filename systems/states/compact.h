@@ -1,5 +1,5 @@
 #pragma once
-// Walkers become compact and whole again (mobil/components/compact.h).
+// Changes of walkers from full to compact and back (mobil/components/compact.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -16,21 +16,21 @@
 
 namespace mobil::inline v0_3 {
 
-/// Memory that becoming compact and whole works in, kept from one time to the next; nothing of it is state.
+/// Scratch memory of compact_people and expand_people, reused between calls; none of it is state.
 struct CompactWork {
   struct Muscle {
     Entity entity;
     std::uint8_t number, side, code;
   };
-  /// A person who may become compact: a run of `muscles`.
+  /// A person who can become compact, with a range of `muscles`.
   struct Person {
     Entity entity;
     std::uint32_t table;
     std::uint32_t first, count;
     std::uint64_t codes;
-    Shared<LegMuscles> choice;  // what is kept of it; null where there are no muscles
+    Shared<LegMuscles> choice;  // the part that is kept; null without muscles
   };
-  /// What a table's muscles are; tables stay as long as their world.
+  /// Kind of a table's muscles; tables live as long as their world.
   struct Known {
     bool looked = false;
     std::uint8_t code = 0, number = 0;
@@ -46,14 +46,14 @@ struct CompactWork {
   FullPoseWork whole;
 };
 
-/// Of walkers named once each those become compact who may, and whose muscles, if any, are all drawn by displacement,
-/// without effects, without control points, and move along 1 to 30 modes of one mesh, or are static or not simulated
-/// at all; nobody with forces or who fades. Returns how many of these are compact now.
+/// Makes walkers, named once each, compact where possible. Their muscles must be driven by displacement, without
+/// effects, fades or control points, with 1 to 30 modes of one mesh, static, or not simulated. Skips people with forces
+/// or Footing. Returns how many of the walkers are compact now.
 std::size_t compact_people(const MuscleScene& scene, std::span<const Entity> people, CompactWork& work);
-/// Compact people, named once each, are whole again, their muscles as far as they had come. Errors: what muscles are
-/// refused for; those concerned are whole then, without muscles.
+/// Makes compact people, named once each, full; muscles keep their state. Errors: those with which muscles are refused;
+/// the people concerned are full then, without muscles.
 Result<void> expand_people(const MuscleScene& scene, std::span<const Entity> people, CompactWork& work);
-/// What the muscles of somebody compact are; Method::none where there is no such one.
+/// Returns the method of a compact person's muscle; Method::none if the person does not have it.
 MuscleMethod compact_method(const World& world, Entity person, Muscle muscle);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// How a compact row's tag and fields are read (mobil/components/compact.h).
+// Layout of a compact row's tag and fields (mobil/components/compact.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -14,12 +14,12 @@ inline constexpr std::uint32_t code_bits = 5, max_compact = 64 / code_bits;
 inline std::uint32_t code_at(std::uint64_t codes, std::size_t place) {
   return static_cast<std::uint32_t>(codes >> (code_bits * place)) & 31U;
 }
-/// Whether a muscle of that code has motions: as many as the code says.
+/// Returns true if a muscle of that code has modes; the code is their number.
 inline bool moves(std::uint32_t code) {
   return code != compact_none && code != compact_static;
 }
 
-/// Where a person's fields have a muscle: words before it.
+/// Position of a muscle in a person's fields: number of words before it.
 struct CompactLayout {
   std::uint32_t state = 0, motion = sizeof(LegScale<float>) / sizeof(float);
   void skip(std::uint32_t modes) {
@@ -27,7 +27,7 @@ struct CompactLayout {
     motion += 1 + 3 * modes;
   }
 };
-/// How wide the fields are; where nothing moves there are none.
+/// Returns the width of the fields. A row without moving muscles has no fields.
 inline CompactLayout compact_width(std::uint64_t codes) {
   CompactLayout all;
   for (std::size_t place = 0; place < max_compact; ++place)

@@ -21,7 +21,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// All of a person's muscles that move, right and left, over a tick.
+/// Advances all moving muscles of a person, right and left, by a tick.
 void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                   Ahead<StepPlan> next, const GaitState<Lanes<float>>& gait, Ahead<GaitState> next_gait,
                   Shared<LegMuscles> choice, TagValue<CompactMuscles> codes, Field<const CompactMotion> motion,
@@ -71,7 +71,7 @@ void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPl
   }
 }
 
-/// Who is compact is a walker without a pose; fields are as wide as the codes say.
+/// Checks that a compact person is a walker without a pose, and that the fields' widths match the codes.
 Result<void> check_compact_key(const Archetype& key, const World& world) {
   const auto words = [&](std::uint64_t id) {
     const ComponentId* const part = find_component(key, id);

@@ -1,5 +1,5 @@
 #pragma once
-// Muscles of compact people as a module: what their rows have of them, and how they go on.
+// Muscles of compact people as a module: their fields on the person's row, and the system that advances them.
 
 #include <mobil/engine/module.h>
 

@@ -30,8 +30,8 @@ Result<void> check_there(const Frame& frame, std::span<const Entity> people) {
   return {};
 }
 
-/// Calls `change(i)` for each, who is full for it, with muscles begun. A change that is refused changes nothing; of
-/// several people `check(i)` says first whether each would be refused, and then nobody has changed.
+/// Makes people full, with kept muscles started, and calls `change(i)` for each. A refused change has no effect. For
+/// several people `check(i)` is called for each before any change; if it refuses one, no person changes.
 template <class Check, class Change>
 Result<void> change_full(const Frame& frame, std::span<const Entity> people, const Check& check, const Change& change) {
   if (auto ok = check_there(frame, people); !ok) return ok;
@@ -68,7 +68,7 @@ Result<void> check_method(const Frame& frame, Entity person, Muscle muscle, cons
 
 }  // namespace
 
-/// Takes no memory for people who are full.
+/// Allocates no memory for people who are full.
 static Result<void> remove_muscles(const Frame& frame, std::span<const Entity> people) {
   if (auto done = make_muscles_full(frame, people); !done) return done;
   for (const Entity person : people) {
@@ -82,7 +82,7 @@ static Result<void> remove_muscles(const Frame& frame, std::span<const Entity> p
 Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, const std::optional<LegMuscles>& choice) {
   if (auto ok = check_there(frame, people); !ok) return ok;
   if (!choice) return remove_muscles(frame, people);
-  // Muscles that come can be undone. Those that change cannot: they follow once nobody can be refused.
+  // Added muscles can be undone, changed ones cannot. Changes therefore follow after all checks.
   std::vector<std::size_t> have;
   World::Transaction transaction(frame.world, frame.jobs);
   if (auto done = make_muscles_full(frame, people); !done) return done;

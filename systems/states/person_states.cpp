@@ -18,7 +18,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Muscles that have just begun get within `within_m` of where they would be.
+/// Brings muscles that have just started to within `within_m` of where they would be.
 void warm(const Frame& frame, std::span<const Entity> people, const LegMuscles& choice, float within_m) {
   const MuscleScene scene = scene_of(frame);
   const std::uint32_t ticks = warm_ticks(within_m, scene.time.tick_s);
@@ -29,7 +29,7 @@ void warm(const Frame& frame, std::span<const Entity> people, const LegMuscles& 
   room->warm(scene, people, choice, ticks);
 }
 
-/// Muscles kept on the row of somebody awake and whole (kept_choice) begin.
+/// Starts muscles kept on the row of an awake person who is not compact (kept_choice).
 Result<void> begin_kept(const Frame& frame, Entity person) {
   const auto choice = kept_choice(frame.world, person);
   if (!choice) return {};
@@ -188,7 +188,7 @@ void place_people(World& world, const SleepTime& time, std::span<const PlaceRequ
   ways.clear();
   for (const PlaceRequest& to : places)
     ways.push_back(is_asleep(world, to.person) ? way_of_sleeper(world, time, to) : Placing{});
-  for (std::size_t i = 0; i < places.size(); ++i) {  // from here on no memory is taken
+  for (std::size_t i = 0; i < places.size(); ++i) {  // allocates no memory from here on
     const Entity person = places[i].person;
     if (is_asleep(world, person)) {
       place_sleeper(world, person, time, ways[i]);

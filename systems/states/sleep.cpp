@@ -21,7 +21,7 @@ SleepTime sleep_time(const MuscleScene& scene) {
   return {scene.time.tick, static_cast<float>(scene.time.tick_s)};
 }
 
-/// Whether all muscles have one method.
+/// Returns true if all muscles have the same method.
 bool have_one_method(const World& world, Entity person) {
   std::optional<MuscleMethod> first;
   bool same = true;
@@ -116,7 +116,7 @@ Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entit
                                  std::span<const ComponentId> keeps, std::span<const std::uint64_t> owned,
                                  SleepWork& work, const std::function<Result<void>()>& first) {
   World& world = scene.world;
-  // Who sleeps is made before muscles go: that takes memory, and what it has done can be undone.
+  // Sleepers' rows are made before muscles are destroyed: making them allocates memory, and can be undone.
   World::Transaction transaction(world, scene.jobs);
   if (first) {
     if (auto done = first(); !done) return tl::unexpected(done.error());
@@ -129,7 +129,7 @@ Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entit
     world.each_member(one.entity, [&](Entity member) {
       if (world.has<MuscleOwner>(member)) work.rows.push_back(member);
     });
-  // Those of one table, choice and kind of style together.
+  // Groups of one table, choice and kind of style.
   work.groups.clear();
   for (const Sleeper& one : work.sleepers) {
     auto choice = choice_of(world, one.entity);
@@ -190,7 +190,7 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
   for (const SleepWork::Sleeping& one : waking)
     if (one.forces) work.alike.push_back(one.entity);
   set_forces(world, scene.jobs, work.alike, true);
-  // Each choice together.
+  // One choice at a time.
   std::vector<Entity> alike;
   for (std::size_t first = 0; first < waking.size() && !later; ++first) {
     const LegMuscles* const choice = waking[first].choice;

@@ -1,5 +1,5 @@
 #pragma once
-// People fall asleep and wake with all that belongs to them: their muscles go, and begin again on waking.
+// Falling asleep and waking of people with all that belongs to them. Muscles are removed, and restart on waking.
 
 #include <functional>
 #include <memory>
@@ -19,15 +19,15 @@ namespace mobil::inline v0_3 {
 
 class WarmingRoom;  // systems/states/warm_muscles.h
 
-/// What one of many is asked, nothing where that is refused; whether it is another speed, step or style than before;
-/// whether they sleep, and must wake for it.
+/// Request to one of many walkers. `gait` is empty if refused. `walks_otherwise`: speed, step or style changes.
+/// `must_wake`: the sleeper must wake for the request.
 struct AskedWalk {
   std::optional<Gait<float>> gait;
   BodySize<float> size;
   bool walks_otherwise = false, asleep = false, must_wake = false;
 };
 
-/// Memory that falling asleep and waking work in, kept from one time to the next, and nothing of it state.
+/// Scratch memory of falling asleep and waking, reused between calls; none of it is state.
 struct SleepWork {
   SleepWork();
   ~SleepWork();
@@ -36,7 +36,7 @@ struct SleepWork {
     const Sleeper* sleeper;
     std::uint32_t table;
     bool packed;
-    std::optional<ComponentId> choice;  // what muscles are to be
+    std::optional<ComponentId> choice;  // of muscles on waking
   };
 
   WakingWork waking;
@@ -52,9 +52,9 @@ struct SleepWork {
   std::vector<Sleeping> waking_people;
   std::vector<Entity> rows, restless, asleep, managed, alike;
   UnsettledTables unsettled;
-  std::vector<std::uint64_t> owned;           // ids of the library's parts that no sleeper has, ascending
-  std::vector<ComponentId> parts;             // of who wakes or falls asleep
-  std::vector<std::uint64_t> all_but_choice;  // parts
+  std::vector<std::uint64_t> owned;           // ids of the library's components that no sleeper has, ascending
+  std::vector<ComponentId> parts;             // of people who wake or fall asleep
+  std::vector<std::uint64_t> all_but_choice;  // `owned` without LegMuscles
   std::unique_ptr<WarmingRoom> warming;
   std::vector<AskedWalk> asked;
   std::vector<BodySize<float>> sizes;
@@ -64,25 +64,25 @@ struct SleepWork {
   std::vector<Placing> ways;
 };
 
-/// What each of these, named once each, is to be asked, where that is possible, within the limits of walks: in
-/// `work`; and who must wake for it.
+/// Computes the requested gait of each walker, named once, within the limits of walks, into `work`. Lists sleepers who
+/// must wake for their request.
 void find_asked(const World& world, const Jobs& jobs, std::span<const WalkChange> changes, const SleepTime& now,
                 SleepWork& work, std::vector<Entity>& must_wake);
-/// Asks them, who are awake now where they must be. Returns how many cannot walk so, and go on as they were.
+/// Applies the requests after waking. Returns the number of walkers whose request is refused; they continue unchanged.
 std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange> changes, const SleepTime& now,
                       SleepWork& work);
 
-/// Walkers, named once each, fall asleep who may (mobil/systems/people/sleepers.h); who has muscles of several methods
-/// may not, unless `managed`: they then begin again with the first one's. Of their parts that are among `owned` (ids,
-/// sorted) they keep those of `keeps` alone. Returns how many fell asleep. Where memory runs out, nobody did, and what
-/// `first` has done is undone, too. Errors: those of `first`.
+/// Puts walkers, named once each, to sleep where possible (mobil/systems/people/sleepers.h). Walkers with muscles of
+/// several methods stay awake unless `managed`; muscles then restart with the first one's method. Sleepers keep only
+/// `keeps` of the components in `owned` (ids, sorted). Returns the number of new sleepers. If memory runs out, no
+/// walker sleeps, and the changes by `first` are undone. Errors: those of `first`.
 Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
                                  std::span<const ComponentId> keeps, std::span<const std::uint64_t> owned,
                                  SleepWork& work, const std::function<Result<void>()>& first = {});
-/// Sleepers, named once each, wake where they are, with `more` parts (wake_walkers), and have their forces again.
-/// Muscles begin at rest where their person stands in the stride, or `later`: then what they are to be stays on the
-/// person's row (kept_choice). Errors: what muscles are refused for; those concerned are awake then, and have none.
-/// `then` hears of those whose muscles have begun, choice by choice.
+/// Wakes sleepers, named once each, at their current places, with `more` components (wake_walkers) and their forces.
+/// Muscles start at rest in the current pose, or `later`: then their choice stays on the person's row (kept_choice).
+/// Errors: those with which muscles are refused; the people concerned are awake then, without muscles. Calls `then`
+/// with people whose muscles have started, choice by choice.
 enum class WakingMuscles : std::uint8_t { now, later };
 struct Waking {
   WakingMuscles muscles = WakingMuscles::now;
@@ -92,10 +92,10 @@ using MusclesBegun = std::function<void(std::span<const Entity> people, const Le
 Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, const Waking& waking,
                          std::span<const ComponentId> more, std::span<const std::uint64_t> owned, SleepWork& work,
                          const MusclesBegun& then = {});
-/// What the muscles of a sleeper, or of somebody who woke without them, are to be; nothing where there are none to
-/// come, or they are there already.
+/// Returns the choice kept for a sleeper's muscles, or for those of a person who woke without them. Returns nothing
+/// without a kept choice, or if the muscles exist.
 std::optional<LegMuscles> kept_choice(const World& world, Entity person);
-/// Whether a person has muscles, compact ones and those to come included.
+/// Returns true if a person has muscles, including compact ones and those kept for later.
 bool has_any_muscles(const World& world, Entity person);
 
 }  // namespace mobil::inline v0_3

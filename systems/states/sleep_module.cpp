@@ -47,7 +47,7 @@ void settle_own_styles(Asleep<Lanes<float>>& asleep, Unsettled<Lanes<float>>& si
   work_out(asleep, since, own.style, tick_s);
 }
 
-/// A sleeper has one style, and is no walker.
+/// Checks that a sleeper has exactly one style and no components of walkers.
 Result<void> check_sleeper_key(const Archetype& key, const World&) {
   const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool asleep = has(type_id<Asleep<float>>());
@@ -64,7 +64,7 @@ bool is_sound(const SteadyWalk<float>& walk) {
   return walk.step_units > 0 && walk.step_units < (1U << 23U) && walk.clock < 2 * walk.step_units;
 }
 
-/// Every body is one that can live, every clock goes.
+/// Checks the body and the clocks of each saved sleeper.
 Result<void> check_sleepers(const SavedWorld& saved, std::uint32_t table) {
   const std::uint32_t first = saved.column(table, type_id<Asleep<float>>());
   const std::uint32_t since = saved.column(table, type_id<Unsettled<float>>());

@@ -1,5 +1,5 @@
 #pragma once
-// What sleepers consist of, and where what they are asked leads.
+// Components of sleepers, and the systems that carry out their requests.
 
 #include <mobil/engine/module.h>
 

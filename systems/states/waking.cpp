@@ -20,7 +20,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Sleepers side by side who are walkers again.
+/// Sixteen sleepers as walkers.
 struct WakingBlock {
   WalkingBlock walkers;
   Physique<Lanes<float>> physique;
@@ -31,7 +31,7 @@ struct WakingBlock {
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   CentreOfMass<Lanes<float>> centre;
-  Lanes<float> ground_m{};  // that they fell asleep on, at the foot they stood on
+  Lanes<float> ground_m{};  // height of the ground under the stance foot on falling asleep
   WalkingBlock work;
 
   void put(const World& world, Entity person, const SleepTime& time, std::size_t lane) {
@@ -62,7 +62,7 @@ struct WakingBlock {
   }
 
  private:
-  /// Until the ground under them is known they stand as high as they did, on level feet.
+  /// Raises poses to that height, on level feet; the ground under them is not known yet.
   void raise() {
     if (std::ranges::none_of(ground_m.lane, [](float up_m) { return up_m != 0; })) return;
     const auto by_ground = [this](Lanes<float>& up_m) {
@@ -76,7 +76,7 @@ struct WakingBlock {
   }
 };
 
-/// A lane as a row of its own.
+/// One lane as rows.
 struct WokenRow {
   BodySize<float> size;
   Physique<float> physique;
@@ -111,7 +111,7 @@ struct WokenRow {
 }  // namespace
 
 struct WakingWork::Blocks {
-  static constexpr std::size_t most = 64;  // at once
+  static constexpr std::size_t most = 64;  // blocks in a batch
   template <template <class> class C>
   using Column = std::array<C<Lanes<float>>, most>;
 
@@ -140,8 +140,8 @@ struct WakingWork::Blocks {
     feet[b] = block.feet;
     centre[b] = block.centre;
   }
-  /// Rows of so many walkers: `put(block, i, lane)` is called for each, the first of a block once more for each lane
-  /// left.
+  /// Computes rows of `count` walkers. Calls `put(block, i, lane)` for each, and fills a block's remaining lanes with
+  /// its first walker.
   template <class Put>
   void fill(const Jobs& jobs, std::size_t count, Woken as, float tick_s, const Put& put) {
     static_assert(std::is_trivially_destructible_v<WakingBlock> && sizeof(WakingBlock) % sizeof(float) == 0);
@@ -185,7 +185,7 @@ void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people
   blocks.people.assign(people.begin(), people.end());
   const auto table = [&](Entity person) { return world.locate(person)->table; };
   const auto order = [&](Entity person) { return std::pair(table(person), person.index); };
-  std::ranges::sort(blocks.people, {}, order);  // a stable sort would take memory
+  std::ranges::sort(blocks.people, {}, order);  // a stable sort would allocate memory
   for (std::span<const Entity> left = blocks.people; !left.empty();) {
     std::size_t count = 1;
     while (count < std::min(left.size(), WakingWork::Blocks::most * lane_count) && table(left[count]) == table(left[0]))
@@ -273,7 +273,7 @@ void place_sleeper(World& world, Entity person, const SleepTime& time, const Pla
     Unsettled<float> changing = *since;
     go(changing.before, changing.asked_tick);
     world.set(person, changing);
-    if (since->until_tick == 0) {  // worked out from what was before and what is asked, in the next tick
+    if (since->until_tick == 0) {  // the next tick computes the walk from `before` and the request
       asleep.walk.asked_heading_rad = way.turned(asleep.walk.asked_heading_rad);
     } else {
       go(asleep.walk, since->until_tick == never_settles ? time.tick : since->until_tick);

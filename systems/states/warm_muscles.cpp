@@ -12,7 +12,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Everything that a muscle remembers.
+/// Copies all columns of a muscle except its owner.
 void copy_muscle(const World& from, Entity source, World& to, Entity target) {
   const auto row = from.find(source);
   const auto into = to.find(target);
@@ -54,7 +54,7 @@ void WarmingRoom::warm(const MuscleScene& scene, std::span<const Entity> people,
   people_.assign(steady_.size(), Entity{});
   try {
     warm_people(scene, choice, then);
-  } catch (...) {  // nobody stays here; one by one takes no memory
+  } catch (...) {  // removes all people; destroying one at a time allocates no memory
     for (const Entity person : people_) {
       for (Entity member = world_.first_member(person); world_.alive(member); member = world_.first_member(person))
         world_.destroy(member);

@@ -1,6 +1,6 @@
 #pragma once
-// Muscles that begin as if they had been there all along: run through their person's last ticks in a small world of
-// their own.
+// Warm-up of new muscles, as if they had always existed: their person's last ticks are simulated in a small separate
+// world.
 
 #include <cstdint>
 #include <memory>
@@ -16,19 +16,19 @@
 
 namespace mobil::inline v0_3 {
 
-/// Ticks to run through so that control points are within that of where they would be; 0 where rest is near enough.
-/// Measured on 24 people of a crowd, 8/s of damping (Sleep.MusclesWarmUpToWhatIsAsked holds it): at rest 12 mm, after
-/// half a second 4.1 mm, after one 0.64 mm, after 2.1 below 4 µm.
+/// Returns the ticks to simulate so that control points are within `within_m` of where they would be; 0 if rest is near
+/// enough. Measured on 24 people of a crowd, 8/s of damping (tested by Sleep.MusclesWarmUpToTheRequestedError): at rest
+/// 12 mm, after half a second 4.1 mm, after one 0.64 mm, after 2.1 below 4 µm.
 std::uint32_t warm_ticks(float within_m, double tick_s);
 
-/// The small world, made when first needed; nothing of it is state.
+/// The small world, created on first use; none of it is state.
 class WarmingRoom {
  public:
-  /// `modules`: the library's own. Takes its memory from `memory`.
+  /// `modules`: the library's own. Allocates from `memory`.
   WarmingRoom(std::span<const Module> modules, std::pmr::memory_resource* memory);
 
-  /// People whose muscles have just begun at rest, all by this choice: of those who walk steadily the muscles are as
-  /// after so many ticks of that walk. Of others, and of muscles that follow moments, they stay as they are.
+  /// Warms up muscles of this choice that have just started at rest. Muscles of steady walkers get the state after so
+  /// many ticks of the walk. Those of other people, and those that follow moments, stay unchanged.
   void warm(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice, std::uint32_t ticks);
 
  private:

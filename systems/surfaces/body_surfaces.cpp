@@ -24,7 +24,7 @@ struct Texture {
   std::vector<TexturePlace> place;
   std::vector<AlongStencil> along;
 };
-/// Nothing of triangles of vertices that are not there: packing says so.
+/// Returns nothing if triangles have missing vertices. Packing reports that error.
 Texture texture_of(const SurfaceMesh& mesh, std::vector<TexturePlace> place) {
   const auto there = [&](std::uint32_t v) { return v < place.size(); };
   if (mesh.triangle.size() % 3 != 0 || !std::ranges::all_of(mesh.triangle, there)) return {};
@@ -178,7 +178,7 @@ SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body) {
   const LimbLengths<float> limbs = limb_lengths(body), &was = bound.limbs;
   const auto stretch = [lengths](float own_m, float was_m) {
     const float s = own_m / (lengths * was_m);
-    return std::abs(s - 1) < 1e-5F ? 1.0F : s;  // in proportion but for rounding
+    return std::abs(s - 1) < 1e-5F ? 1.0F : s;  // in proportion up to rounding
   };
   SurfaceFit fit{lengths,
                  {stretch(limbs.thigh_m, was.thigh_m), stretch(limbs.shank_m, was.shank_m),

@@ -21,7 +21,7 @@ namespace {
 
 constexpr CoverTag tag;
 
-/// A station a little nearer to the mean of its four neighbours.
+/// Returns a station moved a little towards the mean of its four neighbours.
 HWY_INLINE Ring smoothed(const Ring& above, const Ring& here, const Ring& below) {
   const Ring left = before(here), right = after(here);
   return each_part([&](std::size_t p) HWY_ATTR {
@@ -34,7 +34,7 @@ HWY_NOINLINE void smooth(RingGrid& grid) {
                          HWY_ATTR { grid.set(i, smoothed(above, here, below)); });
 }
 
-/// The larger of each point's and its eight neighbours' lack, not below 0.
+/// Finds the largest lack of each point and its eight neighbours, at least 0.
 HWY_NOINLINE void find_lack(const RingGrid& floor, const RingGrid& excess, RingGrid& lacking) {
   for (std::size_t i = 0; i < leg_stations; ++i) {
     const Ring least = floor.at(i), now = excess.at(i);
@@ -50,7 +50,7 @@ HWY_NOINLINE void find_lack(const RingGrid& floor, const RingGrid& excess, RingG
   });
 }
 
-/// The larger, rounded over where they differ by less than w (C¹).
+/// Returns the larger value, rounded where the two differ by less than w (C¹).
 HWY_INLINE CoverV rounded_max(const CoverV& a, const CoverV& b, float w) {
   const CoverV d = hn::Sub(a, b), over = hn::Max(hn::Zero(tag), hn::Add(d, splat(w)));
   const CoverV between = mul_add(hn::Mul(over, over), splat(1 / (4 * w)), b);
@@ -60,7 +60,7 @@ HWY_INLINE CoverV rounded_max(const CoverV& a, const CoverV& b, float w) {
 void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<const Vec3<float>> muscles,
            float* lift_m) {
   constexpr float round_m = 0.004F, thin_m = 0.004F, min_m = 0.0005F;
-  // More in the hollow of a bend, where points of the grid lie close together and heights change much between them.
+  // Larger in the hollow of a bend, where points of the grid are close together and heights change much between them.
   constexpr float min_m_by_bend = 0.0008F;
   RingGrid reach;
   find_reach(rings, muscles, reach);
@@ -101,14 +101,14 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
     const Ring lift = each_part([&](std::size_t p) HWY_ATTR {
       CoverV h = mul_add(scale, base.part[p], hn::Max(over.part[p], least.part[p]));
       if (bent) {
-        // How far from the line a bent joint has room for skin.
+        // Distance from the line up to which a bent joint has room for skin.
         const CoverV hollow = hn::Mul(curved, inner.part[p]), room = hn::Div(splat(0.92F), hollow);
         const CoverV most = hn::Mul(splat(0.8F), room), last = hn::Mul(splat(0.2F), room);
         const CoverV beyond = hn::Div(hn::Sub(h, most), last);
         const CoverV squeezed = mul_add(last, hn::Div(beyond, hn::Add(splat(1), beyond)), most);
         h = hn::IfThenElse(hn::And(hn::Gt(hollow, splat(0.05F)), hn::Gt(h, most)), squeezed, h);
       }
-      // As of the skin at rest, which `lengths` makes larger.
+      // Relative to the skin at rest, which `lengths` scales.
       return hn::Sub(hn::Mul(h, smaller), base.part[p]);
     });
     store_ring(lift, &lift_m[i * leg_angles]);

@@ -15,7 +15,7 @@ FarFigure far_figure() {
   const BodySkin skin = *make_body_skin(*make_body(far_body), SkinDetail::distant);
   figure.index = mesh.triangle;
   for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
-    const SkinFrame& frame = mesh.frame[mesh.vertex[v].frame[0]];  // the heaviest comes first
+    const SkinFrame& frame = mesh.frame[mesh.vertex[v].frame[0]];  // the frame with the largest weight is first
     const std::size_t segment = segment_of(frame.turn < 0.5F ? frame.from : frame.to);
     figure.vertex.push_back(
         {skin.rest[v] - skin.standing.position_m[segment], skin.normal[v], static_cast<std::uint16_t>(segment), 0});

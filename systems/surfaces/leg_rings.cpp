@@ -26,14 +26,14 @@ std::array<float, leg_angles> inner_side() {
   return inner;
 }
 
-/// How far each ring has turned from the segment below to the one above.
+/// Returns how far each ring has turned from the segment below to the one above, 0 to 1.
 std::array<float, bend_rings> turned_by() {
   std::array<float, bend_rings> share;
   for (std::size_t k = 0; k < bend_rings; ++k) share[k] = eased(static_cast<float>(k + 1) / bend_rings);
   return share;
 }
 
-/// `size`: over that of a body of 1.75 m. Rings are turned by quaternions blended between the two, the short way round.
+/// Returns a joint's rings. `size` is relative to a body of 1.75 m. Quaternions are blended the short way round.
 JointRings bend_of(Quat<float> above, Quat<float> below, const Vec3<float>& centre_m, const SkinBend& bend,
                    float size) {
   static const std::array<float, bend_rings> all_shares = turned_by();
@@ -51,7 +51,7 @@ JointRings bend_of(Quat<float> above, Quat<float> below, const Vec3<float>& cent
     const float p = 1 - share[k], q = sign * share[k];
     const float x = p * below.x + q * above.x, y = p * below.y + q * above.y, z = p * below.z + q * above.z,
                 w = p * below.w + q * above.w;
-    const float twice = 2 / (x * x + y * y + z * z + w * w);  // the quaternion need not have length 1
+    const float twice = 2 / (x * x + y * y + z * z + w * w);  // the quaternion can have another length than 1
     left[0][k] = 1 - twice * (y * y + z * z);
     left[1][k] = twice * (x * y + w * z);
     left[2][k] = twice * (x * z - w * y);
@@ -65,7 +65,7 @@ JointRings bend_of(Quat<float> above, Quat<float> below, const Vec3<float>& cent
   return rings;
 }
 
-/// By how much the line bends at a height over a joint that is bent by `angle`.
+/// Returns the bend of the line at a height over a joint that is bent by `angle`, rad/m.
 float curved_at(float y, float angle, const JointRings& bend) {
   const float wide = bend.high_m - bend.low_m, t = (y - bend.low_m) / wide;
   return t <= 0 || t >= 1 ? 0 : angle * 6 * t * (1 - t) / wide;

@@ -1,5 +1,5 @@
 #pragma once
-// The leg as its skin has it: straight along thigh and shank, turning step by step at hip, knee and ankle.
+// A leg as its skin represents it: straight along thigh and shank, turning ring by ring at hip, knee and ankle.
 
 #include <array>
 #include <cstddef>
@@ -9,30 +9,30 @@
 
 namespace mobil::inline v0_3 {
 
-/// Steps of a joint's bend.
+/// Rings of a joint's bend.
 inline constexpr std::size_t bend_rings = 16;
 
-/// The rings of one joint, each turned about its centre a little further from the segment below; the last as the one
-/// above.
+/// Rings of one joint. Each is turned about the centre a little further than the one below; the last has the rotation
+/// of the upper segment.
 struct JointRings {
   Vec3<float> centre_m;
-  float low_m, high_m;  // where the bend begins and its last ring is, over the centre; below it under 0
-  /// x, y and z of the axes (to the left, up, to the front) of the rings, and of the segment below.
+  float low_m, high_m;  // heights over the centre where the bend begins and of its last ring; negative below
+  /// Axes (to the left, up, to the front) of the rings, x, y and z of each, and of the segment below.
   alignas(64) float axis[3][3][bend_rings];
   float height_m[bend_rings];  // of each ring over the centre
   std::array<Vec3<float>, 3> below;
 };
 
-/// World, m, of one leg as a pose has it.
+/// One leg in a pose; world, m.
 struct LegRings {
   JointRings hip, knee, ankle;  // the ankle's as its skin bends in front
   float thigh_m, shank_m;
-  float out;                               // 1 on the right, −1 on the left: where a leg's angles grow to
-  std::array<float, leg_stations> curved;  // by how much the line bends there, rad/m; below 0 towards the front
+  float out;                               // 1 on the right, −1 on the left: side to which a leg's angles grow
+  std::array<float, leg_stations> curved;  // bend of the line at each station, rad/m; negative towards the front
   std::array<float, leg_angles> inner;     // 1 behind the leg, −1 at its front
 };
 
-/// Of one leg in a pose (world, m); `lengths`: as of SkinShape.
+/// Returns the rings of one leg in a pose (world, m). `lengths` is as in SkinShape.
 LegRings leg_rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side);
 
 }  // namespace mobil::inline v0_3

@@ -1,4 +1,4 @@
-// How far muscles reach at the points of a leg's grid, some vertices at a time. For inclusion inside Highway's targets
+// Reach of muscles at the points of a leg's grid, several vertices at a time. For inclusion inside Highway's targets
 // only.
 
 #if defined(MOBIL_SYSTEMS_SKINNING_MUSCLE_REACH_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -24,16 +24,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Vertices are worked on in passes over so many, within which none waits for another: from one vertex to where it
-/// raises the grid is a chain of some 200 cycles.
+/// Size of a batch of vertices. Passes over a batch avoid waiting: from one vertex to where it raises the grid is a
+/// dependency chain of some 200 cycles.
 inline constexpr std::size_t cover_batch = 256;
 
-/// Where vertices of a batch are on the leg: to the side and to the front of its line (m), and how far down it.
+/// Place of a batch's vertices on the leg: to the side and to the front of its line (m), and how far down it.
 struct OnLeg {
   alignas(64) float side[cover_batch], front[cover_batch], s[cover_batch];
 };
 
-/// In which joint's bend vertices lie.
+/// Joint in whose bend a vertex is.
 enum class LegBend : std::int32_t { none, hip, knee, ankle };
 
 struct CoverPoint {
@@ -51,19 +51,19 @@ struct CoverBatch {
   }
 };
 
-/// A vector's part along an axis.
+/// Returns a vector's component along an axis.
 HWY_INLINE CoverV along_axis(const CoverPoint& p, const CoverV& x, const CoverV& y, const CoverV& z) {
   return mul_add(p.z, z, mul_add(p.y, y, hn::Mul(p.x, x)));
 }
 HWY_INLINE CoverV along_axis(const CoverPoint& p, const Vec3<float>& axis) {
   return along_axis(p, splat(axis.x), splat(axis.y), splat(axis.z));
 }
-/// Along one of a ring.
+/// Returns the component along one axis of a ring.
 HWY_INLINE CoverV along_axis(const CoverPoint& p, const JointRings& bend, std::size_t axis, std::size_t ring) {
   const auto& of = bend.axis[axis];
   return along_axis(p, splat(of[0][ring]), splat(of[1][ring]), splat(of[2][ring]));
 }
-/// Along one of each vertex' own ring.
+/// Returns the component along one axis of each vertex' own ring.
 HWY_INLINE CoverV along_axis(const CoverPoint& p, const JointRings& bend, std::size_t axis,
                              const hn::Vec<CoverIntTag>& ring) {
   const auto of = [&](std::size_t c) HWY_ATTR {
@@ -78,13 +78,13 @@ HWY_INLINE CoverV along_axis(const CoverPoint& p, const JointRings& bend, std::s
   return along_axis(p, of(0), of(1), of(2));
 }
 
-/// From a joint's centre.
+/// Returns a place relative to a joint's centre.
 HWY_INLINE CoverPoint from_centre(const JointRings& bend, const CoverPoint& p) {
   const Vec3<float>& c = bend.centre_m;
   return {hn::Sub(p.x, splat(c.x)), hn::Sub(p.y, splat(c.y)), hn::Sub(p.z, splat(c.z))};
 }
 
-/// Vertices beside thigh and shank, of whole registers; those in a joint's bend are only told apart.
+/// Places the vertices at thigh and shank, in whole registers; those in a joint's bend are only marked.
 HWY_NOINLINE inline void place_straight(const LegRings& rings, const float* vertices, std::size_t count, OnLeg& at,
                                         CoverBatch& batch) {
   constexpr CoverTag tag;
@@ -99,7 +99,7 @@ HWY_NOINLINE inline void place_straight(const LegRings& rings, const float* vert
     const CoverV high = along_axis(from, knee, 1, last), low = along_axis(from, knee.below[1]);
     const CoverV thigh_side = along_axis(from, knee, 0, last), thigh_front = along_axis(from, knee, 2, last);
     const CoverV shank_side = along_axis(from, knee.below[0]), shank_front = along_axis(from, knee.below[2]);
-    // Where a knee is bent beyond a right angle, the one whose line is nearer.
+    // If the knee is bent beyond a right angle, the segment with the nearer line counts.
     const auto square = [](const CoverV& a, const CoverV& b) HWY_ATTR { return mul_add(a, a, hn::Mul(b, b)); };
     const CoverMask may_be_shank = hn::Le(low, splat(knee.low_m));
     const CoverMask is_thigh =
@@ -125,8 +125,8 @@ HWY_NOINLINE inline void place_straight(const LegRings& rings, const float* vert
   }
 }
 
-/// Vertices in a joint's bend: each in the first ring that its height is not above. `joint_s` is how far down the leg
-/// the joint is, `above_m` and `below_m` the lengths of what it joins.
+/// Places the vertices in a joint's bend, each in the first ring that it is not above. `joint_s` is the joint's place
+/// down the leg; `above_m` and `below_m` are the lengths of the segments that it joins.
 HWY_NOINLINE inline void place_bent(const JointRings& bend, LegBend which, const CoverBatch& batch, std::size_t count,
                                     float joint_s, float above_m, float below_m, OnLeg& at) {
   constexpr CoverTag tag;
@@ -154,7 +154,7 @@ HWY_NOINLINE inline void place_bent(const JointRings& bend, LegBend which, const
   }
 }
 
-/// The angle of (x, z) from the z axis towards the x axis in turns, 0 to 1, to 10⁻⁴ of one.
+/// Returns the angle of (x, z) from the z axis towards the x axis in turns, 0 to 1, to 10⁻⁴ of a turn.
 HWY_INLINE CoverV turn_of(const CoverV& x, const CoverV& z) {
   constexpr CoverTag tag;
   constexpr float turn = 1 / (2 * std::numbers::pi_v<float>);
@@ -168,15 +168,15 @@ HWY_INLINE CoverV turn_of(const CoverV& x, const CoverV& z) {
   return hn::IfThenElse(hn::Lt(x, hn::Zero(tag)), hn::Sub(splat(1), angle), angle);
 }
 
-/// What vertices raise: the cell of the grid that each lies in, and its four points, this station's two and the next
-/// one's, to what, m.
+/// Cells that vertices raise: the grid cell of each vertex, and heights for its four points, m, two at this station and
+/// two at the next.
 struct RaisedCells {
   alignas(64) std::int32_t cell[cover_batch];
   alignas(64) float min_m[4 * cover_batch];
 };
 
-/// Those beside a point count for less, so that nothing jumps as they pass. What is not on the grid, not near the leg,
-/// or no number reaches nowhere.
+/// Finds raised cells. Vertices next to a point count for less, so that nothing jumps as they pass. Vertices off the
+/// grid, far from the leg, or NaN raise nothing.
 HWY_NOINLINE inline void find_cells(const OnLeg& at, float out_side, std::size_t count, RaisedCells& raised) {
   constexpr CoverTag tag;
   constexpr CoverIntTag whole;
@@ -205,10 +205,10 @@ HWY_NOINLINE inline void find_cells(const OnLeg& at, float out_side, std::size_t
   }
 }
 
-/// The largest that the cells round each point have for it.
+/// Takes the maximum of the cells around each point.
 HWY_NOINLINE inline void take_cells(const float* cell, RingGrid& reach) {
   constexpr CoverTag tag;
-  // What the station above has for this one, at the cells' own angle and at the next.
+  // Values of the station above for this one, at the cells' own angle and at the next.
   Ring above = each_part([](std::size_t) HWY_ATTR { return hn::Zero(CoverTag{}); }), above_next = above;
   for (std::size_t i = 0; i < leg_stations; ++i) {
     Ring own, next, below, below_next;
@@ -222,7 +222,7 @@ HWY_NOINLINE inline void take_cells(const float* cell, RingGrid& reach) {
   }
 }
 
-/// How far muscles reach at the points of the grid, m; 0 where none does.
+/// Finds how far muscles reach at the points of the grid, m; 0 without muscles.
 HWY_NOINLINE inline void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, RingGrid& reach) {
   constexpr hn::CappedTag<float, 4> four;
   OnLeg at;
@@ -243,7 +243,7 @@ HWY_NOINLINE inline void find_reach(const LegRings& rings, std::span<const Vec3<
     place_bent(rings.knee, LegBend::knee, batch, count, 1, rings.thigh_m, rings.shank_m, at);
     place_bent(rings.ankle, LegBend::ankle, batch, count, 2, rings.shank_m, rings.shank_m, at);
     find_cells(at, rings.out, count, raised);
-    // Vertices side by side lie in the same cells: those of four parts take turns, so that none waits for another.
+    // Adjacent vertices are in the same cells. Vertices of four parts alternate, so that none waits for another.
     const std::size_t part = count / 4;
     for (std::size_t n = 0; n < part; ++n) {
       for (std::size_t k = 0; k < 4; ++k) {

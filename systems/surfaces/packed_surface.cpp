@@ -22,7 +22,7 @@ Follows follows(const VertexBinding& b) {
   return b.lattice == 1 && b.origin == 0 && b.insertion == 0 ? Follows::lattice : Follows::both;
 }
 
-/// Vertices by what they follow and by hexahedron, in the order of their blocks.
+/// Vertices grouped by binding and by hexahedron, in the order of their blocks.
 using Groups = std::map<std::tuple<Follows, std::array<std::uint16_t, 8>>, std::vector<std::uint32_t>>;
 
 Groups grouped(const MuscleSurface& surface) {
@@ -55,7 +55,7 @@ void set_lane(const MuscleSurface& surface, std::uint32_t v, std::size_t lane, B
   block.lattice.lane[lane] = b.lattice;
 }
 
-/// Fills the blocks and says where each vertex lies.
+/// Fills the blocks and returns the place of each vertex.
 std::vector<std::uint16_t> fill_blocks(const MuscleSurface& surface, PackedSurface& packed) {
   std::vector<std::uint16_t> place(surface.mesh.position.size());
   std::size_t blocks = 0;

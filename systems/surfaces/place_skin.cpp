@@ -23,7 +23,7 @@ using FourVector = hn::Vec<FourTag>;
 using IntTag = hn::RebindToSigned<EightTag>;
 using IntVector = hn::Vec<IntTag>;
 
-/// A group of vertices as they are read; of the last group, copies.
+/// Inputs of a group of vertices; the last group has copies.
 struct SkinGroup {
   const SkinVertex* vertex;
   const LegPlace* leg;
@@ -45,12 +45,12 @@ HWY_INLINE SkinPoints load_points(const Vec3<float>* p) {
   return r;
 }
 
-/// One of two numbers of each lane, as it is on the right or the left.
+/// Returns one of two numbers in each lane, according to its side.
 HWY_INLINE EightVector by_side(const hn::Mask<EightTag>& is_left, float right, float left) {
   return hn::IfThenElse(is_left, hn::Set(eight, left), hn::Set(eight, right));
 }
 
-/// Vertices at rest, moved away from their legs' lines; their normals tilt as what lifts them slopes.
+/// Lifts vertices at rest away from their legs' lines. Normals tilt with the slope of the lift.
 HWY_INLINE void lift(const LegLines& lines, const SkinCover& cover, const SkinGroup& group, Vec3<float>* places,
                      Vec3<float>* normals) {
   static_assert(std::has_single_bit(leg_angles), "angles are wrapped by a mask");
@@ -90,7 +90,7 @@ HWY_INLINE void lift(const LegLines& lines, const SkinCover& cover, const SkinGr
                                             hn::Sub(knee, by_side(is_left, lines.ankle_y[0], lines.ankle_y[1])));
   constexpr float stations = (leg_stations - 1) / static_cast<float>(last_leg_s - first_leg_s);
   const EightVector one = hn::Div(all(1), away), out_x = hn::Mul(x, one), out_z = hn::Mul(z, one);
-  // Angles grow to the inner side.
+  // Angles grow towards the inner side.
   const EightVector tilt = hn::Mul(hn::Mul(an_angle, one), by_side(is_left, round / (2 * std::numbers::pi_v<float>),
                                                                    -round / (2 * std::numbers::pi_v<float>)));
   const EightVector a_metre = hn::Div(hn::Mul(hn::Mul(amount, slope), all(stations)), length);
@@ -105,7 +105,7 @@ HWY_INLINE void lift(const LegLines& lines, const SkinCover& cover, const SkinGr
   hn::StoreInterleaved3(normal.x, normal.y, normal.z, eight, &normals->x);
 }
 
-/// A vertex and its normal (x y z z) where its frames carry them.
+/// A vertex and its normal (x y z z), moved by its frames.
 struct Carried {
   FourVector position, normal;
 };
@@ -134,7 +134,7 @@ HWY_INLINE Carried carried(const SkinVertex& vertex, const FrameMap* maps, const
           mul_add(all(n.z), z, mul_add(all(n.y), y, hn::Mul(all(n.x), x)))};
 }
 
-/// A row of two vertices; the second counts with eight lanes alone.
+/// Returns a row of two vertices. Only eight lanes use the second.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> of_two(Tag of, const FourVector& first, [[maybe_unused]] const FourVector& second) {
   if constexpr (hn::MaxLanes(Tag{}) == 8) {
@@ -144,7 +144,7 @@ HWY_INLINE hn::Vec<Tag> of_two(Tag of, const FourVector& first, [[maybe_unused]]
   }
 }
 
-/// A group of vertices, of which `count` are wanted.
+/// Writes the first `count` vertices of a group.
 HWY_INLINE void place_group(const LegLines& lines, const SkinCover* cover, const FatRows* fat, SkinGroup group,
                             const FrameMap* maps, std::size_t first, std::size_t count, bool packed,
                             const VertexTarget& out) {

@@ -11,7 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// Σ wᵢ uᵢ of eight vertices; even and odd nodes apart, so that two sums grow at once.
+/// Returns Σ wᵢ uᵢ of eight vertices. Even and odd nodes are summed separately, so that two sums grow at once.
 HWY_INLINE EightVec displaced(const LatticeBlock& block, const std::array<std::uint16_t, 8>& at, const float* node) {
   EightVec sum[2];
   for (std::size_t i = 0; i < 8; ++i) {

@@ -1,4 +1,4 @@
-// Rings of skin round a leg, all angles of a station at once. For inclusion inside Highway's targets only.
+// Rings of skin around a leg, all angles of a station at once. For inclusion inside Highway's targets only.
 
 #if defined(MOBIL_SYSTEMS_SKINNING_RING_GRID_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_SKINNING_RING_GRID_INL_H_
@@ -28,22 +28,22 @@ HWY_INLINE CoverV splat(float x) {
   return hn::Set(CoverTag{}, x);
 }
 
-/// The angles of one station, so laid out that neighbours are in different registers: angle p + l·ring_parts is lane l
-/// of part p.
+/// Angles of one station, laid out so that neighbours are in different registers: angle p + l·ring_parts is lane l of
+/// part p.
 inline constexpr std::size_t ring_parts = leg_angles / cover_lanes;
 static_assert(ring_parts == 2 || ring_parts == 4 || ring_parts == 8, "load_ring and store_ring know no other");
 struct Ring {
   CoverV part[ring_parts];
 };
 
-/// Where angles are in a RingGrid's station.
+/// Returns the places of angles in a RingGrid's station.
 HWY_INLINE hn::Vec<CoverIntTag> place_in_ring(const hn::Vec<CoverIntTag>& angle) {
   const auto number = [](std::size_t n) HWY_ATTR { return hn::Set(CoverIntTag{}, static_cast<std::int32_t>(n)); };
   const auto part = hn::And(angle, number(ring_parts - 1)), lane = hn::ShiftRight<hwy::CeilLog2(ring_parts)>(angle);
   return hn::Add(hn::Mul(part, number(cover_lanes)), lane);
 }
 
-/// `op(p)` of each part.
+/// Returns the ring of `op(p)` for each part.
 template <class Op>
 HWY_INLINE Ring each_part(const Op& op) {
   Ring ring;
@@ -51,7 +51,7 @@ HWY_INLINE Ring each_part(const Op& op) {
   return ring;
 }
 
-/// From and to angles one after the other.
+/// Convert from and to consecutive angles.
 HWY_INLINE Ring load_ring(const float* angle) {
   constexpr CoverTag tag;
   Ring r;
@@ -87,7 +87,7 @@ HWY_INLINE void store_ring(const Ring& r, float* angle) {
   }
 }
 
-/// Rings of all stations; in each, one part after the other.
+/// Rings of all stations, each stored part by part.
 struct RingGrid {
   alignas(64) float value[leg_stations][leg_angles];
 
@@ -100,7 +100,7 @@ struct RingGrid {
   }
 };
 
-/// What the angle before each has, and that after it.
+/// Return the values at the previous and at the next angle.
 HWY_INLINE Ring before(const Ring& ring) {
   constexpr CoverTag tag;
   alignas(64) std::int32_t from[cover_lanes];
@@ -117,8 +117,8 @@ HWY_INLINE Ring after(const Ring& ring) {
   return each_part([&](std::size_t p) HWY_ATTR { return p + 1 == ring_parts ? first : ring.part[p + 1]; });
 }
 
-/// `op(i, above, here, below)` of each station in turn; at the ends, itself takes the place of the one that is not
-/// there. `op` may set station i of the grid: what the next ones need of it is in registers.
+/// Calls `op(i, above, here, below)` for each station in turn; the end stations replace their missing neighbours. `op`
+/// can set station i of the grid, because the next stations have their input in registers.
 template <class Op>
 HWY_INLINE void each_station(const RingGrid& grid, const Op& op) {
   Ring here = grid.at(0), above = here;

@@ -25,13 +25,13 @@ HWY_INLINE EightV set(float x) {
   return hn::Set(EightTag{}, x);
 }
 
-/// Where `eight_lanes` frames between two bones go: a column (x y z z) of each, 16 floats from one to the next.
+/// Writes a column (x y z z) of each of `eight_lanes` frames between two bones, 16 floats apart.
 HWY_INLINE void put_column(const EightV& x, const EightV& y, const EightV& z, float* out) {
   const Rows rows = transposed({{x, y, z, z}});
   for (std::size_t v = 0; v < 4; ++v) store_vertices(EightTag{}, rows.row[v], out + v * 16, 16);
 }
 
-/// The rotation of each `turn` of the way from `a` to `b` as a matrix, times `lengths`, about b's own place.
+/// Writes the rotation for each `turn` of the way from `a` to `b` as a matrix, times `lengths`, about the place of `b`.
 HWY_INLINE void put_maps(const SkinBone& a, const SkinBone& b, const EightV& turn, float lengths, FrameMap* maps) {
   const Quat<float>&p = a.rotation, &q = b.rotation;
   const float shorter = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0 ? -1.0F : 1.0F;
@@ -39,7 +39,7 @@ HWY_INLINE void put_maps(const SkinBone& a, const SkinBone& b, const EightV& tur
   const auto mixed = [&](float from, float to) HWY_ATTR { return mul_add(of_b, set(to), hn::Mul(of_a, set(from))); };
   const EightV x = mixed(p.x, q.x), y = mixed(p.y, q.y), z = mixed(p.z, q.z), w = mixed(p.w, q.w);
   const EightV square = mul_add(w, w, mul_add(z, z, mul_add(y, y, hn::Mul(x, x))));
-  // Twice the lengths over the square of the quaternion's own length, which a mean of two is shorter by.
+  // Twice the lengths over the quaternion's squared length, which is below 1 for a mean of two.
   const EightV twice = hn::Div(set(2 * lengths), square), one = set(lengths);
   const EightV tx = hn::Mul(twice, x), ty = hn::Mul(twice, y), tz = hn::Mul(twice, z), tw = hn::Mul(twice, w);
   const EightV xx = neg_mul_add(tz, z, neg_mul_add(ty, y, one)), yy = neg_mul_add(tz, z, neg_mul_add(tx, x, one)),
@@ -68,7 +68,7 @@ void put_frames(std::span<const SkinFrame> frame, const SkinBone* bone, float le
       alignas(64) float turn[eight_lanes];
       for (std::size_t i = 0; i < eight_lanes; ++i) turn[i] = frame[std::min(at + i, end - 1)].turn;
       const EightV turns = hn::Load(EightTag{}, turn);
-      // Lanes beyond the last frame of a pair are written over by the next one's.
+      // Lanes beyond the last frame of a pair are overwritten by the next pair.
       if (at + eight_lanes <= count) {
         put_maps(bone[pair.from], bone[pair.to], turns, lengths, maps + at);
       } else {
@@ -98,7 +98,7 @@ Quat<float> of_length_1(const Quat<float>& q) {
   return {scale * q.x, scale * q.y, scale * q.z, scale * q.w};
 }
 
-/// The forearm without its turn about its own length (y): the rest of the way from the upper arm.
+/// Returns the rotation of the forearm without its turn about its own length (y).
 Quat<float> untwisted(const Quat<float>& upper_arm, const Quat<float>& forearm) {
   const Quat<float> elbow = product(conjugate(upper_arm), forearm);
   if (elbow.y * elbow.y + elbow.w * elbow.w < 1e-8F) return forearm;  // folded back on itself

@@ -14,7 +14,7 @@ RigidPose mirror_image(const RigidPose& p) {
   return {mirrored(p.position_m), mirrored(p.rotation)};
 }
 
-/// The rotation a part of the shorter way from `a` (0) to `b` (1).
+/// Returns the rotation at a part of the shorter way from `a` (0) to `b` (1).
 Quat<float> between(const Quat<float>& a, const Quat<float>& b, float part) {
   const float same = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
   const float wa = 1 - part, wb = same < 0 ? -part : part;
@@ -23,7 +23,7 @@ Quat<float> between(const Quat<float>& a, const Quat<float>& b, float part) {
   return {n * q.x, n * q.y, n * q.z, n * q.w};
 }
 
-/// now ∘ stretched along y ∘ rest⁻¹.
+/// Returns now ∘ stretched along y ∘ rest⁻¹.
 AffineMap motion(const RigidPose& now, const RigidPose& rest, float stretch) {
   const AffineMap a = affine_map(now), b = affine_map(rest);
   AffineMap m{};
@@ -49,9 +49,9 @@ SurfaceEnd surface_end(const Body& body, Segment right_bone, const Vec3<float>& 
   return end;
 }
 
-/// Of points of the body that the surface was bound to; `lengths`: of this one's over that one's; `stretch`: times
-/// this along the bone's own axis. What turns with the muscle goes along with its place on the bone and is not
-/// stretched itself.
+/// Returns the motion of points of the body to which the surface was bound. `lengths` is relative to that body,
+/// `stretch` is relative to `lengths`, along the bone's own axis. Points that turn with the muscle move with its place
+/// on the bone and are not stretched themselves.
 AffineMap end_map(const SurfaceEnd& end, Side side, RigidPose now, const Quat<float>& muscle_turn, float lengths,
                   float stretch) {
   RigidPose rest{lengths * end.bone_m[side], {0, 0, 0, 1}};

@@ -18,7 +18,7 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
 void sum_modes(const SkinTable& table, const std::array<float, skin_modes>& share, float* lift_m) {
-  const hn::CappedTag<float, 16> table_tag;  // all of them divide the grid
+  const hn::CappedTag<float, 16> table_tag;  // all its sizes divide the grid
   static_assert(leg_grid_points % 16 == 0);
   hn::Vec<decltype(table_tag)> all[skin_modes];
   for (std::size_t m = 0; m < skin_modes; ++m) all[m] = hn::Set(table_tag, share[m]);
@@ -39,7 +39,7 @@ namespace {
 
 HWY_EXPORT(sum_modes);
 
-/// The angle whose tangent is y over x, x not below 0 (Abramowitz and Stegun 4.4.49: to 2e-8 and rounding).
+/// Returns the angle with the tangent y / x, for x ≥ 0 (Abramowitz and Stegun 4.4.49: to 2e-8 and rounding).
 float angle_of(float y, float x) {
   constexpr std::array odd = {0.0028662257F, -0.0161657367F, 0.0429096138F, -0.0752896400F,
                               0.1065626393F, -0.1420889944F, 0.1999355085F, -0.3333314528F};
@@ -51,7 +51,7 @@ float angle_of(float y, float x) {
   return y < 0 ? -angle : angle;
 }
 
-/// About x, above 0 where the lower segment is turned back.
+/// Returns the angle about x, above 0 if the lower segment is turned back.
 float bent_back(const Quat<float>& upper, const Quat<float>& lower) {
   const float w = upper.w * lower.w + upper.x * lower.x + upper.y * lower.y + upper.z * lower.z;
   const float x = upper.w * lower.x - upper.x * lower.w - upper.y * lower.z + upper.z * lower.y;

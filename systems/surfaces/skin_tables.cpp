@@ -24,7 +24,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Places spread evenly over a line, a plane, a space (Halton 1960): the n-th of a prime base, 0 to 1.
+/// Returns the n-th number, 0 to 1, of a prime base. With one base per dimension they spread evenly (Halton 1960).
 double halton(int n, int base) {
   double part = 1, sum = 0;
   for (; n > 0; n /= base) {
@@ -34,7 +34,7 @@ double halton(int n, int base) {
   return sum;
 }
 
-/// Angles of the n-th pose.
+/// Returns the angles of the n-th pose.
 LegAngles angles_of(int n) {
   const auto between = [n](float a, float b, int base) {
     return a + static_cast<float>(halton(n + 1, base)) * (b - a);
@@ -47,7 +47,7 @@ float degrees(float rad) {
   return rad * 180 / std::numbers::pi_v<float>;
 }
 
-/// One person's right leg: what its muscles lift the skin by, pose after pose, as lines of a least-squares fit.
+/// One person's right leg: the skin's lift by its muscles, pose after pose, as rows of a least-squares fit.
 class Fit {
   using Matrix = Eigen::MatrixXd;
 
@@ -80,11 +80,11 @@ class Fit {
 
   std::unique_ptr<SkinTable> table() const {
     const Matrix fitted = solved(square_, right_);
-    // The modes that leave least out over all that was added: the fit, in units in which terms weigh alike and are
-    // apart, cut to its greatest singular values.
+    // The modes with the smallest residual over all added poses: the fit, in units in which terms have equal weight and
+    // are uncorrelated, reduced to its largest singular values.
     const SymmetricEigen terms = symmetric_eigen(square_);
     const Eigen::VectorXd root = terms.values.cwiseMax(0).cwiseSqrt();
-    // What no pose has is left alone: its inverse is nothing.
+    // Terms that no pose has are ignored: their inverse is 0.
     const double least = 1e-9 * root.maxCoeff();
     const Eigen::VectorXd inverse = (root.array() > least).select(root.cwiseInverse(), 0.0);
     const Matrix alike = product(root.asDiagonal() * transposed(terms.vectors), fitted);
@@ -116,7 +116,7 @@ class Fit {
 Result<std::unique_ptr<SkinTable>> make_skin_table(const BodyRequest& request) {
   constexpr std::array speeds_m_s = {0.7F, 1.0F, 1.3F, 1.6F, 1.9F};
   constexpr int settled = 90, strides = 90, apart = 3, poses = 150;  // ticks; poses
-  constexpr double walking = 2, posed = 1;                           // what one of them counts
+  constexpr double walking = 2, posed = 1;                           // weight of each
   Simulation simulation;
   LegMuscles choice;
   choice.method = Method::statics;
@@ -124,7 +124,7 @@ Result<std::unique_ptr<SkinTable>> make_skin_table(const BodyRequest& request) {
   for (const float speed : speeds_m_s) {
     const auto walker = simulation.spawn(request, {.speed_m_s = speed});
     if (!walker && walker.error().status == Status::no_memory) return tl::unexpected(walker.error());
-    if (!walker) continue;  // who is short does not walk so fast
+    if (!walker) continue;  // short people do not walk so fast
     walkers.push_back(*walker);
     if (auto done = simulation.set_muscles(*walker, choice); !done) return tl::unexpected(done.error());
   }

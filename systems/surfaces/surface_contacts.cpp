@@ -36,7 +36,7 @@ void link_neighbours(const BodySurfaces& surfaces, std::span<const Vec3<float>> 
   }
 }
 
-/// Parts of each muscle's length, along the line between its highest and its lowest vertex at rest.
+/// Cuts each muscle's length into bands, along the line between its highest and its lowest vertex at rest.
 void cut_into_bands(const BodySurfaces& surfaces, std::span<const Vec3<float>> position, SurfaceContacts& contacts) {
   contacts.band.assign(surfaces.vertices, SurfaceContacts::no_band);
   contacts.within.assign(surfaces.vertices, 0);
@@ -102,7 +102,7 @@ SurfaceContacts find_contacts(const BodySurfaces& surfaces, std::span<const Vec3
 
 namespace {
 
-/// What a vertex touches.
+/// Contact of a vertex.
 constexpr std::uint8_t touches_muscle = 1, touches_bone = 2;
 
 class Apart {
@@ -119,7 +119,7 @@ class Apart {
     work_.moved_out.assign(work_.volume.size(), 0);
   }
 
-  /// Sections of a belly go aside as a whole, less towards its ends, as far as they are pushed in the mean.
+  /// Moves sections of a belly aside as a whole by their mean push, less towards the belly's ends.
   void shift() {
     find_pushes();
     auto& shift = work_.shift;
@@ -150,8 +150,8 @@ class Apart {
     }
   }
 
-  /// What was taken from each section goes back to it, outwards where it lies on no bone: neighbours make room in the
-  /// next round; in the `last` one only where it touches nobody.
+  /// Returns to each section the volume that was taken from it, outwards, where it touches no bone: neighbours make
+  /// room in the next round. In the `last` round only vertices without contact move.
   void give_back(bool last) {
     constexpr float max_m = 0.004F;
     const auto takes = [&](std::size_t v) {
@@ -172,10 +172,10 @@ class Apart {
     }
   }
 
-  /// What each muscle's volume is off still goes to where it touches less than `min_touch`, evenly but for tendons.
-  /// Returns whether one was off by more than a thousandth and had room.
+  /// Distributes the remaining error of each muscle's volume over vertices that touch less than `min_touch`, evenly
+  /// except on tendons. Returns true if a muscle was off by more than a thousandth and had room.
   bool restore_volumes(std::uint8_t min_touch) {
-    constexpr float max_m = 0.008F;  // of all rounds together
+    constexpr float max_m = 0.008F;  // over all rounds
     find_volumes(work_.now_volume);
     const std::size_t muscles = work_.volume.size();
     const auto lacking = [&](std::size_t m) {
@@ -185,7 +185,7 @@ class Apart {
     bool off = false;
     for (std::size_t m = 0; m < muscles; ++m) off = off || lacking(m) != 0;
     if (!off) return false;
-    find_pushes();  // who touches by now
+    find_pushes();  // present contacts
     find_areas();
     find_weights(min_touch);
     work_.free_area.assign(muscles, 0);
@@ -223,7 +223,7 @@ class Apart {
   }
 
  private:
-  /// `f(corners, twice the area along the normal)`.
+  /// Calls `f(corners, twice the area along the normal)` for each triangle.
   template <class F>
   void each_triangle(const F& f) const {
     for (std::size_t t = 0; t < contacts_.triangle.size(); t += 3) {
@@ -239,7 +239,7 @@ class Apart {
       for (std::size_t k = 0; k < 3; ++k) work_.area[corner[k]] += third;
     });
   }
-  /// Of each muscle's closed surface, about its own first corner.
+  /// Finds the volume of each muscle's closed surface, about its own first corner.
   void find_volumes(std::vector<double>& volume) const {
     volume.assign(contacts_.bands / bands_each, 0);
     std::size_t muscle = volume.size();
@@ -254,7 +254,7 @@ class Apart {
       volume[muscle] += dot(at(0) - origin, cross(at(1) - origin, at(2) - origin)) / 6;
     }
   }
-  /// 1 on a belly where it is widest and touches less, smaller beside what touches, little on tendons.
+  /// Finds weights: 1 on a belly where it is widest and touches less, smaller next to contacts, little on tendons.
   void find_weights(std::uint8_t min_touch) {
     work_.wide.assign(contacts_.bands, 0);
     for (std::size_t v = 0; v < position_.size(); ++v)
@@ -283,7 +283,7 @@ class Apart {
       push(contacts_.pair[p], work_.other[p]);
     }
   }
-  /// Between the middles of its band and of the next one.
+  /// Returns a vertex' shift, interpolated between the middles of its band and of the next one.
   Vec3<float> shift_of(std::size_t v) const {
     const std::size_t band = contacts_.band[v], first = band - band % bands_each, last = first + bands_each - 1;
     const float from_middle = contacts_.within[v] - 0.5F;
@@ -292,7 +292,7 @@ class Apart {
     return (1 - part) * work_.shift[band] + part * work_.shift[next];
   }
 
-  /// From where the other surface was nearest, at rest or in the pass before, along its edges to where it is now.
+  /// Walks along the other surface's edges from the nearest vertex at rest or of the last pass to the present one.
   std::uint32_t nearest(std::uint32_t vertex, std::uint32_t other) const {
     constexpr int max_steps = 12;
     const Vec3<float>& at = position_[vertex];
@@ -320,7 +320,7 @@ class Apart {
     constexpr float near_by_m = 0.004F, deepest_m = 0.045F;
     const Vec3<float> off = position_[pair.vertex] - position_[other], &out = normal_[other];
     const float gap = dot(off, out), beside = dot(off, off) - gap * gap, depth = pair.rest_m - gap;
-    const float max_beside = contacts_.edge_m[other];  // farther it is beside the other's edge
+    const float max_beside = contacts_.edge_m[other];  // farther away the vertex is past the other's edge
     if (beside > max_beside * max_beside || gap < -deepest_m) return;
     const bool bone = contacts_.band[other] == SurfaceContacts::no_band;
     if (depth > -near_by_m) {
@@ -331,13 +331,13 @@ class Apart {
     raise(pair.vertex, (bone ? depth : 0.5F * depth) * out);
     if (!bone) raise(other, -0.5F * depth * out);
   }
-  /// The larger of what a vertex is pushed by and another push.
+  /// Keeps the larger of a vertex' push and another push.
   void raise(std::uint32_t v, const Vec3<float>& by) {
     Vec3<float>& now = work_.push[v];
     if (dot(by, by) > dot(now, now)) now = by;
   }
 
-  /// No dents of single vertices: neighbours come along by half.
+  /// Smooths pushes, so that single vertices make no dents: neighbours move by half.
   void smooth() {
     constexpr int passes = 2;
     work_.smooth.resize(position_.size());

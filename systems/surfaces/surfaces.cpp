@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t vertex_bytes = 3 * sizeof(float), tangent_bytes = 4 * sizeof(float);
 
-/// An entity's lane of a component, null where it is stale or has none.
+/// Returns an entity's lane of a component; null if the entity is stale or has none.
 template <template <class> class C>
 const float* lane_of(const World& world, Entity entity) {
   const auto place = world.find(entity);
@@ -39,7 +39,7 @@ RigidPose segment_pose(const float* pose, Segment segment) {
   return {read<Vec3<float>>(pose, 3 * index(segment)), read<Quat<float>>(pose, 3 * segment_count + 4 * index(segment))};
 }
 
-/// By how much a bone is longer along itself than its body's other bones are.
+/// Returns the scale of a bone along itself, relative to its body's other bones.
 float stretch(const SurfaceFit& fit, Segment segment) {
   using enum Segment;
   if (segment == thigh_right || segment == thigh_left) return fit.limbs.thigh_m;
@@ -49,7 +49,7 @@ float stretch(const SurfaceFit& fit, Segment segment) {
   return 1;
 }
 
-/// Displacements of a belly at rest that is drawn out evenly.
+/// Writes displacements of a belly at rest that is drawn out evenly.
 void draw_out(const BodySurfaces::Driver& driver, float longer_m, float* node) {
   for (std::size_t n = 0; n < driver.nodes; ++n) {
     node[3 * n] = node[3 * n + 1] = 0;
@@ -192,7 +192,7 @@ void SurfaceWriter::write_pieces(void* context, std::size_t begin, std::size_t e
   const auto& work = *static_cast<const Work*>(context);
   const FlushDenormals flush;
   const ScratchLease scratch(&work.writer.scratch_);
-  // piece by piece, each of all people: those who share their surfaces find them in the cache
+  // piece by piece for all people: those who share their surfaces find them in the cache
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t r = i % work.requests.size(), p = i / work.requests.size();
     const auto& pieces = work.requests[r].surfaces->piece;

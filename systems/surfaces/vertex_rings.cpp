@@ -14,7 +14,7 @@ struct Link {
   std::uint32_t from, to;  // of a triangle (vertex, from, to)
 };
 
-/// Takes links off that join end to end: the polygon round the triangles, their vertex in it where it stays open.
+/// Removes links that join end to end. Returns the polygon around their triangles; an open one contains the vertex.
 std::vector<std::uint32_t> take_polygon(std::uint32_t vertex, std::vector<Link>& links) {
   const auto begins = [&](const Link& l) {
     return std::ranges::none_of(links, [&](const Link& other) { return other.to == l.from; });
@@ -35,13 +35,13 @@ std::vector<std::uint32_t> take_polygon(std::uint32_t vertex, std::vector<Link>&
   return polygon;
 }
 
-/// A polygon as rings that all begin at its first corner; of a last one that is not full, the corners left over repeat.
+/// Appends a polygon as rings that all begin at its first corner. An incomplete last ring repeats that corner.
 void append_rings(const std::vector<std::uint32_t>& polygon, std::span<const std::uint16_t> place,
                   std::vector<VertexRing>& rings) {
   for (std::size_t i = 1; i + 1 < polygon.size(); i += 4) {
     const std::size_t corners = std::min<std::size_t>(6, polygon.size() - i + 1);
     VertexRing ring;
-    ring.fill(twice(place[polygon[0]]));  // a: (e − a)×(f − d) of e = a is nothing, of f = a the triangle (a, d, e)
+    ring.fill(twice(place[polygon[0]]));  // a: (e − a)×(f − d) is 0 for e = a, and the triangle (a, d, e) for f = a
     for (std::size_t k = 1; k < corners; ++k) ring[k] = twice(place[polygon[i + k - 1]]);
     rings.push_back(ring);
   }

@@ -1,4 +1,4 @@
-// A few vertices as rows of registers, made ready for a caller's buffer. For inclusion inside Highway's targets only.
+// A few vertices as rows of registers, and output to a caller's buffer. For inclusion inside Highway's targets only.
 
 #if defined(MOBIL_SYSTEMS_SKINNING_VERTEX_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_SKINNING_VERTEX_ROWS_INL_H_
@@ -27,7 +27,7 @@ using EightVector = hn::Vec<EightTag>;
 inline constexpr std::size_t group_vertices = 4 * (eight_lanes / 4);  // of one Rows
 inline constexpr std::size_t six = 6 * sizeof(float), three = 3 * sizeof(float);
 
-/// Makes rows z x y as long as `sense` says; those without a length point up.
+/// Scales rows z x y to length |`sense`|, with its sign. Rows without a length point up.
 HWY_INLINE void normalise(float sense, Rows& normal) {
   const Rows v = transposed(normal);
   const auto square = mul_add(v.row[2], v.row[2], mul_add(v.row[1], v.row[1], hn::Mul(v.row[0], v.row[0])));
@@ -45,7 +45,7 @@ HWY_INLINE void normalise(float sense, Rows& normal) {
                         hn::IfThenElseZero(has_length, hn::Mul(v.row[1], factor)), up, up}});
 }
 
-/// Lane 3 (lane 0) of `b`, the others of `a`.
+/// Return `a` with lane 3 (lane 0) of `b`.
 HWY_INLINE EightVector with_last(const EightVector& a, const EightVector& b) {
   alignas(32) static constexpr std::uint32_t last[8] = {0, 0, 0, ~0U, 0, 0, 0, ~0U};
   return hn::IfThenElse(hn::MaskFromVec(hn::BitCast(eight, hn::Load(hn::RebindToUnsigned<EightTag>{}, last))), b, a);
@@ -55,7 +55,7 @@ HWY_INLINE EightVector with_first(const EightVector& a, const EightVector& b) {
   return hn::IfThenElse(hn::MaskFromVec(hn::BitCast(eight, hn::Load(hn::RebindToUnsigned<EightTag>{}, first))), b, a);
 }
 
-/// Puts a group's positions (x y z) and normals (z x y) together, six floats a vertex.
+/// Interleaves a group's positions (x y z) and normals (z x y), six floats a vertex.
 HWY_INLINE void interleave(const Rows& position, const Rows& normal, float* out) {
   const hn::RepartitionToWide<EightTag> two;
   for (std::size_t i = 0; i < 4; i += 2) {
@@ -69,8 +69,8 @@ HWY_INLINE void interleave(const Rows& position, const Rows& normal, float* out)
   }
 }
 
-/// Hands over what lies ready, six floats a vertex, to a buffer that is laid out otherwise. Each piece lies within one
-/// register stored before.
+/// Copies finished vertices, six floats each, to a buffer with another layout. Each piece is within one register stored
+/// before.
 HWY_INLINE void hand_over(const float* vertex, std::size_t first, std::size_t count, const VertexTarget& out) {
   std::byte* position = out.position + first * out.position_stride;
   std::byte* normal = out.normal + first * out.normal_stride;
@@ -89,13 +89,13 @@ HWY_INLINE void hand_over(const float* vertex, std::size_t first, std::size_t co
   }
 }
 
-/// Whether vertices are position and normal and nothing else.
+/// Returns true if vertices are position and normal and nothing else.
 inline bool is_packed(const VertexTarget& out) {
   return out.normal == out.position + three && out.position_stride == six && out.normal_stride == six &&
          out.tangent == nullptr;
 }
 
-/// What of a direction is at right angles to a unit normal, of length 1; some such direction where nothing is left.
+/// Writes the normalised part of a direction at right angles to a unit normal, or some such vector if it is 0.
 HWY_INLINE void put_tangent(const Vec3<float>& along, float handed, const float* normal, std::byte* out) {
   const float nx = normal[0], ny = normal[1], nz = normal[2];
   const float through = along.x * nx + along.y * ny + along.z * nz;
@@ -111,7 +111,7 @@ HWY_INLINE void put_tangent(const Vec3<float>& along, float handed, const float*
   std::memcpy(out, t, sizeof t);
 }
 
-/// A group's positions alone, of which `count` are wanted.
+/// Writes the positions of the first `count` vertices of a group.
 HWY_INLINE void put_positions(const Rows& position, std::size_t first, std::size_t count, const VertexTarget& out) {
   alignas(64) float place[4 * group_vertices];
   for (std::size_t k = 0; k < 4; ++k) store_vertices(eight, position.row[k], place + 4 * k, 4);
@@ -119,8 +119,8 @@ HWY_INLINE void put_positions(const Rows& position, std::size_t first, std::size
     std::memcpy(out.position + (first + v) * out.position_stride, place + 4 * v, three);
 }
 
-/// A group of vertices, of which `count` are wanted. `along(v)`: the direction along the surface and its sense, of who
-/// wants tangents.
+/// Writes the first `count` vertices of a group. `along(v)` returns the direction along the surface and its sense, for
+/// requests with tangents.
 template <class Along>
 HWY_INLINE void put(const Rows& position, const Rows& normal, std::size_t first, std::size_t count, bool packed,
                     const VertexTarget& out, const Along& along) {

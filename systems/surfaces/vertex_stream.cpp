@@ -27,7 +27,7 @@ bool lie_over(const VertexStream& a, std::size_t a_bytes, const VertexStream& b,
              end_b = begin_b + (vertices - 1) * b.stride + b_bytes;
   if (end_a <= begin_b || end_b <= begin_a) return false;
   if (a.stride != b.stride) return true;
-  // How far the later one's slots begin behind the other's.
+  // Bytes by which the later one's slots begin behind the other's.
   const bool a_first = begin_a <= begin_b;
   const std::size_t behind = (a_first ? begin_b - begin_a : begin_a - begin_b) % a.stride;
   return behind < (a_first ? a_bytes : b_bytes) || a.stride - behind < (a_first ? b_bytes : a_bytes);

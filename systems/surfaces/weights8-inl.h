@@ -57,7 +57,7 @@ HWY_INLINE WideEight all(float s) {
   return r;
 }
 
-/// The first three columns' product with p, and the fourth where `shift`.
+/// Returns the product of the first three columns with p, plus the fourth with `shift`.
 template <bool shift>
 HWY_INLINE EightVec apply(const AffineMap& m, const EightVec& p) {
   EightVec r;
@@ -76,7 +76,7 @@ struct Rows {
   hn::Vec<EightTag> row[4];
 };
 
-/// Four vectors of four lanes (or twice four) as their rows, and rows as vectors.
+/// Transposes four vectors of four lanes (or twice four) to their rows, and rows to vectors.
 HWY_INLINE Rows transposed(const Rows& v) {
   const EightTag tag;
   const hn::RepartitionToWide<EightTag> two;
@@ -102,7 +102,7 @@ HWY_INLINE void store_vertices(Tag, const hn::Vec<Tag>& row, float* out, std::si
   }
 }
 
-/// The same of vertices at two places; the second counts with eight lanes alone.
+/// Loads vertices from two places as one row. Only eight lanes use the second.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> load_vertices(Tag tag, const float* first, [[maybe_unused]] const float* second) {
   const hn::CappedTag<float, 4> four;

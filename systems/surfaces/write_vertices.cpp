@@ -15,14 +15,14 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-/// Row i of what `twice_place(vertex)` says: x y z x of a vertex.
+/// Returns row i of the vertices at `twice_place(vertex)`: x y z x of each.
 template <class Place>
 HWY_INLINE EightVector looked_up(const float* places, std::size_t i, const Place& twice_place) {
   return load_vertices(eight, places + 2 * std::size_t{twice_place(i)},
                        places + 2 * std::size_t{twice_place(group_vertices == 8 ? i + 4 : i)});
 }
 
-/// Twice the areas that rings bound, their components in the order z x y: a×b of a = (x y z x) is a·b.yzx − a.yzx·b.
+/// Returns twice the areas that rings bound, in the order z x y: a×b of a = (x y z x) is a·b.yzx − a.yzx·b.
 template <class Ring>
 HWY_INLINE EightVector ring_area(const float* places, std::size_t i, const Ring& ring) {
   const auto corner = [&](std::size_t k)
@@ -42,7 +42,7 @@ void write_positions(const VertexRings& rings, const float* places, const Vertex
     std::memcpy(out.position + v * out.position_stride, places + 2 * std::size_t{rings.vertex[v].twice_place}, three);
 }
 
-/// Adds what six neighbours lack to the areas of the vertices `first` and on.
+/// Adds the areas beyond six neighbours to those of the vertices from `first` on.
 HWY_NOINLINE void add_more(const float* places, std::size_t first, std::vector<MoreRing>::const_iterator begin,
                            std::vector<MoreRing>::const_iterator end, Rows& area) {
   alignas(64) float sum[4][eight_lanes], one[eight_lanes];
@@ -55,7 +55,7 @@ HWY_NOINLINE void add_more(const float* places, std::size_t first, std::vector<M
   for (std::size_t i = 0; i < 4; ++i) area.row[i] = hn::Load(eight, sum[i]);
 }
 
-/// A group of vertices from their rings, of which `count` are wanted; `more` goes on to the next group.
+/// Writes the first `count` vertices of a group from their rings. `more` advances to the next group.
 HWY_INLINE void write_group(const PlacedRing* vertex, const VertexRings& rings, std::span<const PlacedAlong> along,
                             std::vector<MoreRing>::const_iterator& more, const float* places, float sense,
                             std::size_t first, std::size_t count, bool packed, const VertexTarget& out) {
@@ -104,7 +104,7 @@ void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget
   for (int c = 0; c < 3; ++c) {
     for (float& word : scaled.column[c]) word *= c == 1 ? scale * stretch : scale;
   }
-  for (float& word : turned.column[1]) word /= stretch;  // normals, whose length is made 1 again
+  for (float& word : turned.column[1]) word /= stretch;  // normals, which are normalised afterwards
   for (std::size_t b = 0; b < surface.block.size(); ++b) {
     const EightVec p = apply<true>(scaled, load(surface.block[b].rest)),
                    n = apply<false>(turned, load(surface.block[b].normal));

@@ -18,7 +18,7 @@ float hill(float u, float top) {
 
 }  // namespace
 
-/// Each point's demand in turn is met by the least change of both numbers, until all are nearly met (Kaczmarz).
+/// Meets each point's demand in turn by the smallest change of both numbers, until all are nearly met (Kaczmarz).
 FootLift lift_of(std::span<const TooLow> points) {
   constexpr int sweeps = 8;
   FootLift lift;

@@ -9,13 +9,13 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// Phase of a step at a part of its time (as step_phase in assets/gait/step_curves-inl.h).
+/// Returns the phase of a step at a part of its time (as step_phase in assets/gait/step_curves-inl.h).
 float phase_at(const StepPlan<float>& plan, float u) {
   const float from = plan.phase_rate_from, r = 1 - from, s = plan.phase_rate_to - from;
   return u * (u * u * (u * (u * (6 * r - 3 * s) + (7 * s - 15 * r)) + (10 * r - 4 * s)) + from);
 }
 
-/// A foot that has hardly left the ground, or hardly come to it, cannot be lifted: parts of the swing.
+/// Parts of the swing between which a foot can be lifted. Outside them it has hardly left the ground, or is landing.
 constexpr float first_part = 0.15F, last_part = 0.85F;
 
 }  // namespace

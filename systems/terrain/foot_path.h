@@ -1,5 +1,5 @@
 #pragma once
-// Where the points of a foot are on its way from one foothold to the next.
+// Path of a foot's points from one foothold to the next.
 
 #include <array>
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Heel, ball and tips of the toes of the foot in the air at sixteen instants of its swing, in the world, m; `part`:
-/// of the swing's time that is over.
+/// Heel, ball and toe tips of the swing foot at sixteen instants of its swing, in the world, m. `part` is the elapsed
+/// part of the swing's time.
 struct FootPath {
   static constexpr std::size_t points = 3;
   struct At {
@@ -22,7 +22,7 @@ struct FootPath {
   std::array<At, lane_count> at;
 };
 
-/// Of one walker's step under way, over that ground, lifted as that says.
+/// Returns the path of one walker's step under way, over the ground and with the lift in `footing`.
 FootPath foot_path(const BodySize<float>& size, const StepPlan<float>& plan, const GaitState<float>& state,
                    const Footing<float>& footing);
 

@@ -10,21 +10,21 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// What stands out less is left to the swing, which passes level ground by as much.
+/// Height of an obstacle above which a lift is needed, m. The swing clears level ground by as much.
 constexpr float out_m = 0.005F;
-/// How far toes that hang are lifted beyond that at most. More would be of a foot that comes down just behind an edge,
-/// which no lift takes past it.
+/// Maximum lift of hanging toes beyond the obstacle, m. A larger demand is that of a foot that lands just behind an
+/// edge, which no lift takes past it.
 constexpr float hangs_m = 0.06F;
 
-/// The part of the way at which a place is, 0 to 1.
+/// Returns the part of the way at which a place is, 0 to 1.
 float along(const GroundProfile& ground, float x_m, float z_m) {
   const float x = ground.to_x_m - ground.from_x_m, z = ground.to_z_m - ground.from_z_m, length2 = x * x + z * z;
   if (!(length2 > 0)) return 0;
   const float part = ((x_m - ground.from_x_m) * x + (z_m - ground.from_z_m) * z) / length2;
-  return part >= 0 ? std::min(part, 1.0F) : 0;  // 0 where it is not a number
+  return part >= 0 ? std::min(part, 1.0F) : 0;  // 0 for NaN
 }
 
-/// What lifts all points of a foot on that path over what stands out of the straight way.
+/// Returns the lift of all points of a foot on that path over obstacles above the straight way.
 FootLift more_lift(const GroundProfile& ground, const FootPath& path) {
   constexpr float clear_m = 0.01F;
   std::array<TooLow, FootPath::points * lane_count> low;
@@ -64,7 +64,7 @@ FootLift lift_over(const GroundProfile& ground, const BodySize<float>& size, con
                                                                        GroundProfile::part(i)));
   if (!(plan.landing > 0) || !(max_out_m > out_m)) return {};
   const float max_m = std::min(max_out_m + hangs_m, max_lift_m);
-  constexpr int rounds = 2;  // a foot that is lifted hangs otherwise
+  constexpr int rounds = 2;  // a lifted foot hangs at another angle
   for (int round = 0; round < rounds; ++round) {
     const FootLift more = more_lift(ground, foot_path(size, plan, state, under));
     under.lift_early_m = std::min(under.lift_early_m + more.early_m, max_m);

@@ -1,5 +1,5 @@
 #pragma once
-// The ground on a foot's way, and how high the foot is lifted over it.
+// Ground on a foot's way, and the lift of the foot over it.
 
 #include <array>
 #include <cstddef>
@@ -19,14 +19,14 @@ struct GroundProfile {
 
   static constexpr float part(std::size_t i) { return static_cast<float>(i + 1) / static_cast<float>(asked + 1); }
 
-  /// A step in the ground is taken to be midway between two places.
+  /// Returns the height of the ground at a place. A step in the ground counts as midway between two samples.
   float at(float x_m, float z_m) const;
-  /// Straight from one foothold to the other.
+  /// Returns the height of the straight line between the footholds.
   float straight_at(float x_m, float z_m) const;
 };
 
-/// The lift with which the foot in the air passes over such ground, of one walker's step under way. Level ground and
-/// slopes it keeps clear of by itself.
+/// Returns the lift with which the swing foot of one walker's step under way clears such ground. Level ground and
+/// slopes need none.
 FootLift lift_over(const GroundProfile& ground, const BodySize<float>& size, const StepPlan<float>& plan,
                    const GaitState<float>& state, const Footing<float>& footing);
 

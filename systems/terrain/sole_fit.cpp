@@ -7,20 +7,20 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-/// What is lower is no edge but rough ground.
+/// Minimum height of an edge, m. Lower ones count as rough ground.
 constexpr float edge_m = 0.025F;
-/// What a move costs beside the part of the sole that reaches over an edge.
+/// Cost of a move by one place, relative to a place of sole that reaches over an edge.
 constexpr float of_moving = 0.15F;
-/// In longer steps legs do not reach further by more than a place.
+/// Step length, relative to height, up to which a foot can move by more than one place: legs reach no further.
 constexpr float short_step_h = 0.27F;
 
 using G = SoleGround;
 using Edges = std::array<bool, G::places - 1>;  // between each place and the next
 
-/// An edge just ahead of the toes costs as much as one just behind them: the next step begins under it.
+/// Cost of an edge just ahead of the toes. It equals that of one just behind them: the next step begins under it.
 constexpr float of_edge_ahead = 0.5F;
 
-/// How much of a sole whose heel is at that place reaches over edges, in places.
+/// Returns how much of a sole whose heel is at that place reaches over edges, in places.
 float overhang(const Edges& edge, std::size_t heel) {
   float over = 0;
   for (std::size_t i = heel; i + 1 < heel + G::under; ++i) {
@@ -32,7 +32,7 @@ float overhang(const Edges& edge, std::size_t heel) {
   return over;
 }
 
-/// Of a sole whose heel is at that place.
+/// Returns the fit of a sole whose heel is at that place.
 SoleFit fit_at(const SoleGround& ground, std::size_t heel, float height_m) {
   SoleFit fit;
   fit.place = heel + G::ankle - G::moves;
@@ -63,7 +63,7 @@ SoleFit fit_sole(const SoleGround& ground, float height_m, float step_length_m) 
   const std::size_t most = step_length_m < short_step_h * height_m ? G::moves : 1;
   for (std::size_t heel = G::moves - most; heel <= G::moves + most; ++heel) {
     const SoleFit fit = fit_at(ground, heel, height_m);
-    // Onto the same stair: else the next step would have two to climb.
+    // The foot stays on the same stair. Otherwise the next step would have two to climb.
     if (std::fabs(fit.height_m - unmoved.height_m - fit.ahead_m * ground.rise[unmoved.place]) > edge_m) continue;
     const float moved = static_cast<float>(heel) - static_cast<float>(G::moves);
     const float cost = overhang(edge, heel) + of_moving * std::fabs(moved);

@@ -21,8 +21,8 @@ GaitChange change_to(float height_m, const LevelWalk& level, float speed_m_s) {
   return change;
 }
 
-/// Somebody was looked at with this gait, and is slowed from such a walk on level ground; none: not slowed. Who is
-/// slowed already goes on being so.
+/// Marks a person as checked with this gait. `level` is the walk on level ground from which the person is slowed, zeros
+/// if not slowed. A person who is already slowed stays so.
 void mark(World& world, Entity person, const Gait<float>& gait, const LevelWalk& level) {
   auto footing = *world.get<Footing>(person);
   if (is_slowed(gait, footing)) return;
@@ -36,7 +36,7 @@ void mark(World& world, Entity person, const Gait<float>& gait, const LevelWalk&
 
 void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people, Slowing& to,
                  std::optional<float> steepness) {
-  constexpr float min_part = 0.04F;  // less is not worth a step that is solved anew
+  constexpr float min_part = 0.04F;  // smaller changes are not worth solving a step again
   to.people.clear();
   to.sizes.clear();
   to.gaits.clear();
@@ -78,7 +78,7 @@ void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people,
 void keep_slowed(World& world, const Slowing& to) {
   for (const auto& [change, level, before, has_style] : to.people) {
     const Gait<float> gait = asked_body(world, change.person)->gait;
-    if (gait.revision == before.revision) continue;  // could not be asked
+    if (gait.revision == before.revision) continue;  // the request failed
     mark(world, change.person, gait, change.gait->speed_m_s == level.speed_m_s ? LevelWalk{} : level);
   }
 }

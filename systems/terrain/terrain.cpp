@@ -32,12 +32,12 @@ constexpr std::size_t leaving = index(FootholdOf::leaving);
 constexpr std::size_t stance = index(FootholdOf::stance);
 constexpr std::size_t landing = index(FootholdOf::landing);
 
-/// Further than that from where it was, a foothold is another one.
+/// Distance beyond which a foothold counts as another one, m.
 constexpr float moved_m = 0.05F;
-/// Places asked for under a foot that stands already: under the ankle first.
+/// Places queried under a standing foot, the ankle first.
 constexpr std::size_t sole_places = 3;
 
-/// False where an answer is not a number or out of range. Makes what is too steep less so.
+/// Returns false if a height or slope is not a number or is out of range. Limits too steep slopes.
 bool make_usable(TerrainHeight& answer) {
   constexpr float steepest = 1;
   if (!(std::fabs(answer.height_m) <= highest_ground_m) || !std::isfinite(answer.rise_x) ||
@@ -50,9 +50,9 @@ bool make_usable(TerrainHeight& answer) {
 
 }  // namespace
 
-/// What the host gave, and what asking works in, which lies in the simulation's workspace. `asking`: whose ground is
-/// asked for, in which step, and with which query their places begin: three along the sole of each foot that stands,
-/// where all footholds are asked for; those of the next one; then those on the way to it.
+/// The host's settings and scratch memory of queries, in the simulation's workspace. `asking` lists people, their step,
+/// and the index of their first query. A person's queries are three along the sole of each standing foot, if all
+/// footholds are queried, then those of the next foothold, then those on the way to it.
 struct TerrainWork {
   struct Asking {
     Entity person;
@@ -70,10 +70,10 @@ struct TerrainWork {
   std::vector<Asking> asking;
   std::vector<TerrainQuery> queries;
   std::vector<TerrainHeight> answers;
-  std::vector<Entity> people;  // whose speed may have to change
+  std::vector<Entity> people;  // whose speed must be checked
   Slowing slowing;
   TerrainReport report;
-  bool told = false;  // `report` is of ticks that are over
+  bool told = false;  // `report` is of past ticks
 
   void collect(World& world);
   void collect_block(const Table& table, std::uint32_t block);
@@ -148,7 +148,7 @@ void TerrainWork::collect(World& world) {
   answers.assign(queries.size(), {});
 }
 
-/// The plane that a foot stands on: of the ground under its ankle, raised where heel or toes would be in the ground.
+/// Returns a foot's plane: that of the ground under its ankle, raised where heel or toes would be in the ground.
 TerrainHeight TerrainWork::foothold(std::size_t first) const {
   TerrainHeight plane = answers[first];
   const TerrainQuery& ankle = queries[first];
@@ -161,11 +161,11 @@ TerrainHeight TerrainWork::foothold(std::size_t first) const {
   return plane;
 }
 
-/// The next foothold, clear of edges where it can be.
+/// Returns the next foothold, clear of edges where possible.
 TerrainWork::Landing TerrainWork::fit_landing(std::size_t first, float height_m, float step_length_m) const {
   const TerrainQuery &heel = queries[first], &toes = queries[first + SoleGround::places - 1];
   const float sole_m = SoleGround::apart_h * height_m * static_cast<float>(SoleGround::places - 1);
-  const float x = (toes.x_m - heel.x_m) / sole_m, z = (toes.z_m - heel.z_m) / sole_m;  // where the toes point
+  const float x = (toes.x_m - heel.x_m) / sole_m, z = (toes.z_m - heel.z_m) / sole_m;  // direction of the toes
   SoleGround sole;
   for (std::size_t i = 0; i < SoleGround::places; ++i) {
     sole.height_m[i] = answers[first + i].height_m;
@@ -176,8 +176,8 @@ TerrainWork::Landing TerrainWork::fit_landing(std::size_t first, float height_m,
   return {{fit.height_m, under.rise_x, under.rise_z}, fit.ahead_m * x, fit.ahead_m * z};
 }
 
-/// Unusable answers along a sole get the plane of the usable one nearest to the ankle, or level ground at `usual_m`.
-/// Returns how many there were.
+/// Gives unusable places along a sole the plane of the usable one nearest to the ankle, or level ground at `usual_m`.
+/// Returns their number.
 std::size_t TerrainWork::mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m) {
   std::size_t unusable = 0;
   const auto nearer = [&](std::size_t a, std::size_t b) {
@@ -201,8 +201,8 @@ std::size_t TerrainWork::mend_answers(std::size_t first, std::size_t count, std:
   return unusable;
 }
 
-/// Moves a person whose pose is not on this ground onto it at once: one who was placed, woke or is newly managed. No
-/// inertia is felt.
+/// Moves a person whose pose is not on this ground onto it at once, without inertia: a person who was placed, woke or
+/// is newly managed.
 void TerrainWork::stand_up(World& world, Entity person) {
   constexpr float more_than_a_step_m = 0.4F, fat_feels_m = 0.05F;
   const auto feet = world.get<Feet>(person);
@@ -225,7 +225,7 @@ void TerrainWork::stand_up(World& world, Entity person) {
   forget_motion(world, person);
 }
 
-/// Returns how many answers were unusable.
+/// Returns the number of unusable answers.
 std::size_t TerrainWork::put_answers(const Frame& frame) {
   people.clear();
   people.reserve(asking.size());
@@ -242,11 +242,11 @@ std::size_t TerrainWork::put_answers(const Frame& frame) {
   queries.clear();
   if (options.slows_down) find_changed(frame.world);
   drop_repeated(people);
-  if (!people.empty()) (void)scale_speed(frame, people);  // who cannot be asked now is asked again
+  if (!people.empty()) (void)scale_speed(frame, people);  // failed requests are repeated
   return unusable;
 }
 
-/// Adds the walkers on a slope of whom the host has asked something since they were looked at.
+/// Adds the walkers on a slope whose gait the host has changed since they were checked.
 void TerrainWork::find_changed(World& world) {
   for (const Table* const one : tables.find(world)) {
     const Table& table = *one;
@@ -263,7 +263,7 @@ void TerrainWork::find_changed(World& world) {
   }
 }
 
-/// Changes the speed of these walkers to what suits the steepness of their ground, or one of all (find_slowed).
+/// Changes the speed of these walkers to suit the steepness of their ground, or one steepness for all (find_slowed).
 Result<void> TerrainWork::scale_speed(const Frame& frame, std::span<const Entity> some,
                                       std::optional<float> steepness) {
   find_slowed(frame.world, frame.jobs, some, slowing, steepness);
@@ -274,8 +274,8 @@ Result<void> TerrainWork::scale_speed(const Frame& frame, std::span<const Entity
   return {};
 }
 
-/// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
-/// are.
+/// Returns the number of unusable answers. Skips people who were removed, placed elsewhere or have taken a step since
+/// the query.
 std::size_t TerrainWork::put_answers(World& world, const Asking& one, bool slows_down) {
   const auto [table, row] = world.find(one.person);
   if (table == nullptr || !TableColumn<Footing>(*table) || !TableColumn<GaitState>(*table) ||
@@ -309,7 +309,7 @@ std::size_t TerrainWork::put_answers(World& world, const Asking& one, bool slows
   if (plan.landing[l] > 0) {
     const Landing at = fit_landing(next, height_m, plan.step_length_m[l]);
     put(landing, at.plane, at.moved_x_m, at.moved_z_m);
-  } else {  // who stands moves no foot
+  } else {  // standing walkers move no foot
     for (auto* values : by_foothold(footing)) (*values)[landing][l] = (*values)[leaving][l];
   }
   footing.steps[l] = one.steps;
@@ -319,7 +319,7 @@ std::size_t TerrainWork::put_answers(World& world, const Asking& one, bool slows
   footing.landing_x_m[l] = one.landing_x_m;
   footing.landing_z_m[l] = one.landing_z_m;
   footing.known[l] = footing_all;
-  // From the foothold behind to the one ahead: of a kerb, two steps know.
+  // Steepness from the foothold behind to the one ahead: a kerb affects two steps.
   constexpr float steepest = 1, shortest_m = 0.2F;
   const float way_m = std::max(plan.length_before_m[l] + plan.step_length_m[l], shortest_m);
   const float steepness = (footing.height_m[landing][l] - footing.height_m[leaving][l]) / way_m;
@@ -350,7 +350,7 @@ TerrainWork& Terrain::work() const {
 
 namespace {
 
-/// Those of them who are managed, or who are not, each once.
+/// Returns those people who are managed, or those who are not, each once.
 std::vector<Entity> those(const World& world, std::span<const Entity> people, bool managed) {
   std::vector<Entity> some;
   for (const Entity person : people)
@@ -388,13 +388,13 @@ Result<void> Terrain::release(std::span<const Entity> people) {
   }
   constexpr std::array part = {type_id<Footing<float>>()};
   const std::vector<Entity> changes = those(world, people, true);
-  // Who is slowed goes back to the walk on level ground: first, so that where memory runs out they are slowed again.
+  // Slowed walkers first return to the walk on level ground. If memory runs out after that, they are slowed again.
   if (auto done = work().scale_speed(frame_, changes, 0); !done) return done;
   World::Transaction transaction(world, jobs);
   group_by_table(world, changes,
                  [&](std::span<const Entity> together) { world.change_archetype(together, {}, part, jobs); });
   transaction.commit();
-  for (const Entity person : changes) settle_fat(world, person);  // they go down to the plane at once
+  for (const Entity person : changes) settle_fat(world, person);  // they drop to the plane at once
   return {};
 }
 

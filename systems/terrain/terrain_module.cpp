@@ -13,7 +13,7 @@ namespace {
 
 bool is_sound_footing(const Footing<float>& footing) {
   constexpr float steepest = 1, fastest = 20;
-  const auto within = [](float value, float most) { return std::fabs(value) <= most; };  // false of no number
+  const auto within = [](float value, float most) { return std::fabs(value) <= most; };  // false for NaN
   bool sound = within(footing.lift_early_m, max_lift_m) && within(footing.lift_late_m, max_lift_m) &&
                std::isfinite(footing.stance_x_m) && std::isfinite(footing.stance_z_m) &&
                std::isfinite(footing.landing_x_m) && std::isfinite(footing.landing_z_m) &&

@@ -1,5 +1,5 @@
 #pragma once
-// The ground under walkers' feet as a part of their rows.
+// The module of terrain: the ground under walkers' feet as a part of their rows.
 
 #include <mobil/engine/module.h>
 
@@ -7,9 +7,9 @@ namespace mobil::inline v0_3 {
 
 Module terrain_module();
 
-/// Before the systems: the host's function answers how high the ground is under new footholds (Terrain).
+/// Returns the phase before the systems in which the host's function gives heights under new footholds (Terrain).
 Phase ground_under_feet();
-/// Counts of Terrain::report begin at 0.
+/// Resets the counts of Terrain::report to 0.
 void begin_terrain_report(const Frame& frame);
 
 }  // namespace mobil::inline v0_3

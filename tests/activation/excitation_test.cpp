@@ -1,4 +1,4 @@
-// Excitation by phase and speed: against double precision and against what was measured.
+// Excitation by phase and speed, compared with double precision and with measurements.
 #include "systems/activation/excitation.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ MOBIL_TEST_LABELS("long");
 namespace mobil::excitation_test {
 namespace {
 
-TEST(Excitation, LanesAreWhatDoublePrecisionSays) {
+TEST(Excitation, LanesMatchDoublePrecision) {
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     const RowExcitation row = row_excitation(static_cast<Muscle>(m));
     for (int block = 0; block < 50; ++block) {
@@ -40,16 +40,16 @@ TEST(Excitation, LanesAreWhatDoublePrecisionSays) {
   }
 }
 
-TEST(Excitation, WhoStandsHasAStandingTone) {
+TEST(Excitation, StandingPeopleHaveAStandingTone) {
   const RowExcitation row = row_excitation(*find_muscle("soleus"));
   LegClock<Lanes<float>> clock{};
-  clock.cycle[3] = clock.speed[5] = std::numeric_limits<float>::quiet_NaN();  // the least, and as of who stands
+  clock.cycle[3] = clock.speed[5] = std::numeric_limits<float>::quiet_NaN();  // NaN: minimum excitation; standing tone
   Lanes<float> level;
   excite(row, clock, &level);
   for (std::size_t l = 0; l < lane_count; ++l) EXPECT_EQ(level[l], l == 3 ? 0.01F : 0.05F) << l;
 }
 
-/// From standing to the fastest walk without a jump.
+/// Excitation changes without a jump from standing to the fastest walk.
 TEST(Excitation, GrowsEvenlyWithSpeed) {
   for (const MemberMuscle& muscle : member_muscles()) {
     const MemberExcitation of = member_excitation(muscle);
@@ -76,12 +76,12 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return ab / std::sqrt(aa * bb);
 }
 
-/// Where a curve is greatest, of those that have one hump: within 6 % of the cycle of the measured one.
-TEST(Excitation, IsWhatWasMeasuredAtFiveSpeeds) {
+/// Curves correlate with measured EMG at five speeds. Peaks of single-humped curves are within 6 % of the cycle.
+TEST(Excitation, MatchesMeasuredEmgAtFiveSpeeds) {
   const std::array<std::string_view, 2> required = {"task", "percent_gait"};
   const auto table = read_csv(MOBIL_SOURCE_DIR "/assets/reference/bovi2011_emg.csv", required);
   ASSERT_TRUE(table) << table.error().message;
-  // Over √(g · leg): `mobil fit-gait --excitation` says from what.
+  // Speed over √(g · leg); `mobil fit-gait --excitation` prints the sources.
   const std::map<std::string, double, std::less<>> speed = {
       {"very_slow", 0.266}, {"slow", 0.372}, {"free", 0.441}, {"medium", 0.478}, {"fast", 0.611}};
   for (const ExcitationCurve& curve : excitation_curves()) {

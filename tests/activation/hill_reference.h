@@ -1,6 +1,6 @@
 #pragma once
-// One fibre and one tendon in line, in double precision, solved by bisection: what systems/activation does in lanes.
-// The curves are written down from De Groote et al. 2016 and OpenSim's DeGrooteFregly2016Muscle.
+// One fibre and one tendon in series, in double precision, solved by bisection: reference for the lanes of
+// systems/activation. The curves follow De Groote et al. 2016 and OpenSim's DeGrooteFregly2016Muscle.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ inline double hill_tendon(double t) {
   return std::max(-0.05, 0.2 * std::exp(std::log(6.0) / 0.049 * (t - 1)) - 0.2);
 }
 
-/// Fibre's length over its optimal one, on a path of length `path_m`; `tick_s` 0: at rest.
+/// Returns the fibre's length over its optimal length, on a path of length `path_m`. With `tick_s` 0 it is at rest.
 inline double hill_fibre(const HillMember& of, double path_m, double activation, double before, double tick_s) {
   const double height = std::sin(of.pennation_rad);
   double low = std::max(1.05 * height, 0.3), high = 1.8;
@@ -49,7 +49,7 @@ inline double hill_tendon_m(const HillMember& of, double path_m, double m) {
   return path_m - of.fibre_m * m * hill_cosine(of, m);
 }
 
-/// Thelen 2003.
+/// Activation dynamics of Thelen 2003.
 inline double hill_activation(double activation, double excitation, double tick_s) {
   const double by = 0.5 + 1.5 * activation, tau = excitation > activation ? 0.010 * by : 0.040 / by;
   return activation + (excitation - activation) * (1 - std::exp(-tick_s / tau));

@@ -1,5 +1,5 @@
-// Legs that pull as they are excited, in a walk: what their forces make at the joints, and how tendons share the work.
-// One process for all tests of a suite.
+// Legs with active muscles in a walk: moments of their forces at the joints, and the share of the tendons. The tests
+// share one stride, so they run in one process.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Instant {
   std::map<std::string_view, Of> muscle{};
 };
 
-/// A stride at people's usual speed, all single muscles.
+/// Returns a stride at people's usual speed, with all single muscles.
 const std::vector<Instant>& stride() {
   static const std::vector<Instant> all = [] {
     std::vector<Instant> instants;
@@ -64,8 +64,8 @@ const Instant& at(float cycle) {
   return *std::ranges::min_element(stride(), {}, [&](const Instant& i) { return std::abs(i.cycle - cycle); });
 }
 
-/// The scale of excitations (assets/muscles/excitation_curves.h) is chosen so.
-TEST(LegMoments, AreOfTheMeasuredSize) {
+/// The scale of excitations (assets/muscles/excitation_curves.h) is chosen to meet these bounds.
+TEST(LegMoments, HaveTheMeasuredSize) {
   ASSERT_GT(stride().size(), 40U);
   float ankle = 0, walk_ankle = 0, knee = 0, walk_knee = 0;
   for (const Instant& now : stride()) {
@@ -79,7 +79,8 @@ TEST(LegMoments, AreOfTheMeasuredSize) {
   EXPECT_LT(knee, 1.3F * walk_knee);
 }
 
-/// Lichtwark & Wilson 2006, Fukunaga et al. 2001: in stance the calf's fibres all but hold, and its tendon lengthens.
+/// Lichtwark & Wilson 2006, Fukunaga et al. 2001: in stance the calf's fibres are nearly isometric and its tendon
+/// lengthens.
 TEST(LegMoments, TendonOfTheCalfTakesMostOfItsLengthening) {
   const auto& from = at(0.10F).muscle.at("gastrocnemius_medial");
   const auto& to = at(0.42F).muscle.at("gastrocnemius_medial");

@@ -1,7 +1,7 @@
 #pragma once
-// How a leg's muscles may share given moments, in double precision: static optimisation. Of all activations that make
-// the moments, those of least Σ volume · activation² (Crowninshield & Brand 1981 with the square; Happee & van der Helm
-// 1995 for the volumes). Muscles that the leg lacks are a reserve moment at each joint.
+// Static optimisation in double precision: shares given moments among a leg's muscles. Of all activations that make the
+// moments, it returns those of minimum Σ volume · activation² (Crowninshield & Brand 1981 with the square; Happee & van
+// der Helm 1995 for the volumes). A reserve moment at each joint replaces muscles that the leg lacks.
 
 #include <algorithm>
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace mobil::test {
 
-/// One muscle at one instant. `active_n`: what it would pull with at activation 1, beside its passive force.
+/// One muscle at one instant. `active_n`: active force at activation 1, added to its passive force.
 struct SharingMember {
   double volume_m3 = 0, active_n = 0, passive_n = 0;
-  Eigen::Vector3d arm_m = Eigen::Vector3d::Zero();  // of each moment
+  Eigen::Vector3d arm_m = Eigen::Vector3d::Zero();  // for each moment
 };
 
-/// A reserve of `size_nm` costs as much as a muscle of `volume_m3` at activation 1; it may be larger.
+/// A reserve of `size_nm` costs as much as a muscle of `volume_m3` at activation 1, and can exceed that size.
 struct SharingReserve {
   double size_nm = 1, volume_m3 = 1;
 };
@@ -30,8 +30,8 @@ struct Sharing {
   Eigen::Vector3d reserve_nm = Eigen::Vector3d::Zero();
 };
 
-/// The dual has three unknowns: activation = clamp(active · (arm · y) / volume), reserve = size² · y / volume. Its
-/// Newton steps, each halved until what is left of the moments shrinks.
+/// Solves the dual problem, which has three unknowns: activation = clamp(active · (arm · y) / volume), reserve = size²
+/// · y / volume. Each Newton step is halved until the residual moments shrink.
 inline Sharing share_moments(const std::vector<SharingMember>& members, const Eigen::Vector3d& moments_nm,
                              const SharingReserves& reserves) {
   constexpr double least = 0.01, most = 1;

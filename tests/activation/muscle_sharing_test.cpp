@@ -1,4 +1,4 @@
-// What a walk's own moments ask of its muscles by static optimisation: beside what people's muscles do.
+// Muscle activations from a walk's own moments by static optimisation, compared with measured EMG.
 #include "tests/activation/muscle_sharing.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace {
 using Eigen::Vector3d;
 using test::share_moments, test::SharingMember, test::SharingReserves;
 
-/// Iliopsoas and glutei: 2000 N at 4 cm, fibres of 0.1 m. Knee and ankle have all their muscles: next to nothing else.
+/// Iliopsoas and glutei: 2000 N at 4 cm, fibres of 0.1 m. Knee and ankle have all their muscles and nearly no reserve.
 const SharingReserves missing_at_the_hip = {{{80, 6.7e-4}, {1, 1e-3}, {1, 1e-3}}};
 
 std::vector<SharingMember> random_leg(std::mt19937& dice) {
@@ -43,7 +43,7 @@ double cost(const std::vector<SharingMember>& leg, const SharingReserves& reserv
   return sum;
 }
 
-/// Any other activations make up for it by reserves, and cost more.
+/// Any other activations need more reserve and cost more.
 TEST(MuscleSharing, IsTheCheapestThatMakesTheMoments) {
   std::mt19937 dice(7);
   std::uniform_real_distribution<double> moment(-120, 120), other(0.01, 1);
@@ -66,7 +66,7 @@ TEST(MuscleSharing, IsTheCheapestThatMakesTheMoments) {
   }
 }
 
-/// A leg of made-up muscles in each lane, at moments that some of them cannot make.
+/// A leg of random muscles in each lane, with moments that some legs cannot make.
 struct MadeUpLegs {
   LegDesign<Lanes<float>> design{};
   std::array<Lanes<float>, leg_member_count> path;
@@ -80,7 +80,7 @@ struct MadeUpLegs {
       for (std::size_t i = 0; i < leg_member_count; ++i) {
         auto& of = design.member[i];
         of.fibre_m[lane] = fibre(dice), of.force_n[lane] = force(dice);
-        of.tendon_m[lane] = 0.01F * of.fibre_m[lane];  // so short that lengths do not follow from forces
+        of.tendon_m[lane] = 0.01F * of.fibre_m[lane];  // so short that forces do not depend on tendon length
         of.height_m[lane] = 0.2F * of.fibre_m[lane];
         path[i][lane] = of.tendon_m[lane] + stretch(dice) * of.fibre_m[lane];
         for (auto* one : {&arm[i].hip, &arm[i].knee, &arm[i].ankle}) (*one)[lane] = arm_m(dice);
@@ -105,8 +105,8 @@ struct MadeUpLegs {
   }
 };
 
-/// A number of steps does for all but a few of the hardest legs; what they lack is said.
-TEST(MuscleSharing, InLanesIsTheOracles) {
+/// The fixed number of steps suffices for 98 % of legs. The residual of the others is reported.
+TEST(MuscleSharing, LanesMatchTheReference) {
   std::mt19937 dice(11);
   int legs = 0, near = 0;
   for (int block = 0; block < 40; ++block) {
@@ -139,7 +139,7 @@ TEST(MuscleSharing, InLanesIsTheOracles) {
   EXPECT_GE(near, 0.98 * legs);
 }
 
-TEST(MuscleSharing, ANanStaysInItsLane) {
+TEST(MuscleSharing, NanStaysInItsLane) {
   std::mt19937 dice(5);
   MadeUpLegs made_up(dice);
   std::array<Lanes<float>, leg_member_count> sound, of_most;
@@ -169,7 +169,7 @@ struct Stride {
   std::vector<Vector3d> moment_nm, reserve_nm;
 };
 
-/// Of the right leg; each fibre's length and speed are those of the walk whose muscles are excited as in people.
+/// Returns a stride of the right leg. Fibre lengths and speeds are those of a walk with measured excitation.
 Stride walk(float speed_m_s) {
   Stride stride;
   Simulation simulation;
@@ -223,9 +223,9 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return (dx * dy).sum() / std::sqrt(dx.square().sum() * dy.square().sum());
 }
 
-/// Two ways to the same thing that have nothing in common but the fibres' state: people's measured excitation, and what
-/// the walk's moments ask for. Knee and ankle have all their muscles, so nothing is left of theirs.
-TEST(MuscleSharing, OfAWalksMomentsIsMuchAsPeoplesMusclesDo) {
+/// Compares two independent methods that share only the fibres' state: people's measured excitation, and the
+/// activations that the walk's moments require. Knee and ankle have all their muscles, so no moment remains there.
+TEST(MuscleSharing, WalkMomentsGiveMeasuredActivations) {
   for (const float speed : {0.9F, 1.39F, 1.8F}) {
     const Stride stride = walk(speed);
     ASSERT_GT(stride.moment_nm.size(), 30U);

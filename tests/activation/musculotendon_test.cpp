@@ -1,4 +1,4 @@
-// Fibre and tendon in line: against the same in double precision, against measured calves, and where it is hard.
+// Fibre and tendon in series, compared with double precision and measured calves, and in hard cases.
 #include "systems/activation/musculotendon.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ struct Muscle1 {
 HillMember degrees(double fibre_m, double tendon_m, double pennation_deg, double force_n) {
   return {fibre_m, tendon_m, pennation_deg * std::numbers::pi / 180, force_n};
 }
-// gait2392's.
+// Parameters of gait2392.
 const HillMember medial_gastrocnemius = degrees(0.060, 0.390, 17, 1558), soleus = degrees(0.050, 0.250, 25, 3549),
                  lateral_gastrocnemius = degrees(0.064, 0.380, 8, 683),
                  vastus_lateralis = degrees(0.084, 0.157, 5, 1871);
@@ -60,7 +60,7 @@ constexpr double optimal_path(const HillMember& of) {
   return of.tendon_m + of.fibre_m * std::cos(of.pennation_rad);
 }
 
-TEST(Musculotendon, IsWhatDoublePrecisionSays) {
+TEST(Musculotendon, MatchesDoublePrecision) {
   std::mt19937 random(1);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   double fibre_off = 0, force_off = 0;
@@ -92,8 +92,9 @@ TEST(Musculotendon, IsWhatDoublePrecisionSays) {
   EXPECT_LT(force_off, 2e-3) << "of its isometric force";
 }
 
-/// Maganaris & Paul, J. Biomech. 35, 2002: gastrocnemius' tendon 11.1 ± 3.1 mm, 4.9 ± 1 % at the most it can.
-TEST(Musculotendon, CalfShortensByWhatItsTendonGives) {
+/// Maganaris & Paul, J. Biomech. 35, 2002: gastrocnemius' tendon lengthens by 11.1 ± 3.1 mm, 4.9 ± 1 %, at maximum
+/// force.
+TEST(Musculotendon, CalfBellyShortensAsItsTendonLengthens) {
   for (const HillMember& of : {medial_gastrocnemius, lateral_gastrocnemius, soleus}) {
     Muscle1 one(of, optimal_path(of));
     one.rest(optimal_path(of), 0.01);
@@ -107,7 +108,7 @@ TEST(Musculotendon, CalfShortensByWhatItsTendonGives) {
   }
 }
 
-TEST(Musculotendon, HoldsAtHardCases) {
+TEST(Musculotendon, StaysSoundInHardCases) {
   for (const HillMember& of : {medial_gastrocnemius, soleus, vastus_lateralis, degrees(0.2, 0.1, 0, 400)}) {
     Muscle1 one(of, optimal_path(of));
     const auto sound = [&] {
@@ -123,7 +124,7 @@ TEST(Musculotendon, HoldsAtHardCases) {
     const float held = one.muscle.force_n[0];
     one.tick(optimal_path(of), 1);
     EXPECT_EQ(one.muscle.force_n[0], held) << "a steady pull is steady to the last bit";
-    for (int tick = 0; tick < 2000; ++tick) {  // flicker, and steps of the path far beyond what a joint does
+    for (int tick = 0; tick < 2000; ++tick) {  // flicker, and path steps beyond any joint's range
       one.tick(optimal_path(of) * (tick % 3 == 0 ? 0.6 : tick % 5 == 0 ? 1.4 : 1), tick % 2 == 0 ? 1 : 0.01);
       ASSERT_TRUE(sound()) << tick;
     }
@@ -134,7 +135,7 @@ TEST(Musculotendon, HoldsAtHardCases) {
   }
 }
 
-TEST(Musculotendon, NotANumberStaysInItsLaneAndGoes) {
+TEST(Musculotendon, NanStaysInItsLaneAndRecovers) {
   const HillMember& of = soleus;
   Muscle1 good(of, optimal_path(of)), bad(of, optimal_path(of));
   good.rest(optimal_path(of), 0.1), bad.rest(optimal_path(of), 0.1);

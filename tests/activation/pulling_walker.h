@@ -1,5 +1,5 @@
 #pragma once
-// A walker with forces whose single muscles pull as in walking people, lines alone.
+// A walker with forces and active single muscles excited as in walking people, with lines of action only.
 
 #include <mobil/simulation.h>
 

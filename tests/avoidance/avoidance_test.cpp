@@ -1,4 +1,4 @@
-// Walkers who keep out of each other's way: what is promised of reservations, and what crowds do.
+// Collision avoidance: properties of reservations, and behaviour of crowds.
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -38,7 +38,7 @@ const Reservation& reservation_of(ReservationBook& book, Simulation& simulation)
   return book.reservation(0);
 }
 
-/// The same of somebody who avoids others for that alone.
+/// Returns the reservation of a person who is managed by avoidance only for this call.
 Reservation reservation_while_avoiding(Avoiders& all, ReservationBook& book, Entity one) {
   EXPECT_TRUE(all.avoidance.manage(one));
   const Reservation reservation = reservation_of(book, all.simulation);
@@ -46,7 +46,7 @@ Reservation reservation_while_avoiding(Avoiders& all, ReservationBook& book, Ent
   return reservation;
 }
 
-/// How far roots are from a way at its instants.
+/// Returns the largest distance of the person's roots from a path's samples, m.
 double astray_m(Simulation& simulation, Entity one, std::uint32_t first, const float* x_m, const float* z_m) {
   double most = 0;
   for (int k = 0; k < 150; ++k) {
@@ -59,8 +59,8 @@ double astray_m(Simulation& simulation, Entity one, std::uint32_t first, const f
   return most;
 }
 
-/// A reservation is where the walker will be who is asked to stop at the next strike and to go straight on until then.
-RC_GTEST_PROP(Reservation, IsWhereWhoStopsWillBe, ()) {
+/// A reservation is the path of a walker who continues straight to the next strike and then stops.
+RC_GTEST_PROP(Reservation, IsThePathOfAStoppingWalker, ()) {
   const float speed = static_cast<float>(*rc::gen::inRange(30, 220)) * 0.01F;
   const float turn = static_cast<float>(*rc::gen::inRange(-180, 180)) * pi / 180;
   Avoiders all;
@@ -75,13 +75,13 @@ RC_GTEST_PROP(Reservation, IsWhereWhoStopsWillBe, ()) {
   const auto state = *simulation.get<GaitState>(one);
   RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
   RC_ASSERT(simulation.turn_to(one, state.heading_rad + state.turn_rad).has_value());
-  // Who needs several steps to stop is asked for a heading in between, which nobody knows beforehand to the bit.
+  // A walker who needs several steps to stop gets headings in between, which are not predicted exactly.
   const double most = speed <= 1.3F ? 0.002 : 0.12;
   RC_ASSERT(astray_m(simulation, one, reservation.first, reservation.x_m.data(), reservation.z_m.data()) < most);
 }
 
-/// So a world that was restored, which makes its reservations anew under way, goes on as one that was not.
-RC_GTEST_PROP(Reservation, IsTheSameWheneverItIsMade, ()) {
+/// A restored world makes its reservations again between strikes, so it must get the same ones.
+RC_GTEST_PROP(Reservation, IndependentOfTheTickItIsMadeIn, ()) {
   Avoiders all;
   Simulation& simulation = all.simulation;
   const Entity one = all.come(static_cast<float>(*rc::gen::inRange(40, 130)) * 0.01F, 3.0F, -2.0F, 0.4F);
@@ -98,8 +98,8 @@ RC_GTEST_PROP(Reservation, IsTheSameWheneverItIsMade, ()) {
   }
 }
 
-/// Every step that may be chosen leads where it was said to: the reservation made of it then has the same places.
-RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
+/// Every candidate step leads where it was predicted: the reservation made after it has the same positions.
+RC_GTEST_PROP(Trial, LeadsToThePredictedPath, ()) {
   const bool stands = *rc::gen::inRange(0, 3) == 0;
   const float speed = stands ? 0.0F : static_cast<float>(*rc::gen::inRange(40, 150)) * 0.01F;
   Avoiders all;
@@ -144,12 +144,12 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   for (std::size_t s = reservation.first - first; s < way_samples; ++s) {
     const double off = std::hypot(double{ways.x_m[s][l]} - double{reservation.x_m[s + first - reservation.first]},
                                   double{ways.z_m[s][l]} - double{reservation.z_m[s + first - reservation.first]});
-    // On the way where hips are at the strike is known to three centimetres, at the end all is.
+    // Hip positions at the strike are predicted within 3 cm; the end of the step is predicted within 6 mm.
     RC_ASSERT(off < (s + 1 == way_samples ? 0.006 : 0.03));
   }
 }
 
-TEST(Avoidance, TwoWhoMeetPassWithoutStopping) {
+TEST(Avoidance, OncomingWalkersPassWithoutStopping) {
   Avoiders all;
   const Entity a = all.come(1.3F, 0.0F, -8.0F), b = all.come(1.3F, 0.0F, 8.0F, pi);
   const DesiredVelocity wishes[] = {{a, 1.3F, 0}, {b, 1.3F, pi}};
@@ -166,7 +166,7 @@ TEST(Avoidance, TwoWhoMeetPassWithoutStopping) {
   EXPECT_LT(all.root(b).z_m, -8);
 }
 
-TEST(Avoidance, NobodyWalksIntoAnybodyInAFullRoom) {
+TEST(Avoidance, NoCollisionsInAFullRoom) {
   Room room(1);
   double walked = 0;
   for (int k = 0; k < 60 * 60; ++k) {
@@ -190,7 +190,7 @@ TEST(Avoidance, NobodyWalksIntoAnybodyInAFullRoom) {
   EXPECT_GT(walked / static_cast<double>(room.people), 6) << "they do get about";
 }
 
-TEST(Avoidance, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {
+TEST(Avoidance, SameBitsOnAnyThreadsAndFromASnapshot) {
   Room one(1), three(3);
   std::vector<std::byte> saved;
   for (int k = 0; k < 900; ++k) {
@@ -207,7 +207,7 @@ TEST(Avoidance, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {
   EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
 }
 
-TEST(Avoidance, ASteadyCrowdTakesNoMemory) {
+TEST(Avoidance, SteadyCrowdAllocatesNothing) {
   Room room(1);
   for (int k = 0; k < 300; ++k) room.tick();
   std::size_t requests = 0;
@@ -219,7 +219,7 @@ TEST(Avoidance, ASteadyCrowdTakesNoMemory) {
   EXPECT_EQ(requests, 0U);
 }
 
-TEST(Avoidance, WhoAvoidsNobodyIsAvoidedAndSoAreDiscs) {
+TEST(Avoidance, UnmanagedWalkersAndDiscsAreAvoided) {
   Avoiders all;
   const Entity a = all.come(1.2F, 0.0F, -6.0F), b = walker(all.simulation, 1.2F, 0.1F, 6, pi);
   double least = 10, min_disc = 10;
@@ -235,7 +235,7 @@ TEST(Avoidance, WhoAvoidsNobodyIsAvoidedAndSoAreDiscs) {
   EXPECT_GT(all.root(a).z_m, 5);
 }
 
-TEST(Avoidance, WhoIsPutIntoACrowdGetsOutOfIt) {
+TEST(Avoidance, OverlappingPeopleSeparate) {
   Avoiders all;
   std::vector<DesiredVelocity> wishes;
   for (int i = 0; i < 5; ++i) {
@@ -248,7 +248,7 @@ TEST(Avoidance, WhoIsPutIntoACrowdGetsOutOfIt) {
     for (const DesiredVelocity& b : wishes) EXPECT_TRUE(a.person == b.person || all.apart_m(a.person, b.person) > 1);
 }
 
-TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
+TEST(Avoidance, DesiredVelocityIsKeptAsleepAndReleasedPeopleWalk) {
   Avoiders all;
   Simulation& simulation = all.simulation;
   Avoidance& avoidance = all.avoidance;
@@ -269,9 +269,9 @@ TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
   EXPECT_NEAR(root_of(simulation, one).z_m - before, 1.2, 0.1);
 }
 
-/// Two tall walkers who speed up towards each other and strike in the same ticks, from any distance and anywhere
-/// between the cells that reservations are sorted into: their ways are longer than reservations are.
-TEST(Avoidance, WhoComesFastIsSeenFromFarOff) {
+/// Two tall walkers accelerate towards each other and strike in the same ticks, at random distances and positions
+/// relative to the cells that reservations are sorted into. Their stopping distances exceed a reservation's length.
+TEST(Avoidance, FastOncomingWalkersAreSeenInTime) {
   for (std::uint64_t c = 0; c < 1500; ++c) {
     const auto draw = [&](std::uint64_t which) { return drawn(c, which); };
     const float speed = 0.8F + 1.4F * draw(0), faster = speed + (2.3F - speed) * draw(1), off = 3 * draw(4);
@@ -290,7 +290,7 @@ TEST(Avoidance, WhoComesFastIsSeenFromFarOff) {
   }
 }
 
-TEST(Avoidance, AlonePeopleWalkAsTheyWouldWithout) {
+TEST(Avoidance, LoneWalkersAreUnaffected) {
   Avoiders all;
   Simulation without;
   const Entity a = all.come(1.25F), b = walker(without, 1.25F);
@@ -301,8 +301,8 @@ TEST(Avoidance, AlonePeopleWalkAsTheyWouldWithout) {
   EXPECT_NEAR(one.z_m, other.z_m, 1e-3);
 }
 
-/// Whoever stands and wants to go behind them or to a side turns and walks; nobody sidles all the way.
-TEST(Avoidance, WhoStandsTurnsAndWalksWhereTheyWant) {
+/// Standing people with a goal behind them or to the side turn and walk, and do not sidestep all the way.
+TEST(Avoidance, StandingPeopleTurnTowardTheirGoal) {
   for (int degrees = -180; degrees < 180; degrees += 7) {
     Avoiders all;
     const Entity one = all.come(0);
@@ -315,8 +315,8 @@ TEST(Avoidance, WhoStandsTurnsAndWalksWhereTheyWant) {
   }
 }
 
-/// Also who had to wait before, boxed in.
-TEST(Avoidance, WhoWasBoxedInTurnsAndWalksOnceTheWayIsOpen) {
+/// People between walls on all sides turn and walk once the walls are removed.
+TEST(Avoidance, BoxedInPeopleTurnAndWalkOnceFree) {
   for (const float heading : {pi, 1.2F, -2.0F}) {
     Avoiders all;
     const Entity one = all.come(0);
@@ -333,8 +333,14 @@ TEST(Avoidance, WhoWasBoxedInTurnsAndWalksOnceTheWayIsOpen) {
   }
 }
 
-/// Even where every step along it is closed: they step back first.
-TEST(Avoidance, WhoStandsTooNearACornerGetsRoundIt) {
+/// The person steps back first, because every step along the wall is blocked:
+///
+///     z = 3    |  |        walls of a column 0.24 m wide, open at its far end
+///              |  |
+///     0.40     |  |   *    goal (0.45, 0.4), and then straight on in z
+///     0.23     +--+
+///     0         o          person at x = -0.07
+TEST(Avoidance, PeopleTooNearACornerGetAroundIt) {
   Avoiders all;
   ASSERT_TRUE(all.avoidance.set_walls(
       {{Wall{{-0.12F, 0.23F}, {0.12F, 0.23F}}, Wall{{0.12F, 0.23F}, {0.12F, 3}}, Wall{{-0.12F, 0.23F}, {-0.12F, 3}}}}));
@@ -349,7 +355,7 @@ TEST(Avoidance, WhoStandsTooNearACornerGetsRoundIt) {
   EXPECT_GT(all.root(one).z_m, 3);
 }
 
-TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
+TEST(Avoidance, ForgedSnapshotsWithAValidSealAreHarmless) {
   Room room(1);
   for (int k = 0; k < 100; ++k) room.tick();
   std::vector<std::byte> good(room.simulation.snapshot_bytes());
@@ -371,8 +377,8 @@ TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
   ASSERT_TRUE(room.simulation.restore(good));
 }
 
-/// A snapshot may hold any number that is finite.
-TEST(Avoidance, AHeadingThatIsNoneHarmsNobodyElse) {
+/// A snapshot can contain any finite number.
+TEST(Avoidance, HugeHeadingsAffectNoOtherPerson) {
   Avoiders all;
   Simulation& simulation = all.simulation;
   const Entity one = all.come(1.2F), other = all.come(1.2F, 0.3F, 3.0F, pi);
@@ -387,7 +393,7 @@ TEST(Avoidance, AHeadingThatIsNoneHarmsNobodyElse) {
   EXPECT_GT(at.z_m, 2);
 }
 
-TEST(Avoidance, SaysWhatIsWrong) {
+TEST(Avoidance, RefusalsNameTheMistake) {
   Simulation simulation;
   Avoidance avoidance = simulation.avoidance();
   const Entity one = walker(simulation, 1), posed = simulation.spawn_posed({}).value();

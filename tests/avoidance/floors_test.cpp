@@ -1,4 +1,4 @@
-// Who walks on a bridge, and who walks below it.
+// Avoidance between people at different heights: on and below a bridge, on slopes and stairs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace mobil {
 namespace {
 
-/// Two who come toward each other, the second so much higher; how far the first goes aside at most, and the speeds of
-/// both at the end.
+/// Result of two people who walk towards each other, the second on ground that is higher: maximum sideways deviation of
+/// the first, and final speeds of both.
 struct Meeting {
   double aside_m = 0;
   float speed_m_s[2] = {0, 0};
@@ -35,7 +35,7 @@ Meeting meet_at(float higher_m) {
   return meeting;
 }
 
-TEST(Floors, WhoWalksOnABridgeIsInNobodysWayBelow) {
+TEST(Floors, PeopleOnABridgeDoNotAffectThoseBelow) {
   const Meeting level = meet_at(0), kerb = meet_at(0.3F), bridge = meet_at(4), pit = meet_at(-4);
   for (const Meeting& same : {level, kerb}) EXPECT_GT(same.aside_m, 0.1);
   for (const Meeting& apart : {bridge, pit}) {
@@ -44,8 +44,8 @@ TEST(Floors, WhoWalksOnABridgeIsInNobodysWayBelow) {
   }
 }
 
-/// A crowd that stands under a bridge does not stop who crosses it.
-TEST(Floors, ACrowdBelowStopsNobodyAbove) {
+/// A crowd that stands under a bridge does not stop a person who crosses the bridge.
+TEST(Floors, CrowdBelowDoesNotBlockTheBridge) {
   for (const float height_m : {0.0F, 5.0F}) {
     Avoiders all;
     for (int i = -3; i <= 3; ++i)
@@ -62,8 +62,8 @@ TEST(Floors, ACrowdBelowStopsNobodyAbove) {
   }
 }
 
-/// Who comes up a slope or stairs sees who comes down, however steep they are.
-TEST(Floors, PeopleOnSlopesKeepOutOfEachOthersWay) {
+/// People who climb a slope or stairs see those who descend, at any steepness.
+TEST(Floors, PeopleOnSlopesKeepTheirDistance) {
   for (const bool stairs : {false, true}) {
     for (const float rise : {0.3F, 0.6F, 0.8F}) {
       Avoiders all;

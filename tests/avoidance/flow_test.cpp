@@ -1,4 +1,4 @@
-// How walkers get on who meet others or stand in a bad place.
+// Walkers in opposing flows, in a ring and in awkward starting positions.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 namespace mobil {
 namespace {
 
-/// Who comes the other way is parted from: each flow keeps to its right.
-TEST(Avoidance, TwoFlowsPartIntoLanes) {
+/// Opposing flows separate, and each keeps to its right.
+TEST(Avoidance, OpposingFlowsFormLanes) {
   Avoiders crowd;
   constexpr float half_m = 2.5F, far_m = 60;
   const Wall walls[] = {{{-half_m, -far_m}, {-half_m, far_m}}, {{half_m, -far_m}, {half_m, far_m}}};
@@ -38,9 +38,9 @@ TEST(Avoidance, TwoFlowsPartIntoLanes) {
     if (tick % 30 != 0) continue;
     ASSERT_TRUE(crowd.simulation.roots(all, at));
     for (std::size_t i = 0; i < many; ++i) {
-      if (std::fabs(at[i].z_m) > 4) continue;  // where they pass
+      if (std::fabs(at[i].z_m) > 4) continue;  // the zone where the flows pass
       ++passing;
-      right += (i % 2 == 1 ? at[i].x_m : -at[i].x_m) > 0 ? 1 : 0;  // of who goes toward +Z the right is -X
+      right += (i % 2 == 1 ? at[i].x_m : -at[i].x_m) > 0 ? 1 : 0;  // a walker toward +Z has -X on the right
     }
   }
   EXPECT_GT(passing, 300);
@@ -49,8 +49,8 @@ TEST(Avoidance, TwoFlowsPartIntoLanes) {
     EXPECT_GT(i % 2 == 1 ? -at[i].z_m : at[i].z_m, 4) << i << " did not get through";
 }
 
-/// Who stands beside a wall, facing into it a little, turns and goes along it.
-TEST(Avoidance, WhoStandsBesideAWallGoesAlongIt) {
+/// A person who stands next to a wall and faces slightly into it turns and walks along it.
+TEST(Avoidance, PeopleNextToAWallWalkAlongIt) {
   for (const float off : {0.0F, 0.2F, 0.45F, 0.9F}) {
     Avoiders all;
     ASSERT_TRUE(all.avoidance.set_walls({{Wall{{0.225F, -50}, {0.225F, 50}}}}));
@@ -71,11 +71,11 @@ void PrintTo(const Flow& flow, std::ostream* out) {
   *out << flow.name;
 }
 
-/// People who go round a ring of 40 m and 5 m breadth, for ten minutes, or for twenty seconds where that is not asked
-/// for: nobody's trunk gets further into another's than clothes give way, and nobody stands for ever.
+/// People walk round a ring of 40 m circumference and 5 m width for 20 s, or for ten minutes with MOBIL_LONG. Trunks
+/// overlap by no more than clothes yield, and no person stands for ever.
 class RingFlow : public testing::TestWithParam<Flow> {};
 
-TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
+TEST_P(RingFlow, NoOverlapAndNoStandstill) {
   const Flow& flow = GetParam();
   constexpr float round_m = 40, broad_m = 5, ring_m = round_m / (2 * pi);
   const int seconds = std::getenv("MOBIL_LONG") != nullptr ? 600 : 20;
@@ -112,7 +112,7 @@ TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
   ASSERT_TRUE(simulation.roots(who, at));
   for (int tick = 0; tick < 60 * seconds; ++tick) {
     for (std::size_t i = 0; tick % 6 == 0 && i < many; ++i) {
-      constexpr double ahead_m = 1.7;  // steps follow a heading late
+      constexpr double ahead_m = 1.7;  // steps follow a heading with a delay
       const double angle = std::atan2(at[i].x_m, at[i].z_m);
       const double to = angle + double{way[i]} * ahead_m / std::hypot(at[i].x_m, at[i].z_m);
       wishes[i] = {who[i], 1.34F + 0.35F * (drawn(i, 2) + drawn(i, 3) - 1), static_cast<float>(to) + way[i] * pi / 2};
@@ -136,8 +136,8 @@ TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
   EXPECT_LT(overlap, 0.05);
   std::size_t stand = 0;
   for (const double angle : walked) stand += angle * double{ring_m} < 0.5 ? 1 : 0;
-  // Which few are held up for long in a short run depends on the last bits: up to four of 400 with fused multiply-add,
-  // five without it.
+  // In a short run the last bits decide which people are delayed: up to four of 400 with fused multiply-add, five
+  // without.
   EXPECT_LE(stand, seconds < 60 ? many / 50 : 0) << "of " << many << " made less than half a metre in the second half";
 }
 

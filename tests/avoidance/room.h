@@ -13,7 +13,7 @@
 
 namespace mobil {
 
-/// People in a closed room, each with places to go to one after the other.
+/// People in a closed room, each with a sequence of goals.
 struct Room {
   explicit Room(int threads, std::size_t many = 40, float side = 8)
       : people(many), side_m(side), simulation({.threads = threads}), avoidance(simulation.avoidance()) {

@@ -1,4 +1,4 @@
-// Shoulders that turn where two pass in a narrow place.
+// Shoulder rotation of people who pass in a narrow place.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ Quat<float> inverse(const Quat<float>& q) {
   return {-q.x, -q.y, -q.z, q.w};
 }
 
-/// About the vertical, rad; of rotations that are nearly so.
+/// Returns the rotation about the vertical, rad, of a rotation whose axis is nearly vertical.
 float yaw(const Quat<float>& q) {
   return 2 * std::atan2(q.y, q.w);
 }
@@ -41,7 +41,7 @@ Pose<float> turned(const Pose<float>& pose, float by_rad) {
   return first_lane(block);
 }
 
-TEST(Shoulders, TurnAgainstThePelvisAndTheHeadLooksAhead) {
+TEST(Shoulders, TurnAgainstThePelvisWhileTheHeadFacesAhead) {
   Simulation simulation;
   const Entity one = walker(simulation, 1.2F, 3, -2, 0.7F);
   simulation.tick(40);
@@ -57,7 +57,7 @@ TEST(Shoulders, TurnAgainstThePelvisAndTheHeadLooksAhead) {
     for (std::size_t s = 0; s < segment_count; ++s) {
       const std::size_t parent = index(segment_parent[s]);
       if (s == parent) continue;
-      // Each segment keeps its place on its parent.
+      // Each segment keeps its position on its parent.
       const auto place_on = [&](const Pose<float>& pose) {
         const Vec3<float>&a = pose.position_m[s], b = pose.position_m[parent];
         return rotated(inverse(pose.rotation[parent]), {a.x - b.x, a.y - b.y, a.z - b.z});
@@ -72,7 +72,7 @@ TEST(Shoulders, TurnAgainstThePelvisAndTheHeadLooksAhead) {
   }
 }
 
-TEST(Shoulders, NoJointOfTheColumnTurnsFurtherThanItCan) {
+TEST(Shoulders, SpinalJointsKeepTheirLimits) {
   Simulation simulation;
   const Entity one = walker(simulation, 0);
   simulation.tick();
@@ -84,7 +84,7 @@ TEST(Shoulders, NoJointOfTheColumnTurnsFurtherThanItCan) {
   }
 }
 
-TEST(Shoulders, EaseThereWhateverTheTick) {
+TEST(Shoulders, EaseIndependentOfTickLength) {
   const auto after = [](float every_s, float seconds) {
     AvoidanceState<Lanes<float>> course{};
     course.turn_to_rad = in_every_lane<Lanes<float>>(0.6F);
@@ -98,7 +98,7 @@ TEST(Shoulders, EaseThereWhateverTheTick) {
   EXPECT_EQ(after(1.0F / 60, 3), 0.6F) << "there, and still";
 }
 
-/// A section of a body: its middle, where it faces, half its breadth and depth.
+/// A cross-section of a body: its centre, heading, half-width and half-depth.
 struct Section {
   double x_m, z_m, faces_rad, broad_m, deep_m;
 
@@ -109,7 +109,7 @@ struct Section {
   }
 };
 
-TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
+TEST(Shoulders, TurnWhenPassingInANarrowPassage) {
   Avoiders all;
   const Simulation& simulation = all.simulation;
   const Wall walls[] = {{{-0.45F, -30}, {-0.45F, 30}}, {{0.45F, -30}, {0.45F, 30}}};
@@ -139,8 +139,8 @@ TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
   for (const Entity one : who) EXPECT_EQ(simulation.get<AvoidanceState>(one)->turn_rad, 0) << "and turned back";
 }
 
-/// Breadths and depths of chests and hips, of the height: means of the 1986 women of ANSUR II (Gordon et al. 2014).
-TEST(Shoulders, TrunksOfAFullRoomOverlapByLessThanFiveCentimetres) {
+/// Widths and depths of chests and hips relative to height: means of the 1986 women of ANSUR II (Gordon et al. 2014).
+TEST(Shoulders, TrunksOverlapByLessThanFiveCentimetres) {
   Room room(1, 60, 6);
   const auto section = [&](Entity one, Segment at, double breadth, double depth) {
     const Pose<float> pose = *room.simulation.get<Pose>(one);
@@ -172,7 +172,7 @@ TEST(Shoulders, TrunksOfAFullRoomOverlapByLessThanFiveCentimetres) {
   EXPECT_GT(overlap, -0.1) << "they do come near";
 }
 
-TEST(Shoulders, WhoKeepsThemClearTurnsNone) {
+TEST(Shoulders, NoTurnWhereRadiusIsShoulderHalfWidth) {
   Simulation simulation;
   Avoidance avoidance = avoidance_of(simulation, {.radius_h = 0.128F});
   const Entity who[] = {walker(simulation, 1.2F, 0.1F, -5, 0), walker(simulation, 1.2F, -0.1F, 5, pi),
@@ -184,7 +184,7 @@ TEST(Shoulders, WhoKeepsThemClearTurnsNone) {
   }
 }
 
-/// Two who stand so near that they have turned their shoulders.
+/// Two people who stand so near that they have turned their shoulders.
 struct NearPair : Avoiders {
   NearPair() {
     run(90);
@@ -196,14 +196,14 @@ struct NearPair : Avoiders {
   const Entity who[2] = {come(0), come(0, 0.36F)};
 };
 
-TEST(Shoulders, WhoIsPlacedElsewhereFacesTheirWay) {
+TEST(Shoulders, PlacedPeopleFaceTheirHeading) {
   NearPair pair;
   ASSERT_TRUE(pair.simulation.place(pair.who[0], 20, 0, 0));
   EXPECT_EQ(pair.turned_rad(), 0);
   EXPECT_NEAR(pair.chest_rad(), 0, 0.02F);
 }
 
-TEST(Shoulders, StayTurnedInCompactPeopleAndWhereSomebodyIsManagedAnew) {
+TEST(Shoulders, StayTurnedWhenCompactAndWhenManagedAgain) {
   NearPair pair;
   const float before = pair.chest_rad();
   ASSERT_TRUE(pair.simulation.set_state({&pair.who[0], 1}, PersonState::compact));
@@ -215,7 +215,7 @@ TEST(Shoulders, StayTurnedInCompactPeopleAndWhereSomebodyIsManagedAnew) {
   EXPECT_EQ(pair.turned_rad(), turned);
 }
 
-TEST(Shoulders, WhoSleepsFacesTheirWayAndWakesSo) {
+TEST(Shoulders, SleepersWakeFacingTheirHeading) {
   NearPair pair;
   ASSERT_EQ(pair.simulation.set_state({&pair.who[0], 1}, PersonState::asleep).value(), 1U);
   pair.simulation.tick(10);
@@ -225,7 +225,7 @@ TEST(Shoulders, WhoSleepsFacesTheirWayAndWakesSo) {
   EXPECT_NEAR(pair.chest_rad(), 0, 0.02F);
 }
 
-TEST(Shoulders, WhoAvoidsNobodyIsGivenTheWholeBreadth) {
+TEST(Shoulders, UnmanagedPeopleGetTheFullWidth) {
   Avoiders all;
   const Entity stands = walker(all.simulation, 0, 0.05F), comes = all.come(1.2F, 0.0F, -5.0F);
   double nearest = 9;

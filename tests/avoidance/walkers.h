@@ -1,5 +1,5 @@
 #pragma once
-// Walkers for the tests of avoidance.
+// Walkers for tests of avoidance.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace mobil {
 
 inline constexpr float pi = std::numbers::pi_v<float>;
 
-/// 0 to 1, of two numbers.
+/// Returns a pseudorandom number from 0 to 1, determined by two integers.
 inline float drawn(std::uint64_t a, std::uint64_t b) {
   return static_cast<float>(mix64(mix64(a + 1) ^ b) >> 40) * 0x1p-24F;
 }
@@ -34,7 +34,7 @@ inline Root root_of(const Simulation& simulation, Entity one) {
   return root;
 }
 
-/// A world whose people avoid each other.
+/// A world in which people avoid each other.
 struct Avoiders {
   Simulation simulation;
   Avoidance avoidance = simulation.avoidance();

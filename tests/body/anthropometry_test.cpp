@@ -1,4 +1,4 @@
-// Bodies from height and mass: the parts add up to the whole.
+// Bodies from height and mass: parts add up to the whole, and match published tables.
 #include <mobil/anthropometry.h>
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 #include "tests/simulation/people.h"
 
 namespace mobil::anthropometry_test {
-/// The limit of that joint and motion, or null.
+/// Returns the limit of a joint and motion, or null.
 const JointLimit* find_joint_limit(std::string_view joint, std::string_view motion) {
   for (const JointLimit& limit : limb_limits) {
     if (limit.joint == joint && limit.motion == motion) return &limit;
@@ -49,7 +49,7 @@ RC_GTEST_PROP(Anthropometry, MassesAddUpWithoutRoundingInAnyOrder, ()) {
   RC_ASSERT(down == r.mass_kg);
 }
 
-RC_GTEST_PROP(Anthropometry, TheColumnReachesTheStatureAndTheLegsTheGround, ()) {
+RC_GTEST_PROP(Anthropometry, SpineReachesStatureAndLegsReachTheGround, ()) {
   const BodyRequest r = any_request();
   const auto body = make_body(r);
   RC_ASSERT(body.has_value());
@@ -95,8 +95,8 @@ TEST(Anthropometry, GroupsOfSegmentsCarryDempstersFractions) {
   EXPECT_NEAR(sum(pelvis, thumb_left), 1.0, 1e-12);
 }
 
-TEST(Anthropometry, StandingCentreOfMassIsWhereItIsMeasured) {
-  // Over the foot, a little over half the height: 0.54–0.57 is measured, Dempster's own segments give 0.58.
+TEST(Anthropometry, StandingCentreOfMassIsInTheMeasuredRange) {
+  // The centre is over the foot, slightly above half the height: measured 0.54–0.57; Dempster's own segments give 0.58.
   std::array<Vec3<double>, segment_count> place{};
   double y = 0, z = 0, x = 0;
   for (std::size_t i = 0; i < segment_count; ++i) {
@@ -123,7 +123,7 @@ TEST(Anthropometry, RefusesBodiesOutsideTheRangeInOneLine) {
   for (float part : {0.0F, 12.1F, nan}) refused({.biotype = {3, part, 3}}, "mesomorphy");
 }
 
-TEST(Anthropometry, RefusesWhatNoLivingBodyWeighsAndNamesWhatItMay) {
+TEST(Anthropometry, RefusesImpossibleMassesAndNamesTheRange) {
   auto message = [](float height, float mass) {
     const auto body = make_body({.height_m = height, .mass_kg = mass});
     EXPECT_FALSE(body.has_value()) << height << " m, " << mass << " kg";
@@ -136,11 +136,10 @@ TEST(Anthropometry, RefusesWhatNoLivingBodyWeighsAndNamesWhatItMay) {
   }
 }
 
-// ----------------------------------------------------------------------------------------------------- published
-// tables
+// ----------------------------------------------------------------------------------------------- published tables
 
-/// Winter's table 4.1 after Dempster: mass, the centre from the proximal end and the radius of gyration about it in
-/// parts of the length, which lies between the two joints' heights; lengths of Drillis & Contini in parts of stature.
+/// Winter's table 4.1 after Dempster: mass, centre from the proximal end, and radius of gyration about the centre, both
+/// as fractions of the length between the two joints' heights. Lengths are Drillis & Contini's fractions of stature.
 struct WinterSegment {
   std::vector<Segment> segments;
   double mass, centre, gyration, length;
@@ -167,7 +166,7 @@ TEST(Anthropometry, LimbsOfTheReferenceBodyAreWintersSegments) {
     EXPECT_NEAR(std::sqrt(sum.inertia_kg_m2.x / sum.mass_kg) / length / row.gyration, 1, 0.08);
     EXPECT_NEAR(std::sqrt(sum.inertia_kg_m2.z / sum.mass_kg) / length / row.gyration, 1, 0.08);
   }
-  // The foot's length runs from the ankle to the second toe's head, forward as well as down.
+  // The foot's length runs from the ankle to the second toe's head, forward and down.
   const RigidSum foot = rigid_sum(body, std::array{foot_right, toes_right});
   const double length = std::hypot(static_cast<double>(body.tip_m[index(foot_right)].y),
                                    static_cast<double>(body.tip_m[index(foot_right)].z));
@@ -175,7 +174,7 @@ TEST(Anthropometry, LimbsOfTheReferenceBodyAreWintersSegments) {
   EXPECT_NEAR(std::sqrt(foot.inertia_kg_m2.x / foot.mass_kg) / length, 0.475, 0.005);
 }
 
-TEST(Anthropometry, TrunkHeadAndHandTurnLikeThePublishedWholes) {
+TEST(Anthropometry, TrunkHeadAndHandHavePublishedInertias) {
   using enum Segment;
   const Body body = make_body({.height_m = 1.80F, .mass_kg = 79.38F}).value();
   auto run = [](Segment from, Segment to, std::vector<Segment> more = {}) {
@@ -192,7 +191,7 @@ TEST(Anthropometry, TrunkHeadAndHandTurnLikeThePublishedWholes) {
   EXPECT_NEAR(close(run(pelvis, T1, {clavicle_right, clavicle_left}), de_leva::whole_trunk, 0.02), 1, 0.02);
   EXPECT_NEAR(close(run(C7, head), de_leva::head_and_neck, 0.06), 1, 0.06);
   close(run(hand_right, thumb_right), de_leva::hand, 0.1);
-  // Winter has one radius for head, arms and trunk, in parts of the trunk's length from hip to shoulder.
+  // Winter has one radius for head, arms and trunk, as a fraction of the trunk's length from hip to shoulder.
   const RigidSum upper = rigid_sum(body, run(clavicle_right, thumb_left, run(pelvis, head)));
   EXPECT_NEAR(upper.mass_kg, 79.38 * 0.678, 0.01);
   for (const double inertia : {upper.inertia_kg_m2.x, upper.inertia_kg_m2.z}) {
@@ -214,10 +213,9 @@ RC_GTEST_PROP(Anthropometry, InertiasAreThoseOfSolidsAndGrowWithTheBody, ()) {
   }
 }
 
-// --------------------------------------------------------------------------------------------------------- joint
-// limits
+// --------------------------------------------------------------------------------------------------- joint limits
 
-TEST(JointLimits, HoldEveryPostureThatAGaitMayAskFor) {
+TEST(JointLimits, ContainEveryPostureOfGaitParameters) {
   const auto holds = [](std::string_view joint, std::string_view motion, std::string_view name, double sign = 1) {
     const JointLimit* limit = find_joint_limit(joint, motion);
     ASSERT_NE(limit, nullptr) << joint << ' ' << motion;
@@ -245,7 +243,7 @@ TEST(JointLimits, HoldEveryPostureThatAGaitMayAskFor) {
   holds("metacarpophalangeal", "flexion-extension", "finger_flexion_deg");
 }
 
-TEST(JointLimits, HoldAWalkAtEverySpeedOfEveryBody) {
+TEST(JointLimits, ContainWalksAtEverySpeedOfEveryBody) {
   struct Angle {
     const JointLimit* limit;
     float (JointAngles<float>::*angle)[2];
@@ -281,8 +279,8 @@ TEST(JointLimits, HoldAWalkAtEverySpeedOfEveryBody) {
   }
 }
 
-TEST(JointLimits, TheColumnBendsAndTurnsAsMuchAsRegionsAreSaidTo) {
-  // White & Panjabi's regions: neck, chest, loins; flexion with extension, and rotation to one side.
+TEST(JointLimits, SpinalRegionsMatchPublishedRanges) {
+  // Regions of White & Panjabi: neck, chest, loins. Flexion includes extension; rotation is one-sided.
   auto sum = [](Segment from, Segment to, double VertebraLimit::*part) {
     double all = 0;
     for (std::size_t s = index(from); s <= index(to); ++s) all += vertebra_limits[s - index(Segment::L5)].*part;

@@ -1,4 +1,4 @@
-// What a body is made of, against the published tables that it follows, and where a request has to give way.
+// Body composition, compared with the published tables that it follows, and the resolution of contradictory requests.
 #include <mobil/body_composition.h>
 #include "assets/body/fat_distribution.h"
 
@@ -28,7 +28,7 @@ double fat_share(const BodyComposition& c) {
 }
 
 TEST(BodyComposition, FatOfSkinfoldsIsDurninAndWomersleys) {
-  // Their table for men of 17 to 29: sum of four folds, mm, and fat in percent.
+  // Durnin and Womersley's table for men of 17 to 29: sum of four folds, mm, and fat in percent.
   for (const auto& [folds, percent] :
        {std::pair{15.0, 4.8}, {20.0, 8.1}, {25.0, 10.5}, {30.0, 12.9}, {40.0, 16.4}, {50.0, 19.0}}) {
     const double three = 0.75 * folds;
@@ -39,7 +39,7 @@ TEST(BodyComposition, FatOfSkinfoldsIsDurninAndWomersleys) {
 }
 
 TEST(BodyComposition, FatOfBodyMassIndexIsGallaghers) {
-  // Their table for white men of 20 to 39 years.
+  // Gallagher's table for white men of 20 to 39 years.
   for (const auto& [index, percent] : {std::pair{18.5, 8.0}, {25.0, 20.0}, {30.0, 25.0}}) {
     EXPECT_NEAR(100 * fat_share_of_mass_index(index), percent, 1.5) << index;
   }
@@ -52,11 +52,11 @@ TEST(BodyComposition, EctomorphyIsHeathAndCarters) {
   EXPECT_EQ(ectomorphy(36), 0.1);
   for (double ratio = 30; ratio < 60; ratio += 0.01) {
     EXPECT_GE(ectomorphy(ratio + 0.01), ectomorphy(ratio));
-    EXPECT_LT(ectomorphy(ratio + 0.01) - ectomorphy(ratio), 0.021);  // the two pieces all but meet
+    EXPECT_LT(ectomorphy(ratio + 0.01) - ectomorphy(ratio), 0.021);  // the two pieces nearly meet
   }
 }
 
-TEST(BodyComposition, TheReferenceBodyIsAnAverageMan) {
+TEST(BodyComposition, ReferenceBodyIsAnAverageMan) {
   const Body body = make_body({.height_m = 1.80F, .mass_kg = 80}).value();
   const BodyComposition& c = body.composition;
   EXPECT_NEAR(c.body_mass_index, 24.69, 0.01);
@@ -66,7 +66,7 @@ TEST(BodyComposition, TheReferenceBodyIsAnAverageMan) {
   EXPECT_TRUE(body_notes(body).empty());
 }
 
-RC_GTEST_PROP(BodyComposition, OrdinaryPeopleAreTakenAsTheyAsk, ()) {
+RC_GTEST_PROP(BodyComposition, OrdinaryRequestsAreGranted, ()) {
   BodyRequest r;
   r.height_m = static_cast<float>(*rc::gen::inRange(1500, 2001)) / 1000;
   r.mass_kg = static_cast<float>(*rc::gen::inRange(190, 280)) / 10 * r.height_m * r.height_m;
@@ -76,7 +76,7 @@ RC_GTEST_PROP(BodyComposition, OrdinaryPeopleAreTakenAsTheyAsk, ()) {
   RC_ASSERT(std::abs(static_cast<double>(body.composition.muscle_factor) / physique_factor(r) - 1) < 0.02);
 }
 
-RC_GTEST_PROP(BodyComposition, IsThatOfALivingBody, ()) {
+RC_GTEST_PROP(BodyComposition, StaysWithinLivingRanges, ()) {
   const BodyRequest r = any_request();
   const Body body = make_body(r).value();
   const BodyComposition& c = body.composition;
@@ -85,7 +85,7 @@ RC_GTEST_PROP(BodyComposition, IsThatOfALivingBody, ()) {
   RC_ASSERT(fat_share(c) > 0.0299 && fat_share(c) < 0.6101);
   RC_ASSERT(lean < 36.001 * height * height && lean > 11.6 * height * height);
   RC_ASSERT(c.muscle_factor > 0 && static_cast<double>(c.muscle_factor) <= physique_factor(r) * (1 + 1e-6));
-  // The legs' muscles are no more than 52 % of 65 % of the lean mass.
+  // The muscles of the legs are at most 52 % of 65 % of the lean mass.
   const double limb_cm3 = 47 * static_cast<double>(r.mass_kg) * height + 1285;
   RC_ASSERT(2 * 1.06e-3 * limb_cm3 * static_cast<double>(c.muscle_factor) < 0.65 * 0.52 * lean * (1 + 1e-5));
   RC_ASSERT(c.biotype.endo >= 0.1F && c.biotype.endo <= 12.0F && c.biotype.ecto >= 0.1F);
@@ -103,7 +103,7 @@ RC_GTEST_PROP(BodyComposition, LeanMassGrowsWithHeightAndMassAndFatWithEndomorph
   RC_ASSERT(lean(heavier) >= lean(r) - slack);
   if (r.biotype.endo == 3 || r.biotype.endo > 11) return;
   fatter.biotype.endo += r.biotype.endo < 3 && r.biotype.endo > 2.5F ? 0.1F : 0.5F;
-  if (fatter.biotype.endo == 3) return;  // which, with an ectomorphy of 3, counts as not asked for
+  if (fatter.biotype.endo == 3) return;  // with an ectomorphy of 3 this counts as not set
   RC_ASSERT(lean(fatter) <= lean(r) + slack);
 }
 
@@ -127,8 +127,8 @@ TEST(BodyComposition, EveryContradictionIsReportedAndResolved) {
   }
 }
 
-// There both bounds of the lean mass are one number, but for rounding.
-TEST(BodyComposition, OfTheLightestThatLiveHasAllTheLeanMassThereIs) {
+// At this mass, minimum and maximum lean mass are equal except for rounding.
+TEST(BodyComposition, LightestBodiesHaveMinimumFat) {
   for (const float height : {1.625F, 1.7F, 1.9F, 2.2F}) {
     const auto [least, most] = living_mass_kg(static_cast<double>(height));
     ASSERT_LT(least, most);

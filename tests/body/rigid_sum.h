@@ -1,5 +1,5 @@
 #pragma once
-// Segments as one rigid body, as the sources of their inertias measured them.
+// Combines segments into one rigid body, as in the sources of their inertias.
 
 #include <span>
 
@@ -9,8 +9,8 @@
 
 namespace mobil {
 
-/// Several segments of a body in the anatomical position as one rigid body, it standing at x = z = 0. `inertia_kg_m2`:
-/// xx, yy, zz about its own centre, world axes.
+/// Several segments of a standing body in the anatomical position at x = z = 0, as one rigid body. `inertia_kg_m2`: xx,
+/// yy, zz about the body's own centre, world axes.
 struct RigidSum {
   double mass_kg = 0;
   Vec3<double> centre_m{}, inertia_kg_m2{};

@@ -1,4 +1,4 @@
-// Who sleeps or is compact, asked through the C interface for what needs rows of their own.
+// Requests through the C interface for features of people who sleep or are compact.
 
 #include <vector>
 
@@ -14,7 +14,7 @@ mobil_muscles unseen_muscles() {
   return muscles;
 }
 
-/// Six with muscles: two asleep, with forces; two compact; two awake.
+/// Six people with muscles: two asleep, with forces; two compact; two awake.
 struct Absent {
   Absent() {
     const auto muscles = unseen_muscles();
@@ -31,21 +31,21 @@ struct Absent {
   std::vector<mobil_id> ids;
 };
 
-TEST(CAbsent, StateSaysWhatComesBack) {
+TEST(CAbsent, StateIncludesFeaturesKeptForWaking) {
   const Absent all;
   EXPECT_EQ(bits_of(all.sim, all.ids[0]), MOBIL_ASLEEP | MOBIL_HAS_MUSCLES | MOBIL_HAS_FORCES);
   EXPECT_EQ(bits_of(all.sim, all.ids[2]), MOBIL_COMPACT | MOBIL_HAS_MUSCLES);
   EXPECT_EQ(bits_of(all.sim, all.ids[4]), MOBIL_HAS_MUSCLES);
 }
 
-TEST(CAbsent, MusclesGoForGood) {
+TEST(CAbsent, RemovedMusclesDoNotComeBack) {
   const Absent all;
   ASSERT_EQ(mobil_set_muscles(all.sim, all.ids.data(), 6, nullptr), MOBIL_OK) << all.sim.message();
   ASSERT_EQ(mobil_set_state(all.sim, all.ids.data(), 6, MOBIL_FULL, 0.005F, nullptr), MOBIL_OK);
   for (const mobil_id id : all.ids) EXPECT_EQ(bits_of(all.sim, id) & MOBIL_HAS_MUSCLES, 0);
 }
 
-TEST(CAbsent, MusclesBecomeOthersAndMethodsAreSet) {
+TEST(CAbsent, MusclesAndMethodsCanBeChanged) {
   const Absent all;
   auto others = unseen_muscles();
   others.muscles = 1U << MOBIL_QUADRICEPS;
@@ -67,7 +67,7 @@ TEST(CAbsent, MusclesBecomeOthersAndMethodsAreSet) {
   }
 }
 
-TEST(CAbsent, ForcesOfSleepersGo) {
+TEST(CAbsent, ForcesOfSleepersCanBeChanged) {
   const Absent all;
   ASSERT_EQ(mobil_enable(all.sim, all.ids.data(), 1, MOBIL_FORCES, 0), MOBIL_OK);
   ASSERT_EQ(mobil_enable(all.sim, &all.ids[1], 1, MOBIL_FORCES, 1), MOBIL_OK);
@@ -77,7 +77,7 @@ TEST(CAbsent, ForcesOfSleepersGo) {
   EXPECT_NE(bits_of(all.sim, all.ids[1]) & MOBIL_HAS_FORCES, 0);
 }
 
-/// Whom choosing put to sleep, and whose muscles it keeps for later.
+/// Sleepers that level of detail put to sleep, and whose muscles it keeps for waking.
 TEST(CAbsent, MusclesOfManagedSleepersAreOneSet) {
   for (const bool away : {true, false}) {
     const Sim sim;
@@ -117,8 +117,8 @@ TEST(CAbsent, MusclesOfManagedSleepersAreOneSet) {
   }
 }
 
-/// What is refused wakes nobody.
-TEST(CAbsent, NobodyHasChangedWhereOneIsRefused) {
+/// A refused request wakes no sleeper.
+TEST(CAbsent, OneRefusalChangesNoPerson) {
   const Absent all;
   const auto before = all.sim.hash();
   const auto refused = [&](int code) {

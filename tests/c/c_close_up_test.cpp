@@ -1,5 +1,4 @@
-// What close views want through the C interface: a skin of the host's own, and muscles kept out of each other; alike in
-// all axes.
+// Features for close views through the C interface: a custom skin, and muscle contacts. Results are equal in all axes.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +28,7 @@ unsigned members() {
   return all;
 }
 
-/// Somebody amid a stride, and surfaces of single muscles.
+/// A person in mid-stride, with surfaces of single muscles.
 struct Shown {
   explicit Shown(const mobil_options& options) : sim(options) {
     muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
@@ -66,7 +65,7 @@ struct Shown {
   mobil_surfaces* surfaces = nullptr;
 };
 
-TEST(CCloseUp, MusclesAreKeptApartAlikeInAnyAxes) {
+TEST(CCloseUp, MusclesAreSeparatedEquallyInAnyAxes) {
   Shown ours(filled<mobil_options>(MOBIL_OPTIONS)), theirs(unreal());
   std::array<std::vector<float>, 2> apart;
   float most = 0;
@@ -79,7 +78,7 @@ TEST(CCloseUp, MusclesAreKeptApartAlikeInAnyAxes) {
     ASSERT_EQ(mobil_keep_apart(one->sim, contacts, &target, 0, 1), MOBIL_OK) << one->sim.message();
     for (std::size_t i = 0; i < out.size(); ++i) most = std::max(most, std::abs(out[i] - before[i]));
     apart[one == &ours ? 0 : 1] = out;
-    // Without normals nothing can be told apart.
+    // Contacts need normals.
     target.normals = nullptr;
     EXPECT_EQ(mobil_keep_apart(one->sim, contacts, &target, 0, 1), MOBIL_REFUSED);
     mobil_drop_contacts(contacts);
@@ -94,7 +93,7 @@ TEST(CCloseUp, MusclesAreKeptApartAlikeInAnyAxes) {
   }
 }
 
-/// The right leg of a skin, cut off at 80 cm.
+/// The right leg of a skin, cut off at a height of 80 cm.
 struct Leg {
   std::vector<float> position;
   std::vector<unsigned int> index;
@@ -124,7 +123,7 @@ Leg leg_of(const BodySkin& skin, const mobil_options& options) {
     }
     if (mirrored) std::swap(leg.index.end()[-1], leg.index.end()[-2]);
   }
-  // Of the same buffer as the rest of a scan: no triangle names it.
+  // A vertex in the same buffer as the rest of a scan; no triangle refers to it.
   const std::array<float, 3> above =
       options.axes == MOBIL_AXES_UNREAL ? std::array{0.0F, 0.0F, 170.0F} : std::array{0.0F, 1.7F, 0.0F};
   leg.position.insert(leg.position.end(), above.begin(), above.end());
@@ -135,7 +134,7 @@ float square(float x) {
   return x * x;
 }
 
-TEST(CCloseUp, ASkinOfTheHostsOwnMovesWithTheBodys) {
+TEST(CCloseUp, CustomSkinMovesWithTheBodySkin) {
   std::array<std::vector<float>, 2> written;
   for (const bool turned : {false, true}) {
     const auto options = turned ? unreal() : filled<mobil_options>(MOBIL_OPTIONS);
@@ -169,7 +168,7 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesWithTheBodys) {
     target.id = id;
     aim(target, out, true);
     ASSERT_EQ(mobil_write_custom_skin(sim, own, &target, 0, 1), MOBIL_OK) << sim.message();
-    // Where the body's skin is, which it was cut out of, but for what hangs over the cut.
+    // The result matches the body's skin, from which the mesh was cut, except for edges that extend over the cut.
     std::vector<float> body(3 * mobil_skin_vertex_count(MOBIL_MAN, MOBIL_NEAR));
     auto of_body = target;
     of_body.detail = MOBIL_NEAR;
@@ -224,8 +223,8 @@ TEST(CCloseUp, ASkinOfTheHostsOwnMovesWithTheBodys) {
   }
 }
 
-/// Bound over muscles at rest and written over muscles at rest, a leg is where it was.
-TEST(CCloseUp, ASkinOfTheHostsOwnMovesOverMuscles) {
+/// A leg bound over muscles at rest and written over muscles at rest is unchanged.
+TEST(CCloseUp, CustomSkinMovesOverMuscles) {
   const Sim sim;
   auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
   muscles.method = MOBIL_STATIC;

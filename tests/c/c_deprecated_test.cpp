@@ -1,4 +1,4 @@
-// Names that go in 0.5 do as those that took their place.
+// Names that 0.5 removes behave as their replacements.
 
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 
@@ -10,7 +10,7 @@ namespace mobil::c_deprecated_test {
 namespace {
 using namespace c_test;
 
-TEST(CDeprecated, OldNamesDoTheirWork) {
+TEST(CDeprecated, OldNamesStillWork) {
   const Sim old, now;
   const auto muscles = modal_muscles();
   auto options = filled<mobil_choosing>(MOBIL_CHOOSING);
@@ -69,7 +69,7 @@ TEST(CDeprecated, OldNamesDoTheirWork) {
   EXPECT_EQ(mobil_release(old, a.data(), 4), MOBIL_OK) << old.message();
 }
 
-TEST(CDeprecated, WakingAndExpandingAreApart) {
+TEST(CDeprecated, WakingAndExpandingAreSeparate) {
   const Sim sim;
   const auto ids = spawn(sim, 4);
   ASSERT_EQ(mobil_tick(sim, 120), MOBIL_OK);

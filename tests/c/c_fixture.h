@@ -42,7 +42,7 @@ class Sim {
   mobil_sim* sim_ = nullptr;
 };
 
-/// People side by side, of different bodies and walks.
+/// Returns people in a row, with different bodies and gaits.
 inline std::vector<mobil_person> some_people(std::size_t count) {
   std::vector<mobil_person> people(count, filled<mobil_person>(MOBIL_PERSON));
   for (std::size_t i = 0; i < count; ++i) {
@@ -63,7 +63,7 @@ inline std::vector<mobil_id> spawn(const Sim& sim, std::size_t count, const mobi
   return ids;
 }
 
-/// Their state, and what they have, as bits.
+/// Returns a person's state and features as bits.
 inline int bits_of(const Sim& sim, mobil_id id) {
   int state = -1, has = -1;
   EXPECT_EQ(mobil_get_state(sim, id, &state), MOBIL_OK);
@@ -71,7 +71,7 @@ inline int bits_of(const Sim& sim, mobil_id id) {
   return state | has;
 }
 
-/// The same in C++.
+/// Returns the equivalent C++ requests.
 inline std::vector<SpawnRequest> as_requests(const std::vector<mobil_person>& people) {
   std::vector<SpawnRequest> requests(people.size());
   for (std::size_t i = 0; i < people.size(); ++i) {
@@ -91,14 +91,14 @@ inline mobil_options unreal() {
   return options;
 }
 
-/// The same five people, in Unreal's axes and in ours.
+/// Five equal people in Unreal's axes (C) and in the library's axes (C++).
 struct Twins {
   Twins() : sim(unreal()) {
     std::vector<mobil_person> people = some_people(5);
     const std::vector<SpawnRequest> requests = as_requests(people);
     for (std::size_t i = 0; i < 5; ++i) {
       people[i].place[0] = 0;
-      people[i].place[1] = -100 * static_cast<float>(i);  // y is to the right there
+      people[i].place[1] = -100 * static_cast<float>(i);  // there y is to the right
     }
     ids.resize(5);
     EXPECT_EQ(mobil_spawn(sim, people.data(), 0, 5, nullptr, ids.data()), MOBIL_OK) << sim.message();
@@ -112,7 +112,7 @@ struct Twins {
   std::vector<Entity> entities;
 };
 
-/// Positions go to `out`, three floats each; or, with normals, six.
+/// Sets `out` as the target: three floats for each position, or six with normals.
 template <class Target>
 void aim(Target& target, std::vector<float>& out, bool normals) {
   target.positions = out.data();

@@ -1,4 +1,4 @@
-// What a host brings to the C interface: axes, memory that runs out, jobs.
+// Host settings of the C interface: axes, memory that runs out, jobs.
 
 #include <algorithm>
 #include <cmath>
@@ -20,14 +20,15 @@ namespace {
 using Matrix = Eigen::Matrix3d;
 using Vector = Eigen::Vector3d;
 
-/// What the host calls x, y, z, in ours: ahead, up and left as the header has them, not as the code.
+/// The host's axes in the library's axes: ahead, up and left, as the header specifies them, not as the code implements
+/// them.
 struct Host {
   const char* name;
   int axes;
   float units_per_m;
-  Vector ahead, up, left;  // in the host's numbers
+  Vector ahead, up, left;  // in the host's coordinates
 
-  /// Ours are x left, y up, z ahead.
+  /// The library's axes are x left, y up, z ahead.
   Matrix from_ours() const {
     Matrix m;
     m << left, up, ahead;
@@ -52,7 +53,7 @@ Vector vector(const float* at) {
   return {at[0], at[1], at[2]};
 }
 
-/// A walker at 3 m to the left and 5 ahead of the origin, heading 0.7 rad to the left.
+/// Spawns a walker 3 m to the left of the origin and 5 m ahead, heading 0.7 rad to the left.
 mobil_id walker(const Sim& sim, const Host& host) {
   auto person = filled<mobil_person>(MOBIL_PERSON);
   const Vector place = host.units_per_m * (3 * host.left + 5 * host.ahead);
@@ -71,7 +72,7 @@ Matrix rotation(const float* q) {
   return Eigen::Quaterniond(q[3], q[0], q[1], q[2]).toRotationMatrix();
 }
 
-TEST(CHost, EverythingIsInTheHostsAxes) {
+TEST(CHost, AllValuesAreInTheHostsAxes) {
   const Sim plain;
   const mobil_id us = walker(plain, hosts[0]);
   std::vector<float> our_pose(48 * 7), our_ground(12);
@@ -81,7 +82,7 @@ TEST(CHost, EverythingIsInTheHostsAxes) {
     SCOPED_TRACE(host.name);
     const Sim sim(options_of(host));
     const mobil_id id = walker(sim, host);
-    EXPECT_EQ(sim.hash(), plain.hash());  // the world is the same whatever it is called
+    EXPECT_EQ(sim.hash(), plain.hash());  // the world is the same in any axes
     const Matrix m = host.from_ours();
     std::vector<float> pose(48 * 7), ground(12), feet(20);
     ASSERT_EQ(mobil_poses(sim, &id, 1, nullptr, pose.data(), 0), MOBIL_OK);
@@ -98,7 +99,7 @@ TEST(CHost, EverythingIsInTheHostsAxes) {
       EXPECT_LT((host.units_per_m * (m * vector(&our_ground[6 + 3 * i])) - vector(&ground[6 + 3 * i])).norm(),
                 1e-4 * host.units_per_m);
     }
-    // Up is up: heels near the ground, the pelvis at hip height; ahead is where the person looks.
+    // Heels are near the ground and the pelvis is at hip height. The person faces ahead.
     const double height = host.up.dot(vector(&pose[0])) / host.units_per_m;
     EXPECT_GT(height, 0.8);
     EXPECT_LT(height, 1.1);
@@ -113,7 +114,7 @@ TEST(CHost, EverythingIsInTheHostsAxes) {
   }
 }
 
-TEST(CHost, PosesGoInAsTheyComeOut) {
+TEST(CHost, WrittenPosesCanBePassedBack) {
   for (const Host& host : hosts) {
     SCOPED_TRACE(host.name);
     const Sim sim(options_of(host));
@@ -130,7 +131,7 @@ TEST(CHost, PosesGoInAsTheyComeOut) {
     float joints[13], theirs[13];
     ASSERT_EQ(mobil_read(sim, MOBIL_JOINTS, &id, 1, joints, 0), MOBIL_OK);
     ASSERT_EQ(mobil_read(sim, MOBIL_JOINTS, &posed, 1, theirs, 0), MOBIL_OK);
-    for (int i = 3; i < 9; ++i) EXPECT_NEAR(joints[i], theirs[i], 5e-3) << i;  // of the legs, measured on the pose
+    for (int i = 3; i < 9; ++i) EXPECT_NEAR(joints[i], theirs[i], 5e-3) << i;  // leg joints, measured on the pose
   }
 }
 
@@ -162,8 +163,8 @@ TEST(CHost, SurfacesAreWoundOutwardsInTheHostsAxes) {
     target.normal_bytes = target.position_bytes - sizeof vertex[0].position;
     target.tangent_bytes = target.normal_bytes - sizeof vertex[0].normal;
     ASSERT_EQ(mobil_write_surfaces(sim, &target, 0, 1), MOBIL_OK) << sim.message();
-    // The product of two edges points outside in every host's numbers: triangles are counter-clockwise in right-handed
-    // axes and clockwise in left-handed ones, as renderers there have it. A closed surface's volume is then positive.
+    // Cross products of two edges point outside in every host's axes: triangles are counter-clockwise in right-handed
+    // axes and clockwise in left-handed ones, as renderers expect. A closed surface's volume is then positive.
     mobil_part part;
     std::size_t with_tangents = 0;
     double all = 0;
@@ -193,7 +194,7 @@ TEST(CHost, SurfacesAreWoundOutwardsInTheHostsAxes) {
   }
 }
 
-/// Memory of which the n-th piece asked for is not there.
+/// Memory that refuses the n-th allocation.
 struct Scarce {
   long asked = 0, fails_at = -1, held = 0;
   std::map<void*, std::size_t> pieces;
@@ -214,7 +215,7 @@ struct Scarce {
   }
 };
 
-TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
+TEST(CHost, AnyFailedAllocationChangesNothing) {
   Scarce memory;
   {
     auto options = filled<mobil_options>(MOBIL_OPTIONS);
@@ -224,7 +225,7 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
     std::vector<mobil_id> ids(40);
     const auto people = some_people(ids.size());
     std::size_t refusals = 0;
-    // Each is tried with the first piece refused, then with the second, until it needs no more.
+    // Tries each request with the first allocation refused, then the second, until it succeeds.
     const auto until_done = [&](const char* what, const std::function<int()>& request) {
       const auto before = sim.hash();
       std::vector<unsigned char> state(mobil_snapshot_bytes(sim));
@@ -237,7 +238,7 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
         memory.fails_at = -1;
         if (code == MOBIL_OK) {
           if (memory.asked < n) return;
-          // It did without that piece, and goes back, to be tried without the next.
+          // The request succeeded without that allocation. Restores the state and tries the next one.
           ASSERT_EQ(mobil_restore(sim, state.data(), state.size()), MOBIL_OK) << what;
           continue;
         }
@@ -290,7 +291,7 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
   EXPECT_TRUE(memory.pieces.empty());
 }
 
-/// A world whose next tick steers, asks the ground, watches steps and, on request, chooses methods.
+/// A world whose next tick avoids, queries terrain, reports step events and, on request, runs level of detail.
 struct Busy {
   Busy(const mobil_options& options, bool lod, const std::vector<std::byte>& baked) : sim(options) {
     if (!baked.empty()) {
@@ -324,8 +325,8 @@ struct Busy {
   Sim sim;
 };
 
-/// A tick that lacks memory does not count, and the next one goes on with the phase that lacked it.
-TEST(CHost, ATickWithoutMemoryIsMadeUpFor) {
+/// A tick that lacks memory does not count. The next one continues with the phase that lacked it.
+TEST(CHost, TickWithoutMemoryIsRepeated) {
   const auto usual = filled<mobil_options>(MOBIL_OPTIONS);
   std::vector<std::byte> baked;
   {
@@ -358,7 +359,7 @@ TEST(CHost, ATickWithoutMemoryIsMadeUpFor) {
       }
       ASSERT_EQ(mobil_tick(busy.sim, 29), MOBIL_OK) << busy.sim.message();
       ASSERT_NEAR(mobil_time_s(busy.sim), 0.5, 1e-9);
-      // Level of detail has looked at another quarter of the people by then.
+      // By then level of detail has looked at another quarter of the people.
       if (!lod) {
         ASSERT_EQ(busy.sim.hash(), plain.sim.hash()) << "piece " << n;
       }
@@ -367,7 +368,7 @@ TEST(CHost, ATickWithoutMemoryIsMadeUpFor) {
   }
 }
 
-TEST(CHost, ItsJobsDoTheWork) {
+TEST(CHost, HostJobsDoTheWork) {
   struct Counted {
     std::size_t calls = 0, parts = 0;
   } counted;
@@ -392,7 +393,7 @@ TEST(CHost, ItsJobsDoTheWork) {
   EXPECT_GT(counted.parts, counted.calls);
 }
 
-TEST(CHost, OptionsOutOfRangeSayWhich) {
+TEST(CHost, OptionsOutOfRangeAreNamed) {
   const auto refused = [](const char* names, const std::function<void(mobil_options&)>& change) {
     auto options = filled<mobil_options>(MOBIL_OPTIONS);
     change(options);

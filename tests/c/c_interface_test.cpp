@@ -1,4 +1,4 @@
-// The C interface against the C++ one: the same bits; batches of all or none; structs of other versions.
+// The C interface compared with the C++ interface: same bits, all-or-none batches, structs of other versions.
 
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ LegMuscles modal_choice() {
   return choice;
 }
 
-TEST(CInterface, UsualStructsMakeWhatTheUsualStructsOfCppMake) {
+TEST(CInterface, DefaultStructsMatchCppDefaults) {
   const Sim sim;
   const auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
   auto person = filled<mobil_person>(MOBIL_PERSON);
@@ -46,7 +46,7 @@ TEST(CInterface, UsualStructsMakeWhatTheUsualStructsOfCppMake) {
   EXPECT_EQ(sim.hash(), simulation.state_hash());
 }
 
-TEST(CInterface, APlayThroughCHasTheBitsOfThatThroughCpp) {
+TEST(CInterface, SessionHasTheBitsOfCpp) {
   const Sim sim;
   const auto muscles = modal_muscles();
   const auto ids = spawn(sim, 20, &muscles);
@@ -130,7 +130,7 @@ TEST(CInterface, APlayThroughCHasTheBitsOfThatThroughCpp) {
   both(10);
 }
 
-TEST(CInterface, LevelOfDetailIsThatOfCpp) {
+TEST(CInterface, LevelOfDetailMatchesCpp) {
   const Sim sim;
   const auto ids = spawn(sim, 30);
   auto options = filled<mobil_lod_options>(MOBIL_LOD_OPTIONS);
@@ -176,7 +176,7 @@ TEST(CInterface, LevelOfDetailIsThatOfCpp) {
   EXPECT_EQ(mobil_lod_release(sim, ids.data(), 1), MOBIL_MISSING);
 }
 
-TEST(CInterface, RowsAreTheComponents) {
+TEST(CInterface, RowsMatchComponents) {
   const Sim sim;
   auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
   muscles.muscles = 1U << MOBIL_TRICEPS_SURAE;
@@ -207,7 +207,7 @@ TEST(CInterface, RowsAreTheComponents) {
     const int floats = mobil_row_floats(what);
     std::vector<float> all(static_cast<std::size_t>(floats) * 3);
     EXPECT_EQ(mobil_read(sim, what, ids.data(), 3, all.data(), 0), MOBIL_OK) << sim.message();
-    return std::vector<float>(all.end() - floats, all.end());  // of the last
+    return std::vector<float>(all.end() - floats, all.end());  // of the last row
   };
   const Entity last = people[2];
   const auto joints = rows(MOBIL_JOINTS);
@@ -256,7 +256,7 @@ TEST(CInterface, RowsAreTheComponents) {
   EXPECT_EQ(mobil_get_style(sim, ids[2], style.data(), 3), MOBIL_ROOM);
 }
 
-TEST(CInterface, SnapshotsGoFromOneInterfaceToTheOther) {
+TEST(CInterface, SnapshotsAreInterchangeableWithCpp) {
   const Sim sim;
   const auto muscles = modal_muscles();
   spawn(sim, 9, &muscles);
@@ -284,7 +284,7 @@ TEST(CInterface, SnapshotsGoFromOneInterfaceToTheOther) {
   EXPECT_NE(std::string(mobil_message(sim)).find("at most 0"), std::string::npos);
   limits.resources = 1000;
   limits.steps = 1000;
-  limits.size = offsetof(mobil_limits, resources);  // of a host that knows no more
+  limits.size = offsetof(mobil_limits, resources);  // of an older host
   EXPECT_EQ(mobil_restore_within(sim, bytes.data(), used, nullptr), MOBIL_REFUSED);
   ASSERT_EQ(mobil_restore_within(sim, bytes.data(), used, &limits), MOBIL_OK);
   ASSERT_EQ(mobil_restore(sim, bytes.data(), used), MOBIL_OK);
@@ -299,7 +299,7 @@ TEST(CInterface, SnapshotsGoFromOneInterfaceToTheOther) {
   EXPECT_EQ(mobil_load_baked(Sim(), baked.data(), size), MOBIL_REFUSED);
 }
 
-TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
+TEST(CInterface, OneRefusalChangesNoPerson) {
   const Sim sim;
   const auto muscles = modal_muscles();
   auto ids = spawn(sim, 5, &muscles);
@@ -310,7 +310,7 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
   const std::array both_posed = {posed, posed};
   ASSERT_EQ(mobil_spawn(sim, both_posed.data(), 0, 2, nullptr, dolls.data()), MOBIL_OK) << sim.message();
   const auto before = sim.hash();
-  // `what` begins with the call's name.
+  // `what` starts with the call's name.
   const auto refused = [&](const std::string& what, int expected, const std::function<int()>& request) {
     EXPECT_EQ(request(), expected) << what << ": " << sim.message();
     EXPECT_EQ(sim.message().find("mobil_" + what.substr(0, what.find(' ')) + ":"), 0U) << sim.message();
@@ -410,7 +410,7 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
 
 TEST(CInterface, StructsOfOtherVersionsKeepTheirMeaning) {
   const Sim sim;
-  // An older program: its struct ends where speed begins. What lies behind is not read.
+  // An older program: its struct ends where speed begins. Bytes after that are not read.
   struct Older {
     mobil_person person;
   } older{};
@@ -424,13 +424,13 @@ TEST(CInterface, StructsOfOtherVersionsKeepTheirMeaning) {
   ASSERT_EQ(mobil_get_person(sim, id, &back), MOBIL_OK);
   EXPECT_EQ(back.height_m, 1.9F);
   EXPECT_NEAR(back.speed_m_s, 5 / 3.6, 1e-3);
-  // Two of them, as close together as that program has them.
+  // Two of them, packed as in that program.
   std::vector<unsigned char> rows(2 * known);
   for (std::size_t i = 0; i < 2; ++i) std::memcpy(&rows[i * known], &older, known);
   std::array<mobil_id, 2> ids;
   EXPECT_EQ(mobil_spawn(sim, reinterpret_cast<const mobil_person*>(rows.data()), 0, 2, nullptr, ids.data()), MOBIL_OK)
       << sim.message();
-  // What comes out is no longer than it may be either.
+  // Output is no longer than that struct.
   struct Out {
     mobil_person person;
     unsigned char behind;
@@ -441,7 +441,7 @@ TEST(CInterface, StructsOfOtherVersionsKeepTheirMeaning) {
   EXPECT_EQ(out.person.size, known);
   EXPECT_EQ(reinterpret_cast<const unsigned char*>(&out)[known], 0xee);
 
-  // A newer one: more is there, and zero as long as nothing new is asked for.
+  // A newer program: additional fields are zero as long as no new feature is requested.
   struct Newer {
     mobil_person person;
     double something;
@@ -452,13 +452,13 @@ TEST(CInterface, StructsOfOtherVersionsKeepTheirMeaning) {
   EXPECT_EQ(mobil_spawn(sim, &newer.person, 0, 1, nullptr, &id), MOBIL_OK) << sim.message();
   newer.something = 1;
   EXPECT_EQ(mobil_spawn(sim, &newer.person, 0, 1, nullptr, &id), MOBIL_STRUCT);
-  // None at all.
+  // A struct that was never filled.
   mobil_person unfilled{};
   EXPECT_EQ(mobil_spawn(sim, &unfilled, 0, 1, nullptr, &id), MOBIL_STRUCT);
   EXPECT_NE(sim.message().find("mobil_defaults"), std::string::npos) << sim.message();
 }
 
-TEST(CInterface, NoPointerIsNoCrash) {
+TEST(CInterface, NullPointersAreRefused) {
   EXPECT_EQ(mobil_tick(nullptr, 1), MOBIL_REFUSED);
   EXPECT_EQ(mobil_spawn(nullptr, nullptr, 0, 1, nullptr, nullptr), MOBIL_REFUSED);
   EXPECT_EQ(mobil_create(nullptr, nullptr, nullptr, 0), MOBIL_REFUSED);

@@ -1,4 +1,4 @@
-// Events, roots, walks read back and places of many, through the C interface: those of C++, in the host's axes.
+// Events, roots, gait queries and batch placement through the C interface, compared with C++ in the host's axes.
 
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ std::vector<mobil_event> events(const Sim& sim) {
   return all;
 }
 
-TEST(CPlay, EventsAreThoseOfCpp) {
+TEST(CPlay, EventsMatchCpp) {
   Twins twins;
   ASSERT_EQ(mobil_enable(twins.sim, twins.ids.data(), 5, MOBIL_STEP_EVENTS, 1), MOBIL_OK) << twins.sim.message();
   ASSERT_TRUE(twins.simulation.enable(twins.entities, Feature::step_events));
@@ -56,14 +56,14 @@ TEST(CPlay, EventsAreThoseOfCpp) {
   EXPECT_TRUE(events(twins.sim).empty());
 }
 
-TEST(CPlay, SeveralTicksAtOnceAreToldOfTogether) {
+TEST(CPlay, SeveralTicksAtOnceReportTogether) {
   Twins twins;
   ASSERT_EQ(mobil_enable(twins.sim, twins.ids.data(), 5, MOBIL_STEP_EVENTS, 1), MOBIL_OK);
   ASSERT_EQ(mobil_tick(twins.sim, 60), MOBIL_OK);
   EXPECT_GT(events(twins.sim).size(), 10U);
 }
 
-TEST(CPlay, RootMotionIsThatOfCpp) {
+TEST(CPlay, RootMotionMatchesCpp) {
   Twins twins;
   std::vector<mobil_root> roots(5);
   std::vector<mobil_motion> ways(5);
@@ -91,7 +91,7 @@ TEST(CPlay, RootMotionIsThatOfCpp) {
   EXPECT_EQ(mobil_root_motion(twins.sim, twins.ids.data(), 5, 0, nullptr, ways.data()), MOBIL_REFUSED);
 }
 
-TEST(CPlay, AWalkIsReadBackAndAskedForAgain) {
+TEST(CPlay, GaitIsReadBackAndRequestedAgain) {
   Twins twins;
   auto walk = filled<mobil_walk>(MOBIL_WALK);
   walk.given = MOBIL_SPEED | MOBIL_HEADING;
@@ -107,7 +107,7 @@ TEST(CPlay, AWalkIsReadBackAndAskedForAgain) {
   EXPECT_EQ(read.heading_rad, 0.9F);
   EXPECT_NEAR(read.step_frequency_hz, read.speed_m_s / read.step_length_m, 1e-5);
   ASSERT_EQ(read.style, style.data());
-  // One number of the style, and nothing else.
+  // Changes one style parameter only.
   mobil_style_number number;
   int toe_out = 0;
   while (mobil_style(toe_out, &number) == MOBIL_OK && std::string(number.name) != "toe_out_deg") ++toe_out;
@@ -127,7 +127,7 @@ TEST(CPlay, AWalkIsReadBackAndAskedForAgain) {
   EXPECT_EQ(mobil_get_walk(twins.sim, {99, 9}, &again, nullptr, 0), MOBIL_STALE);
 }
 
-TEST(CPlay, ManyArePlacedOrNobody) {
+TEST(CPlay, BatchPlacementIsAllOrNone) {
   Twins twins;
   std::vector<std::array<float, 4>> to(5);
   std::vector<PlaceRequest> ours(5);
@@ -146,7 +146,7 @@ TEST(CPlay, ManyArePlacedOrNobody) {
   EXPECT_EQ(twins.sim.hash(), twins.simulation.state_hash());
 }
 
-TEST(CPlay, WhoIsPosedIsNotWatched) {
+TEST(CPlay, PosedPeopleHaveNoStepEvents) {
   const Sim sim;
   auto person = filled<mobil_person>(MOBIL_PERSON);
   person.posed = 1;
@@ -158,8 +158,8 @@ TEST(CPlay, WhoIsPosedIsNotWatched) {
   EXPECT_EQ(mobil_get_walk(sim, id, &walk, nullptr, 0), MOBIL_MISSING);
 }
 
-/// Of somebody who is known to bend an ankle too far as they stop and go on.
-TEST(CPlay, LimitsThatAreBrokenAreThoseOfCpp) {
+/// A person known to exceed the ankle's limit when stopping and starting again.
+TEST(CPlay, LimitViolationsMatchCpp) {
   GaitRequest gait{.speed_m_s = 2.06351F};
   gait.style.double_support_scale = 0.6F;
   std::vector<float> style;
@@ -212,7 +212,7 @@ TEST(CPlay, LimitsThatAreBrokenAreThoseOfCpp) {
   EXPECT_EQ(mobil_limit_violations(sim, {99, 0}, nullptr, 0, &people), MOBIL_STALE);
 }
 
-TEST(CPlay, PhasesAreThoseOfTheReport) {
+TEST(CPlay, PhasesMatchTheReport) {
   const Sim sim;
   Simulation simulation;
   ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);

@@ -1,4 +1,4 @@
-// Skin through the C interface: that of C++, in the host's axes; what it refuses.
+// Skin through the C interface: matches C++ in the host's axes; refusals.
 
 #include <array>
 #include <string>
@@ -13,7 +13,7 @@ namespace mobil::c_skin_test {
 namespace {
 using namespace c_test;
 
-TEST(CSkin, IsThatOfCppInTheHostsAxes) {
+TEST(CSkin, MatchesCppInTheHostsAxes) {
   auto options = filled<mobil_options>(MOBIL_OPTIONS);
   options.axes = MOBIL_AXES_UNREAL;
   options.units_per_m = 100;
@@ -70,7 +70,7 @@ TEST(CSkin, IsThatOfCppInTheHostsAxes) {
   std::array<unsigned int, MOBIL_SKIN_PARTS + 1> first{};
   ASSERT_EQ(mobil_skin_indices(sim, MOBIL_WOMAN, MOBIL_DISTANT, index.data(), index.size(), first.data()), MOBIL_OK);
   EXPECT_EQ(3 * std::size_t{first[MOBIL_SKIN_PARTS]}, index.size());
-  // Wound so that the front is outside in these axes, which are mirror images of ours.
+  // Triangles are wound so that the front is outside in these axes, which mirror the library's.
   double six_fold = 0;
   for (std::size_t i = 0; i < index.size(); i += 3) {
     const float *a = &theirs[6 * index[i]], *b = &theirs[6 * index[i + 1]], *c = &theirs[6 * index[i + 2]];
@@ -100,7 +100,7 @@ TEST(CSkin, LegsFlexOnRequest) {
   EXPECT_LT(most, 0.05F);
 }
 
-TEST(CSkin, RefusesWhatCannotBe) {
+TEST(CSkin, RefusesInvalidRequests) {
   Sim sim;
   EXPECT_EQ(mobil_skin_vertex_count(2, 0), 0U);
   EXPECT_EQ(mobil_skin_index_count(0, 4), 0U);

@@ -1,4 +1,4 @@
-// Others, walls and ground through the C interface: those of C++, in the host's axes.
+// Avoidance, walls and terrain through the C interface, compared with C++ in the host's axes.
 
 #include <algorithm>
 #include <array>
@@ -13,14 +13,14 @@ namespace mobil::c_surroundings_test {
 namespace {
 using namespace c_test;
 
-TEST(CSurroundings, TheWaysOfWhoAvoidOthersAreThoseOfCpp) {
+TEST(CSurroundings, AvoidancePathsMatchCpp) {
   Twins twins;
   Avoidance avoidance = twins.simulation.avoidance();
   ASSERT_EQ(mobil_avoidance_manage(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
   for (const Entity person : twins.entities) ASSERT_TRUE(avoidance.manage(person));
   EXPECT_EQ(bits_of(twins.sim, twins.ids[2]) & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_AVOIDS);
 
-  // All of them to the middle, between two walls, past a pillar that comes along.
+  // Everyone walks to the middle, between two walls and past a moving pillar.
   std::vector<std::array<float, 2>> wishes(5);
   std::vector<DesiredVelocity> ours(5);
   for (std::size_t i = 0; i < 5; ++i) {
@@ -55,12 +55,12 @@ TEST(CSurroundings, TheWaysOfWhoAvoidOthersAreThoseOfCpp) {
   EXPECT_NE(twins.sim.message().find("person 0"), std::string::npos);
 }
 
-/// A hill of no simple form, at a place of theirs or ours.
+/// An irregular hill, in the library's coordinates.
 TerrainHeight hill(float x_m, float z_m) {
   return {0.3F * std::sin(x_m) + 0.1F * z_m, 0.3F * std::cos(x_m), 0.1F};
 }
 
-/// The same as a host's function in the library's axes.
+/// The hill as a host's callback, in the library's axes.
 int hill_of_host(void* calls, const float* places, const mobil_id*, size_t count, float* ground) {
   ++*static_cast<int*>(calls);
   for (size_t i = 0; i < count; ++i, places += 3, ground += 4) {
@@ -71,7 +71,7 @@ int hill_of_host(void* calls, const float* places, const mobil_id*, size_t count
   return 0;
 }
 
-/// Everybody on the hill, and whether they slow down there: as in C++.
+/// All people walk on the hill, with or without speed scaling, as in C++.
 void walk_on_the_hill(bool slows_down) {
   Twins twins;
   const auto heights = [](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
@@ -122,21 +122,21 @@ void walk_on_the_hill(bool slows_down) {
     auto walk = filled<mobil_walk>(MOBIL_WALK);
     ASSERT_EQ(mobil_get_walk(twins.sim, twins.ids[i], &walk, nullptr, 0), MOBIL_OK) << twins.sim.message();
     EXPECT_NEAR(walk.speed_m_s, twins.simulation.get<Gait>(twins.entities[i])->speed_m_s, 1e-3);
-    slowed += walk.speed_m_s < 0.85F;  // nobody was asked for less than 0.9 m/s
+    slowed += walk.speed_m_s < 0.85F;  // every request was at least 0.9 m/s
   }
   EXPECT_EQ(slowed > 0, slows_down);
   ASSERT_EQ(mobil_terrain_set_speed_scaling(twins.sim, 0), MOBIL_OK);
 }
 
-TEST(CSurroundings, TheGroundIsThatOfCpp) {
+TEST(CSurroundings, TerrainMatchesCpp) {
   walk_on_the_hill(false);
 }
 
-TEST(CSurroundings, WalkersSlowDownAsInCpp) {
+TEST(CSurroundings, SpeedScalingMatchesCpp) {
   walk_on_the_hill(true);
 }
 
-/// One advance a frame chooses, steers and asks: as in C++.
+/// One advance per frame runs level of detail, avoidance and terrain queries, as in C++.
 TEST(CSurroundings, AFrameHasAllOfItsPhases) {
   const Sim sim;
   const auto ids = spawn(sim, 5);
@@ -187,8 +187,8 @@ TEST(CSurroundings, AFrameHasAllOfItsPhases) {
   EXPECT_EQ(bits_of(sim, ids[0]), MOBIL_HAS_MUSCLES | MOBIL_MANAGED | MOBIL_AVOIDS | MOBIL_ON_GROUND);
 }
 
-/// A function that refuses keeps the tick from running; the next one goes on.
-TEST(CSurroundings, GroundThatIsNotThereStopsTime) {
+/// A callback that refuses stops the tick. The next tick continues.
+TEST(CSurroundings, MissingTerrainStopsTime) {
   const Sim sim, plain;
   const auto level = [](void* user, const float*, const mobil_id*, size_t, float*) { return *static_cast<int*>(user); };
   for (const Sim* each : {&sim, &plain}) {
@@ -211,10 +211,10 @@ TEST(CSurroundings, GroundThatIsNotThereStopsTime) {
   std::size_t count = 0;
   ASSERT_EQ(mobil_tick(sim, 60), MOBIL_OK);
   ASSERT_EQ(mobil_terrain_query(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
-  EXPECT_GT(count, 0U);  // nobody answered
+  EXPECT_GT(count, 0U);  // unresolved queries
 }
 
-TEST(CSurroundings, GroundThatHangsOverOrIsNoNumberIsLevel) {
+TEST(CSurroundings, InvalidTerrainCountsAsLevel) {
   const Sim sim;
   const auto ids = spawn(sim, 1);
   ASSERT_EQ(mobil_terrain_manage(sim, ids.data(), 1, 1), MOBIL_OK);
@@ -230,7 +230,7 @@ TEST(CSurroundings, GroundThatHangsOverOrIsNoNumberIsLevel) {
   EXPECT_EQ(mobil_terrain_resolve(sim, ground[0].data(), 0, count, &unusable), MOBIL_REFUSED);
 }
 
-TEST(CSurroundings, AllOrNone) {
+TEST(CSurroundings, BatchesAreAllOrNone) {
   const Sim sim;
   auto ids = spawn(sim, 2);
   ASSERT_EQ(mobil_avoidance_set_options(sim, nullptr), MOBIL_OK);
@@ -254,7 +254,7 @@ TEST(CSurroundings, AllOrNone) {
   EXPECT_EQ(mobil_avoidance_set_desired_velocity(sim, ids.data(), 2, wishes[0], 4), MOBIL_REFUSED);
   EXPECT_EQ(mobil_avoidance_set_desired_velocity(sim, ids.data(), 2, nullptr, 0), MOBIL_REFUSED);
   EXPECT_EQ(mobil_avoidance_manage(sim, ids.data(), 2, 1),
-            MOBIL_OK);  // people who avoid others already keep their wish
+            MOBIL_OK);  // people who already avoid others keep their desired velocity
   EXPECT_EQ(sim.hash(), avoiding);
   const float wall[6] = {0, 0, 0, INFINITY, 0, 0};
   EXPECT_EQ(mobil_avoidance_set_walls(sim, wall, 0, 1), MOBIL_REFUSED);

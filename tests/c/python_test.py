@@ -1,5 +1,5 @@
-"""The Python package against the C++ program and against itself. Run by ctest with the package in PYTHONPATH; argument:
-the mobil program. Exit status 77, skipped, where numpy or cffi is missing."""
+"""The Python package, compared with the C++ program. Run by ctest with the package in PYTHONPATH; argument: the mobil
+program. Exit status 77, skipped, if numpy or cffi is missing."""
 
 import csv
 import pathlib
@@ -551,7 +551,7 @@ class Arrays(unittest.TestCase):
         room = np.zeros((3, 48, 7), np.float32)
         out = room[:, :0]
         self.assertIs(world.poses(people, segments=[], out=out), out)
-        np.testing.assert_array_equal(room, 0)  # all segments would have had room
+        np.testing.assert_array_equal(room, 0)  # all segments would have fit
 
     def test_what_is_too_short_for_a_call_is_refused_before_it(self):
         world = mobil.World()

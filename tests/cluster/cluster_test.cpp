@@ -32,7 +32,7 @@ class Folder {
   fs::path path_;
 };
 
-/// What the first rank's host decides: who comes, goes, turns and walks otherwise, drawn from the tick.
+/// Returns the commands of the first rank's host: spawns, removals, turns and changes of gait, drawn from the tick.
 std::vector<std::byte> commands_of(std::uint32_t tick, std::uint64_t people, bool camera) {
   std::vector<PersonCommand> all;
   const auto draw = [&](std::uint64_t stream) { return mix64(mix64(tick) ^ stream); };
@@ -55,7 +55,7 @@ std::vector<std::byte> commands_of(std::uint32_t tick, std::uint64_t people, boo
     view.forward = {std::sin(6 * part(15)), 0, std::cos(6 * part(15))};
     all.push_back(look(view, 2, 6));
   }
-  all.push_back(turn(1'000'000 + tick, 0));  // of nobody: refused
+  all.push_back(turn(1'000'000 + tick, 0));  // of a person who does not exist: refused
   const auto raw = std::as_bytes(std::span(all));
   return {raw.begin(), raw.end()};
 }
@@ -69,12 +69,12 @@ struct Asked {
   std::uint32_t save_every = 0;
   std::uint32_t logged_until = 0;
   std::optional<std::uint32_t> die_at{};  // the last rank stops the run there
-  bool host_knows_replayed = true;        // false: it gives no commands for ticks that are repeated from the log
+  bool host_knows_replayed = true;        // false: the host gives no commands for ticks replayed from the log
 };
 
 struct Came {
   std::uint64_t hash = 0, people = 0, refused = 0, asleep = 0, with_muscles = 0;
-  ClusterReport report;  // the first rank's
+  ClusterReport report;  // of the first rank
   std::string stopped;
 };
 
@@ -98,8 +98,8 @@ Came run(const Asked& asked) {
   came.stopped = on_ranks(
       asked.ranks,
       [&](Ranks& ranks) {
-        const Simulation library;      // of nobody: shards may move away, and what they share is to stay
-        std::unique_ptr<Shard> first;  // keeps the library, for shards may move away
+        const Simulation library;      // empty: shared resources stay when shards move away
+        std::unique_ptr<Shard> first;  // keeps the library alive, because shards can move away
         auto cluster = Cluster::begin(ranks,
                                       {.shards = asked.shards_of_crowd,
                                        .meet_every = 16,
@@ -155,7 +155,7 @@ TEST(Cluster, AnyNumberOfRanksGivesTheSameBits) {
   }
 }
 
-TEST(Cluster, WalkersOfManyShardsAreThoseOfOneSimulation) {
+TEST(Cluster, ManyShardsMatchOneSimulation) {
   const Came one = run({.shards_of_crowd = 1}), five = run({.ranks = 2, .shards_of_crowd = 5});
   EXPECT_EQ(one.stopped + five.stopped, "");
   EXPECT_EQ(one.hash, five.hash);
@@ -170,7 +170,7 @@ TEST(Cluster, RanksGiveTheSameBitsWithMusclesAndSleepers) {
   EXPECT_GT(one.with_muscles, 0U);
 }
 
-TEST(Cluster, ShardsMoveToWhoHasLessToDoAndNobodyNotices) {
+TEST(Cluster, MovingShardsToIdleRanksKeepsTheBits) {
   const Came one = run({});
   const Came moved = run({.ranks = 3, .balance_every = 5});
   EXPECT_EQ(moved.stopped, "");
@@ -178,7 +178,7 @@ TEST(Cluster, ShardsMoveToWhoHasLessToDoAndNobodyNotices) {
   EXPECT_GT(moved.report.moved, 0U) << "8 shards on 3 ranks are uneven";
 }
 
-TEST(Cluster, ARunGoesOnFromItsLastSnapshotOnAnyNumberOfRanks) {
+TEST(Cluster, RunResumesFromItsLastSnapshotOnAnyRanks) {
   const Came whole = run({});
   for (const bool muscles : {false, true}) {
     const Asked undisturbed{.muscles = muscles};
@@ -199,8 +199,8 @@ TEST(Cluster, ARunGoesOnFromItsLastSnapshotOnAnyNumberOfRanks) {
   }
 }
 
-/// The host knows nothing of what was logged: only the log can bring it back.
-TEST(Cluster, KilledAgainAsItGoesOnNothingIsLost) {
+/// The host does not repeat what was logged. Only the log can restore it.
+TEST(Cluster, KilledWhileResumingLosesNothing) {
   const std::uint64_t hash = run({}).hash;
   const Folder folder;
   Asked asked{.ranks = 2, .folder = folder.path(), .save_every = 0, .die_at = 45};
@@ -220,7 +220,7 @@ TEST(Cluster, KilledAgainAsItGoesOnNothingIsLost) {
   EXPECT_EQ(went_on.hash, hash);
 }
 
-TEST(Cluster, ASnapshotAtOnceAfterGoingOnChangesNothing) {
+TEST(Cluster, SnapshotAtOnceAfterResumingChangesNothing) {
   const Folder folder;
   Asked asked{.ticks = 20, .people = 20, .folder = folder.path(), .save_every = 0};
   const std::uint64_t hash = run(asked).hash;
@@ -237,7 +237,7 @@ TEST(Cluster, ASnapshotAtOnceAfterGoingOnChangesNothing) {
   EXPECT_EQ(run(asked).hash, hash);
 }
 
-TEST(Cluster, ADamagedSnapshotIsPassedOverForTheOneBefore) {
+TEST(Cluster, DamagedSnapshotFallsBackToTheOneBefore) {
   const std::uint64_t hash = run({}).hash;
   const Folder folder;
   Asked asked{.ranks = 2, .folder = folder.path(), .save_every = 20, .die_at = 53};
@@ -253,7 +253,7 @@ TEST(Cluster, ADamagedSnapshotIsPassedOverForTheOneBefore) {
   EXPECT_GE(went_on.report.replayed, 33U) << "the logs of both snapshots";
 }
 
-TEST(Cluster, AnAlteredRecordIsNotPassedOver) {
+TEST(Cluster, AlteredRecordIsRefused) {
   const Folder folder;
   Asked asked{.folder = folder.path(), .save_every = 0, .die_at = 30};
   EXPECT_EQ(run(asked).stopped, "killed");
@@ -270,7 +270,7 @@ TEST(Cluster, AnAlteredRecordIsNotPassedOver) {
   EXPECT_EQ(fs::file_size(log), size);
 }
 
-TEST(Cluster, WhatIsOfOthersInTheFolderStays) {
+TEST(Cluster, ForeignFilesInTheFolderStay) {
   const Folder folder;
   EXPECT_EQ(run({.ticks = 50, .people = 10, .folder = folder.path(), .save_every = 10}).stopped, "");
   std::ofstream(folder.path() / "tick_0000000040" / "notes") << "of somebody else";
@@ -280,7 +280,7 @@ TEST(Cluster, WhatIsOfOthersInTheFolderStays) {
   EXPECT_FALSE(fs::exists(folder.path() / "tick_0000000040" / "index"));
 }
 
-TEST(Cluster, TwoRunsDoNotShareAFolder) {
+TEST(Cluster, TwoRunsCannotShareAFolder) {
   const Folder folder;
   const auto held = FolderLock::take(folder.path());
   ASSERT_TRUE(held);
@@ -288,7 +288,7 @@ TEST(Cluster, TwoRunsDoNotShareAFolder) {
             std::string::npos);
 }
 
-TEST(Cluster, WhatWasBeingWrittenIsDropped) {
+TEST(Cluster, UnfinishedWritesAreDropped) {
   const std::uint64_t hash = run({}).hash;
   const Folder folder;
   Asked asked{.ranks = 2, .folder = folder.path(), .save_every = 20, .die_at = 53};
@@ -303,7 +303,7 @@ TEST(Cluster, WhatWasBeingWrittenIsDropped) {
   EXPECT_EQ(run(asked).hash, hash);
 }
 
-TEST(Cluster, WhatDoesNotFitIsRefusedInOneLine) {
+TEST(Cluster, MismatchesAreRefusedInOneLine) {
   const Folder folder;
   Asked asked{.ranks = 2, .ticks = 20, .people = 30, .folder = folder.path(), .save_every = 10};
   EXPECT_EQ(run(asked).stopped, "");
@@ -318,7 +318,7 @@ TEST(Cluster, WhatDoesNotFitIsRefusedInOneLine) {
     altered.seekp(300);
     altered.put('!');
   }
-  fs::remove_all(folder.path() / "tick_0000000010");  // there is no other to go on from
+  fs::remove_all(folder.path() / "tick_0000000010");  // the only snapshot
   EXPECT_NE(run(asked).stopped.find("shard_0003: a message was altered"), std::string::npos);
   fs::remove(file);
   EXPECT_NE(run(asked).stopped.find("shard_0003: cannot be read"), std::string::npos);
@@ -340,7 +340,7 @@ TEST(Cluster, OldSnapshotsAreRemoved) {
   EXPECT_EQ(found, 2U);
 }
 
-TEST(PeopleShard, RefusesWhatCannotBeAndIsUnchanged) {
+TEST(PeopleShard, RefusesInvalidCommandsUnchanged) {
   PeopleShard shard(0, {.shards = 1});
   const float nan = std::nanf("");
   std::vector<PersonCommand> bad = {come(1, {.height_m = 9}, 1, 0, 0, 0),
@@ -350,7 +350,7 @@ TEST(PeopleShard, RefusesWhatCannotBeAndIsUnchanged) {
                                     go(1),
                                     look({}, 1, 0)};
   bad.push_back(come(1, {}, 1.2F, 0, 0, 0));
-  bad.back().value[5] = 77;  // no constitution
+  bad.back().value[5] = 77;  // not a constitution
   bad.push_back(go(1));
   bad.back().wish = static_cast<Wish>(99);
   const std::uint64_t before = shard.state_sum();

@@ -11,7 +11,7 @@
 
 namespace mobil {
 
-/// Runs `work` on each of so many ranks; what it was stopped with, empty where it was not.
+/// Runs `work` on each of `ranks` ranks. Returns the reason it was stopped, or an empty string.
 inline std::string on_ranks(int ranks, const std::function<void(Ranks&)>& work, std::uint64_t delay_seed = 0,
                             double silence_s = 60) {
   LocalRanks local(ranks, delay_seed);

@@ -15,7 +15,7 @@ std::vector<std::byte> some_bytes() {
   return bytes;
 }
 
-RC_GTEST_PROP(Message, ComesOutAsItWentIn, ()) {
+RC_GTEST_PROP(Message, RoundTripKeepsTheBytes, ()) {
   const auto bytes = some_bytes();
   const auto tick = *rc::gen::arbitrary<std::uint32_t>();
   const auto sealed = seal_message({MessageKind::commands, tick, bytes});
@@ -45,13 +45,13 @@ RC_GTEST_PROP(Message, ForeignBytesAreRefused, ()) {
   RC_ASSERT(in.size() == bytes.size());
 }
 
-TEST(Message, IsRefusedWhereAnotherKindIsDue) {
+TEST(Message, IsRefusedWhenAnotherKindIsExpected) {
   const auto sealed = seal_message({MessageKind::beat, 3, {}});
   EXPECT_TRUE(open_message(sealed, MessageKind::beat));
   EXPECT_FALSE(open_message(sealed, MessageKind::commands));
 }
 
-TEST(Message, SeveralAreTakenOneAfterTheOther) {
+TEST(Message, SeveralAreReadInSequence) {
   auto all = seal_message({MessageKind::commands, 1, {}});
   const auto second = seal_message({MessageKind::commands, 2, all});
   all.insert(all.end(), second.begin(), second.end());

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `mobil crowd` under mpirun: the same hash and picture from one, two and three ranks; a rank that is killed, and one that
-# hangs, end the run, and --resume goes on to the hash of an undisturbed one. Status 77 where there is no MPI.
+# `mobil crowd` under mpirun: equal hash and picture from one, two and three ranks. A killed rank, or one that hangs,
+# ends the run, and --resume continues to the hash of an undisturbed run. Status 77 without MPI.
 # Usage: mpi_test.sh BUILD_FOLDER SOURCE_FOLDER MOBIL
 set -euo pipefail
 mobil=$(realpath "$3")
@@ -8,7 +8,8 @@ command -v mpirun >/dev/null || { echo "no mpirun here (Debian: openmpi-bin)"; e
 scratch=$(mktemp -d)
 trap 'kill "${running:-}" 2>/dev/null || true; rm -rf "$scratch"' EXIT
 cd "$scratch"
-# Two jobs that begin at once would fight for one folder; ranks here outnumber processors and may be root's.
+# Two jobs that start simultaneously would compete for one folder. Ranks can outnumber processors, and root can run
+# them.
 export TMPDIR=$scratch OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
 mpirun -n 2 true >out 2>&1 || { cat out; echo "mpirun cannot start processes here"; exit 77; }
@@ -19,7 +20,7 @@ mpirun -n 1 "$mobil" crowd --people 20 --effects none --seconds 0.1 >out 2>&1 ||
 }
 
 crowd=(crowd --people 1000 --shards 12 --effects none --churn 60 --seed 3)
-# hash_of: the last one that was printed
+# hash_of: returns the last printed hash
 hash_of() { grep '^state hash' | tail -n 1; }
 same() {  # same WHAT ONE OTHER
   [ -n "$2" ] && [ "$2" = "$3" ] && return
@@ -28,8 +29,8 @@ same() {  # same WHAT ONE OTHER
 }
 
 alone=$("$mobil" "${crowd[@]}" --seconds 60 | hash_of)
-# alone_until "state hash … at tick N": that of an undisturbed run at this tick. Where this script is held up, a run has
-# gone on for more than 60 s before it is killed, and only begins to go on from there.
+# alone_until "state hash … at tick N": the hash of an undisturbed run at this tick. If this script is delayed, a run
+# has passed 60 s before it is killed, and resumes only from there.
 alone_until() {
   local tick=${1##* } usual=${alone##* }
   if [ "$tick" = "$usual" ]; then
@@ -47,7 +48,7 @@ picture=(crowd --people 40 --shards 4 --effects none --seconds 0.5 --capture)
 mpirun -n 2 "$mobil" "${picture[@]}" two.png >/dev/null
 cmp one.png two.png
 
-# Disturbed as soon as the second snapshot is there.
+# Disturbs the run as soon as the second snapshot exists.
 rank() {  # rank N: its process
   local status
   for status in /proc/[0-9]*/status; do
@@ -58,7 +59,7 @@ rank() {  # rank N: its process
     fi
   done
 }
-snapshots() {  # snapshots FOLDER COUNT: waits until so many are there
+snapshots() {  # snapshots FOLDER COUNT: waits for so many snapshots
   local _
   for _ in $(seq 1500); do
     [ "$(find "$1" -name index 2>/dev/null | wc -l)" -lt "$2" ] || return 0
@@ -68,7 +69,7 @@ snapshots() {  # snapshots FOLDER COUNT: waits until so many are there
   echo "no snapshots appear" >&2
   exit 1
 }
-begin() {  # begin FOLDER RANK: the process of that rank is then in `process`
+begin() {  # begin FOLDER RANK: sets `process` to the process of that rank
   rm -rf "$1"
   mpirun -n 3 "$mobil" "${crowd[@]}" --seconds 3600 --save "$1" --save-every 2s --silence 2s >"$1.out" 2>&1 &
   running=$!
@@ -78,7 +79,7 @@ begin() {  # begin FOLDER RANK: the process of that rank is then in `process`
 }
 for victim in 0 2; do
   begin killed $victim
-  [ $victim = 0 ] || sleep 0.0$((RANDOM % 90 + 10))  # at any moment, in a snapshot perhaps
+  [ $victim = 0 ] || sleep 0.0$((RANDOM % 90 + 10))  # at any moment, possibly in a snapshot
   kill -9 "$process"
   started=$SECONDS
   ! wait "$running" || { echo "a run without rank $victim ends well" >&2; exit 1; }
@@ -98,7 +99,7 @@ grep -q '^cluster: rank 1 has been silent for .* s, since about tick .*--resume 
   exit 1
 }
 
-# What cannot be is one line of the first rank, status 2.
+# Invalid requests are refused in one line of the first rank, with status 2.
 if mpirun -n 2 "$mobil" crowd --people 20 --effects none --resume nowhere >out 2>&1; then exit 1; fi
 [ "$(grep -c '^mobil crowd:' out)" = 1 ]
 grep -q 'nowhere: no snapshot is there' out

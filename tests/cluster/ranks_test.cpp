@@ -17,10 +17,10 @@ std::vector<std::byte> bytes_of(int value, std::size_t times) {
   return std::vector<std::byte>(times, std::byte{static_cast<std::uint8_t>(value)});
 }
 
-/// However late messages come.
+/// Messages arrive with random delays.
 class RanksOf : public testing::TestWithParam<int> {};
 
-TEST_P(RanksOf, ShareWhatTheySay) {
+TEST_P(RanksOf, ExchangeValues) {
   const int count = GetParam();
   for (const std::uint64_t seed : {0U, 1U, 2U, 3U}) {
     const std::string stopped = on_ranks(
@@ -53,7 +53,7 @@ TEST_P(RanksOf, ShareWhatTheySay) {
   }
 }
 
-TEST_P(RanksOf, AllHaveTheErrorOfOne) {
+TEST_P(RanksOf, AllReceiveTheErrorOfOne) {
   const int count = GetParam();
   const std::string stopped = on_ranks(count, [&](Ranks& ranks) {
     EXPECT_TRUE(ranks.agree({}));
@@ -67,7 +67,7 @@ TEST_P(RanksOf, AllHaveTheErrorOfOne) {
 
 INSTANTIATE_TEST_SUITE_P(Counts, RanksOf, testing::Values(1, 2, 3, 4, 7, 8));
 
-TEST(Ranks, WhoIsSilentIsNamed) {
+TEST(Ranks, SilentRankIsNamed) {
   std::atomic<bool> done = false;
   const std::string stopped = on_ranks(
       3,
@@ -90,7 +90,7 @@ TEST(Ranks, WhoIsSilentIsNamed) {
   EXPECT_NE(stopped.find("since about tick 48"), std::string::npos) << stopped;
 }
 
-TEST(Ranks, WhoWorksLongAndSaysSoIsWaitedFor) {
+TEST(Ranks, RankThatReportsAliveIsWaitedFor) {
   const std::string stopped = on_ranks(
       2,
       [&](Ranks& ranks) {
@@ -105,7 +105,7 @@ TEST(Ranks, WhoWorksLongAndSaysSoIsWaitedFor) {
   EXPECT_EQ(stopped, "");
 }
 
-TEST(Ranks, WhatArrivesAlteredStopsAllInOneLine) {
+TEST(Ranks, AlteredMessageStopsAllInOneLine) {
   for (const bool cut : {false, true}) {
     LocalRanks local(2);
     auto bytes = seal_message({MessageKind::commands, 0, bytes_of(1, 100)});
@@ -123,7 +123,7 @@ TEST(Ranks, WhatArrivesAlteredStopsAllInOneLine) {
   }
 }
 
-TEST(Balance, MovesFromWhoHasMostToWhoHasLeast) {
+TEST(Balance, MovesFromTheBusiestToTheIdlestRank) {
   const auto owner = first_owners(8, 2);
   const std::vector<std::uint64_t> even(8, 100);
   EXPECT_TRUE(plan_moves(owner, even, 2).empty());

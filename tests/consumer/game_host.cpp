@@ -1,5 +1,5 @@
-// A host with an engine/world.h of its own, that uses Eigen itself and is built for AVX2 without inlining: its Eigen
-// aligns memory otherwise than ours does.
+// A host with its own engine/world.h, which uses Eigen itself and is built for AVX2 without inlining. Its Eigen aligns
+// memory differently from the library's.
 #include <Eigen/Dense>
 #include <cstdio>
 

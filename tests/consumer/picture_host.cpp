@@ -1,4 +1,4 @@
-// A host that writes a picture and has nothing else of mobil: one library brings along what it needs.
+// A host that writes a picture and uses no other part of mobil. The library brings its own dependencies.
 #include <mobil/png.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 #pragma once
-// Sixteen bellies stepped by any method, and each of them once more in double precision.
+// Sixteen bellies stepped by any method, each of them compared with the same belly in double precision.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ inline MuscleTemplate make(HexahedralMesh mesh, const MuscleOptions& options) {
   return std::move(*made);
 }
 
-/// Of ECD, which solves nothing, its name alone.
+/// Returns a solver. Explicit central differences solve no system, so theirs holds only the method.
 inline BellySolver make_solver(const MuscleTemplate& muscle, Method method, Mass mass, double dt_s, double across = 1,
                                double along = 1) {
   if (method == Method::explicit_central) {
@@ -42,7 +42,7 @@ inline BellySolver make_solver(const MuscleTemplate& muscle, Method method, Mass
   return std::move(*made);
 }
 
-/// Anything that can drive a far face, and the frame: the same for the kernel and the oracle.
+/// All loads of a far face, and the frame, for the kernel and the reference.
 struct EndPull {
   EndDrive<Lanes<float>> displacement{}, force{};
   EndTraction<Lanes<float>> traction{};
@@ -53,7 +53,7 @@ struct EndPull {
     if (end == FarEnd::free) return traction;
     return {end, end == FarEnd::held ? displacement : force};
   }
-  /// Of one lane at a fraction of the tick.
+  /// Returns one lane's load at a fraction of the tick.
   ReferenceLoad load(FarEnd end, std::size_t l, double part) const {
     const auto mix = [&](const Lanes<float>& from, const Lanes<float>& to) {
       return static_cast<double>(from[l]) + part * (static_cast<double>(to[l]) - static_cast<double>(from[l]));
@@ -73,7 +73,7 @@ struct EndPull {
   }
 };
 
-/// A smooth drive that starts from rest, other in every lane.
+/// Returns a smooth drive that starts from rest and differs in every lane.
 inline EndPull drive_at(double t, double size, bool framed) {
   EndPull drive;
   drive.framed = framed;
@@ -115,7 +115,7 @@ struct Block {
   std::vector<Lanes<float>> u, v, scratch;
   BellyReport<Lanes<float>> report{};
 
-  /// Bellies of all the sizes within the given parts of the solver's ratio and of its S·l.
+  /// Bellies of all sizes within the given fractions of the solver's ratio and of its S·l.
   Block(const MuscleTemplate& m, BellySolver s, double ratio_spread, double size_spread)
       : muscle(m),
         solver(std::move(s)),
@@ -152,7 +152,7 @@ struct Distance {
   double displacement = 0, report = 0;  // worst lane's, relative to the norm of the history
 };
 
-/// From the same bellies in double precision, which reference_test holds to dense matrices.
+/// Returns the distance from the same bellies in double precision, which reference_test compares with dense matrices.
 inline Distance distance_from_reference(Block& block, bool framed, int ticks, std::uint32_t substeps) {
   const MuscleTemplate& muscle = block.muscle;
   const MuscleOptions& options = muscle.options;
@@ -208,7 +208,7 @@ inline Distance distance_from_reference(Block& block, bool framed, int ticks, st
   return worst;
 }
 
-/// Displaces all that moves, at random.
+/// Displaces all moving components randomly.
 inline void shake(Block& block, float size) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> any(-size, size);
@@ -227,7 +227,7 @@ inline double energy(const Block& block, std::size_t l) {
   return static_cast<double>(block.report.kinetic_energy_j[l]) + static_cast<double>(block.report.strain_energy_j[l]);
 }
 
-/// m; infinite where a number is none.
+/// Returns the largest displacement, m; infinite if any is not finite.
 inline double largest(const Block& block) {
   double most = 0;
   for (const auto& lanes : block.u) {

@@ -1,4 +1,4 @@
-// The explicit sixteen-lane kernel against double precision, and what must hold of any such kernel.
+// The explicit sixteen-lane kernel compared with double precision, and properties that any such kernel must have.
 #include "systems/deformation/deformation.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ MuscleTemplate make(const Cells& cells, FarEnd end, double damping) {
   return oracle::make(spindle(cells), {end, damping, 0.25, 4});
 }
 
-/// At rest, of sixteen sizes.
+/// Returns a block at rest with sixteen sizes.
 Block stepped_explicitly(const MuscleTemplate& muscle) {
   return {muscle, make_solver(muscle, Method::explicit_central, Mass::lumped, 0), 0.42, 0.35};
 }
@@ -31,7 +31,7 @@ std::uint32_t substeps(const Block& block) {
   return most;
 }
 
-TEST(Deformation, FollowsTheReferenceForASecondHoweverItsEndIsDriven) {
+TEST(Deformation, FollowsTheReferenceForASecondForAnyDrive) {
   for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
     for (const bool alike : {false, true}) {
       const MuscleTemplate muscle = make({2, 2, 8}, end, alike ? 0 : 8);
@@ -44,7 +44,7 @@ TEST(Deformation, FollowsTheReferenceForASecondHoweverItsEndIsDriven) {
   }
 }
 
-// The longer its elements are, the closer a belly's softness comes to what rounding leaves.
+// Longer elements make a belly softer and rounding errors relatively larger.
 TEST(Deformation, OtherMeshesFollowTheReference) {
   for (const Cells& cells : {Cells{1, 1, 1}, Cells{1, 3, 2}, Cells{4, 2, 3}}) {
     for (const FarEnd end : {FarEnd::held, FarEnd::free}) {
@@ -74,10 +74,10 @@ TEST(Deformation, FreeUndampedMotionKeepsItsEnergy) {
       lowest_share = std::min(lowest_share, static_cast<double>(block.report.kinetic_energy_j[l]) / first[l]);
     }
   }
-  EXPECT_LT(lowest_share, 0.4);  // it does move to and fro between the two
+  EXPECT_LT(lowest_share, 0.4);  // it does swing between the two
 }
 
-TEST(Deformation, StableAtTheLimitAndLostJustAboveIt) {
+TEST(Deformation, StableAtTheLimitAndUnstableJustAboveIt) {
   constexpr double across = static_cast<double>(1.2F), along = static_cast<double>(0.9F);
   const MuscleTemplate muscle = make({2, 2, 8}, FarEnd::free, 0);
   for (const bool above : {false, true}) {
@@ -92,13 +92,13 @@ TEST(Deformation, StableAtTheLimitAndLostJustAboveIt) {
     if (above) {
       EXPECT_GT(largest(block), 1e6);
     } else {
-      EXPECT_LT(largest(block), 0.5);  // a mode at the very limit may beat, not grow
+      EXPECT_LT(largest(block), 0.5);  // a mode at the limit can beat, but not grow
       EXPECT_GT(largest(block), 1e-5);
     }
   }
 }
 
-TEST(Deformation, VolumeIsThatOfTheDeformedMesh) {
+TEST(Deformation, VolumeMatchesTheDeformedMesh) {
   for (const auto end : {FarEnd::held, FarEnd::free}) {
     const MuscleTemplate muscle = make({3, 2, 5}, end, 0);
     Block block = stepped_explicitly(muscle);

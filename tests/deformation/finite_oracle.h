@@ -1,6 +1,7 @@
 #pragma once
-// One belly at finite strain in double precision, written as its energy; forces and tangents are differences of that.
-// Gradients come from the exact volume of trilinear elements, sizes from a scaled mesh: nothing of the kernel's arrays.
+// One belly at finite strain in double precision, written as its energy. Forces and tangents are finite differences of
+// it. Gradients come from the exact volume of trilinear elements, sizes from a scaled mesh. No array of the kernel is
+// used.
 
 #include <array>
 #include <cmath>
@@ -34,17 +35,17 @@ class FiniteOracle {
 
   HexahedralMesh mesh;
   FiniteTissue tissue;
-  double pulling = 0, mean_stretch = 1;  // activation with what slackness adds; that of the whole belly
+  double pulling = 0, mean_stretch = 1;  // activation plus the effect of slackness; mean of the whole belly
   std::vector<double> mass_kg;
 
-  /// J, of a displacement of three a node. Fibres count from what they hold at λ = 1.
+  /// Returns the energy, J, of a displacement of three components a node. Fibre energy is measured from λ = 1.
   double energy(const std::vector<double>& u) const {
     const std::vector<std::array<double, 2>> means = plane_means(u);
     double sum = 0;
     for (std::size_t e = 0; e < elements_.size(); ++e) sum += energy_of(e, u, means);
     return sum;
   }
-  /// −∂energy/∂u of one component, by a central difference. `u` comes back as it was.
+  /// Returns −∂energy/∂u of one component, by a central difference. `u` is unchanged afterwards.
   double force(std::vector<double>& u, std::size_t i) const {
     constexpr double h = 1e-6;
     const double at = u[i];
@@ -55,7 +56,7 @@ class FiniteOracle {
     u[i] = at;
     return (less - more) / (2 * h);
   }
-  /// Largest |cof F − 1| and |J − 1| of all elements.
+  /// Returns the largest |cof F − 1| and |J − 1| of all elements.
   FiniteEnvelope reach(const std::vector<double>& u) const {
     FiniteEnvelope reach{0, 0};
     for (const Element& e : elements_) {
@@ -73,7 +74,7 @@ class FiniteOracle {
     return reach;
   }
 
-  /// Mean displacement sideways of each plane of nodes, by mass.
+  /// Returns the mass-weighted mean sideways displacement of each plane of nodes.
   std::vector<std::array<double, 2>> plane_means(const std::vector<double>& u) const {
     const std::size_t nodes = plane_nodes(mesh.cells);
     std::vector<std::array<double, 2>> means(mesh.cells[2] + 1);
@@ -154,7 +155,7 @@ class FiniteOracle {
     return F[0][0] * cofactor(F, 0, 0) + F[0][1] * cofactor(F, 0, 1) + F[0][2] * cofactor(F, 0, 2);
   }
 
-  /// ∫ of fibre_tension's stress over the stretch, from 1.
+  /// Returns the integral of fibre_tension's stress over the stretch, from 1.
   double held(double stretch) const {
     const auto to = [&](double s) {
       const double floor_at = mean_stretch - (1 - tissue.min_share) / tissue.force_slope;

@@ -1,5 +1,5 @@
-// The kernel of finite strain against an energy in double precision, statics by Newton's method, and what must hold of
-// any such kernel.
+// The kernel of finite strain compared with an energy in double precision and with statics by Newton's method, and
+// properties that any such kernel must have.
 #include "systems/deformation/finite.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ MuscleTemplate make(HexahedralMesh mesh, FarEnd end, double damping_per_s, doubl
   return std::move(*made);
 }
 
-/// Sixteen bellies of sixteen sizes, whose fibres pull differently.
+/// Sixteen bellies of sixteen sizes, with different activations.
 struct Bellies {
   MuscleTemplate muscle;
   BellyScale<Lanes<float>> scale{};
@@ -70,7 +70,7 @@ struct Bellies {
     }
     return most;
   }
-  /// Nodes that move anywhere within `part` of a cell, at speeds of as much a tick.
+  /// Moves nodes randomly within `part` of a cell, with speeds of the same distance a tick.
   void throw_about(float part) {
     const Cells& cells = muscle.mesh.cells;
     const float cell = static_cast<float>(muscle.finite.length_m) / static_cast<float>(cells[2]);
@@ -89,7 +89,7 @@ struct Bellies {
     deform_finite({muscle, scale, u.data()->lane, v.data()->lane, report, Stiffness::individual, frame}, end,
                   pulls ? &activation : nullptr, steps, time_s, scratch.data()->lane);
   }
-  /// Shortens all by `e` over half a second and waits until they are still.
+  /// Shortens all bellies by `e` over half a second, then waits until they are at rest.
   void settle(float e) {
     const std::uint32_t steps = substeps();
     for (int tick = 0; tick < 150; ++tick) {
@@ -112,7 +112,7 @@ struct Bellies {
   }
 };
 
-/// Forces that drive the far end, and the frame.
+/// Forces on the far end, and the frame.
 struct Loads {
   EndDrive<Lanes<float>> along{};
   EndTraction<Lanes<float>> traction{};
@@ -145,7 +145,7 @@ std::array<double, 3> mix(const Vec3<Lanes<float>>& from, const Vec3<Lanes<float
   return {mix(from.x, to.x, part, lane), mix(from.y, to.y, part, lane), mix(from.z, to.z, part, lane)};
 }
 
-/// The equations of systems/deformation/finite.h, step by step.
+/// Integrates the equations of systems/deformation/finite.h in double precision, step by step.
 void step_in_double(const Bellies& of, const Loads& loads, std::size_t lane, std::uint32_t steps, FiniteOracle& oracle,
                     std::vector<double>& u, std::vector<double>& v) {
   const MuscleOptions& options = of.muscle.options;
@@ -188,8 +188,8 @@ void step_in_double(const Bellies& of, const Loads& loads, std::size_t lane, std
 
 class FiniteKernel : public testing::TestWithParam<std::tuple<FarEnd, Cells>> {};
 
-/// Every way of the far end, a field, damping, fascia, fibres: a tick, three of the sixteen sizes. Sections of two by
-/// two elements, and others.
+/// Covers every far-end condition, a frame field, damping, fascia and fibres for one tick, in three of the sixteen
+/// sizes. Sections have two by two elements, or other numbers.
 TEST_P(FiniteKernel, StepsTheGradientOfItsEnergy) {
   const auto [way, cells] = GetParam();
   Bellies bellies(make(spindle(cells), way, 8, 7));
@@ -239,12 +239,12 @@ INSTANTIATE_TEST_SUITE_P(EveryEnd, FiniteKernel,
                          testing::Combine(testing::Values(FarEnd::held, FarEnd::sliding, FarEnd::free),
                                           testing::Values(Cells{2, 2, 8}, Cells{3, 2, 5})));
 
-/// No tangent of an element within the envelope exceeds the operator that the step is proven with.
-TEST(FiniteBound, IsAboveEveryTangent) {
+/// No tangent of an element within the envelope exceeds the operator that the step's stability proof uses.
+TEST(FiniteBound, ExceedsEveryTangent) {
   const Cells cells = {2, 1, 3};
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1, 1);
-  // Bent by half of its length, and nine times as wide in the middle as at its ends.
+  // Bent by half of its length, and three times as thick in the middle as at its ends.
   const std::vector<LatticeStation> stations = {
       {0, 0, 0, 0.008F, 0.008F}, {0.5F, 0.06F, 0, 0.024F, 0.024F}, {1, 0, 0, 0.008F, 0.008F}};
   const HexahedralMesh plain = spindle(cells), bent = *bend_block(cells, stations, 0.12);
@@ -299,7 +299,7 @@ TEST(FiniteBound, IsAboveEveryTangent) {
   }
 }
 
-/// Sideways, from each section's mean: what bulges.
+/// Returns the sideways displacement relative to each section's mean, which is the bulging.
 std::vector<double> bulging(const FiniteBelly& belly, FiniteState state) {
   const auto means = section_means(belly, state);
   const std::size_t nodes = plane_nodes(belly.mesh.cells);
@@ -316,9 +316,9 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Shortened and stretched, relaxed and pulling: beside elements of eight points on the same mesh, by Newton's method.
-/// Those have sections held where they are by fascia, these are held softly.
-TEST(FiniteStatics, AreThoseOfNewtonsMethod) {
+/// Compares shortened and stretched, relaxed and active bellies with eight-point elements on the same mesh, solved by
+/// Newton's method. Fascia fixes the sections there; here it holds them softly.
+TEST(FiniteStatics, MatchNewtonsMethod) {
   MOBIL_SLOW();
   for (const char* const name : {"vastus_lateralis", "triceps_surae"}) {
     const HexahedralMesh mesh = finite_mesh(*find_muscle(name), {4, 4, 16});
@@ -353,8 +353,8 @@ TEST(FiniteStatics, AreThoseOfNewtonsMethod) {
   }
 }
 
-/// Undamped, kicked anew each second: between kicks energy stays, but for the 1 % that means over half a
-/// second swing by. Ten minutes of it with MOBIL_LONG=1.
+/// Undamped, kicked again each second. Between kicks the energy is constant, except for a fluctuation of 1 % in means
+/// over half a second. Ten minutes with MOBIL_LONG=1.
 TEST(FiniteEnergy, StaysThroughRandomKicks) {
   const bool longer = std::getenv("MOBIL_LONG") != nullptr;
   Bellies bellies(make(spindle({2, 2, 8}), FarEnd::held, 0, 0));
@@ -380,8 +380,8 @@ TEST(FiniteEnergy, StaysThroughRandomKicks) {
   }
 }
 
-/// Thrown about by most of an element: far beyond what the step is proven for.
-TEST(FiniteKernelFarOut, ComesBack) {
+/// Displaces nodes by most of an element, far beyond the range in which the step is proven stable.
+TEST(FiniteKernelFarOut, ReturnsToRest) {
   Bellies bellies(make(spindle({2, 2, 8}), FarEnd::held, 30, 7));
   bellies.throw_about(0.8F);
   const EndDrive<Lanes<float>> still{};

@@ -1,4 +1,4 @@
-// The implicit methods' sixteen-lane kernels against double precision, and what must hold of each method.
+// The implicit methods' sixteen-lane kernels compared with double precision, and properties of each method.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace mobil::implicit_test {
 using namespace oracle;  // NOLINT(google-build-using-namespace)
 
-/// Smallest stable number of central-difference substeps of all lanes with the consistent mass.
+/// Returns the smallest number of central-difference substeps that is stable in all lanes with the consistent mass.
 std::uint32_t implicit_substeps(const Block& block) {
   const MuscleTemplate& muscle = block.muscle;
   const std::vector<Eigen::Index> moving = free_components(muscle.mesh.cells, muscle.options.far_end);
@@ -82,14 +82,14 @@ TEST(Implicit, CentralDifferencesWithConsistentMassFollowTheReference) {
   follows(Method::implicit_central, Mass::consistent, true, {1, 2, 3}, 30);
 }
 
-TEST(Implicit, StaticAnswersFollowTheReference) {
+TEST(Implicit, StaticSolutionsFollowTheReference) {
   MOBIL_SLOW();
   follows(Method::statics, Mass::lumped, false, {2, 2, 8}, 5);
   follows(Method::statics, Mass::consistent, false, {2, 1, 4}, 5);
   follows(Method::statics, Mass::lumped, true, {2, 2, 8}, 5);
 }
 
-TEST(Implicit, SolverForAnotherBodyServesThoseAboutIt) {
+TEST(Implicit, SolverServesBodiesOfSimilarSize) {
   const MuscleTemplate muscle = make(spindle({1, 2, 4}), {FarEnd::free, 2});
   for (const Method method : {Method::newmark, Method::statics}) {
     Block block(muscle, make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s), 1.3, 0.9), 0.06, 0.12);
@@ -97,7 +97,7 @@ TEST(Implicit, SolverForAnotherBodyServesThoseAboutIt) {
   }
 }
 
-TEST(Implicit, MoreSweepsComeCloserInEveryMethodThatSweeps) {
+TEST(Implicit, MoreSweepsAreMoreAccurate) {
   const MuscleTemplate muscle = make(spindle({2, 2, 4}), {FarEnd::free, 2});
   for (const Method method : {Method::newmark, Method::statics}) {
     std::vector<double> distance;
@@ -111,7 +111,7 @@ TEST(Implicit, MoreSweepsComeCloserInEveryMethodThatSweeps) {
   }
 }
 
-TEST(Implicit, OneLayerOfElementsMovesOrIsHeldWhole) {
+TEST(Implicit, OneLayerOfElementsMovesOrIsFullyHeld) {
   for (const FarEnd end : far_ends) {
     const MuscleTemplate muscle = make(*make_block({1, 1, 1}, 0.02), {end, 3});
     for (const Method method : {Method::newmark, Method::statics}) {
@@ -148,7 +148,7 @@ TEST(Implicit, FreeUndampedMotionKeepsItsEnergy) {
   }
 }
 
-TEST(Implicit, MeanAccelerationIsStableAtAnyStepAndCentralDifferencesAreNot) {
+TEST(Implicit, OnlyMeanAccelerationIsStableAtAnyStep) {
   for (const float length_s : {tick_s, 1.0F}) {
     const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::free, 0});
     Block block(muscle, make_solver(muscle, Method::newmark, Mass::lumped, static_cast<double>(length_s)), 0.06, 0.12);
@@ -164,7 +164,7 @@ TEST(Implicit, MeanAccelerationIsStableAtAnyStepAndCentralDifferencesAreNot) {
   }
 }
 
-TEST(Implicit, CentralDifferencesWithConsistentMassKeepTheirEnergyAndReachTheirLimit) {
+TEST(Implicit, ConsistentCentralDifferencesKeepEnergyUpToTheirLimit) {
   const MuscleTemplate muscle = make(spindle({2, 2, 4}), {FarEnd::free, 0});
   Block block(muscle, make_solver(muscle, Method::implicit_central, Mass::consistent, static_cast<double>(tick_s)), 0.2,
               0.2);
@@ -177,7 +177,7 @@ TEST(Implicit, CentralDifferencesWithConsistentMassKeepTheirEnergyAndReachTheirL
   for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(energy(block, l) / first[l], 1, 5e-5) << "lane " << l;
 }
 
-TEST(Implicit, SlenderBelliesBendToTheStaticAnswer) {
+TEST(Implicit, SlenderBelliesBendToTheStaticSolution) {
   for (const bool alike : {true, false}) {
     const MuscleTemplate muscle = make(*make_block({1, 1, 12}, 0.004), {FarEnd::free, 0});  // condition 1.3e5
     Block block(muscle, make_solver(muscle, Method::statics, Mass::lumped, 0), 0.06, 0.12);

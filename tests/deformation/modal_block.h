@@ -1,5 +1,5 @@
 #pragma once
-// Sixteen modal bellies made of random numbers, and what is expected of them.
+// Sixteen modal bellies with random parameters, and their expected results.
 
 #include <array>
 #include <bit>
@@ -16,7 +16,7 @@
 
 namespace mobil {
 
-/// z̈ + α·ż + ω²·z = ω²·s, s linear over a step, by the roots of its characteristic polynomial.
+/// Solves z̈ + α·ż + ω²·z = ω²·s, with s linear over a step, by the roots of its characteristic polynomial.
 struct ClosedForm {
   double omega, damping;
   double z = 0, speed = 0;
@@ -39,7 +39,7 @@ struct ModalDrive;
 
 struct ModalBodies {
   struct Sum {
-    double value = 0, terms = 0;  // the latter: of all magnitudes
+    double value = 0, terms = 0;  // sum of magnitudes
   };
 
   ModalBasis basis;
@@ -100,7 +100,7 @@ struct ModalBodies {
         for (std::size_t i = 0; basis.inputs > 1 && i < ends; ++i) {
           motion[at + 3 + i][l] = static_cast<float>(participation[j][i][l]);
         }
-        for (std::size_t i = ends; i < basis.inputs; i += 2) {  // two a word
+        for (std::size_t i = ends; i < basis.inputs; i += 2) {  // two inputs a word
           std::uint32_t word = 0;
           for (const std::size_t part : {std::size_t{1}, std::size_t{0}}) {
             const auto number = static_cast<float>(participation[j][i + part][l]);
@@ -113,7 +113,7 @@ struct ModalBodies {
     }
   }
 
-  /// s of a motion under such inputs; of one input, over its P.
+  /// Returns s of a motion under these inputs; with one input, divided by its P.
   double rest(const Columns& inputs, std::size_t j, std::size_t l) const {
     if (basis.inputs == 1) return static_cast<double>(inputs[0][l]);
     double s = 0;
@@ -129,14 +129,14 @@ struct ModalBodies {
     return {basis, scale, state.data()->lane, motion.data()->lane, basis.options.frame_loads ? &frame : nullptr};
   }
 
-  /// Which lanes began at rest.
+  /// Returns the lanes that started at rest.
   std::uint32_t tick(const ModalDrive& drive, double tick_s);
   BellyReport<Lanes<float>> report(const ModalDrive& drive, const MuscleTemplate& control, double tick_s);
   void place(const ModalDrive& drive, bool at_rest);
   std::vector<Sum> expected_displacement(const ModalDrive& drive, std::size_t l, bool at_rest) const;
 };
 
-/// Inputs of a tick, each from where the last tick left it to somewhere else.
+/// Inputs of a tick, each from its value after the last tick to a new random value.
 struct ModalDrive {
   const ModalBodies& bodies;
   std::mt19937 random;

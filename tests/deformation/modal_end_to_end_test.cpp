@@ -1,4 +1,4 @@
-// Modal bellies, from a mesh to control points and reports, against the whole mesh in double precision.
+// Modal bellies, from a mesh to control points and reports, compared with the full mesh in double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct Case {
   bool frame;
 };
 
-/// What acts at the tick's end `n`: an elongation of some millimetres (a pull of some tenths of a newton) that starts
-/// suddenly, a swinging frame, and heel strikes.
+/// Returns the load at the end of tick `n`: an elongation of some millimetres (a pull of some tenths of a newton) that
+/// starts suddenly, a swinging frame, and heel strikes.
 ReferenceLoad load_at(const Case& what, int n) {
   const double t = n * tick_s, start = std::min(1.0, 8 * t);
   const double swing = start * (std::sin(7 * t) + 0.3 * std::sin(29 * t));
@@ -58,7 +58,7 @@ struct History {
 
 constexpr int ticks = 60;
 
-/// The mean of what the lumped and what the consistent mass do: a basis takes the mean of both.
+/// Returns the mean of the histories with lumped and with consistent mass, because a basis uses the mean of both.
 History reference(const Case& what, std::size_t lane) {
   History mean;
   mean.displacement.resize(ticks);
@@ -99,7 +99,7 @@ History reference(const Case& what, std::size_t lane) {
   return mean;
 }
 
-/// Both bodies, in the first lanes of a block.
+/// Returns the histories of both bodies, in the first lanes of a block.
 std::array<History, 2> modal(const Case& what) {
   std::array<History, 2> histories;
   ModalBasisOptions options;
@@ -180,7 +180,7 @@ std::array<History, 2> modal(const Case& what) {
   return histories;
 }
 
-/// Root mean square of the difference over that of the whole mesh's.
+/// Returns the root mean square of the difference, divided by that of the full mesh's history.
 template <class Pick>
 double distance(const History& fast, const History& whole, Pick&& pick) {
   double error = 0, size = 0;
@@ -194,7 +194,7 @@ double distance(const History& fast, const History& whole, Pick&& pick) {
   return std::sqrt(error / size);
 }
 
-TEST(ModalEndToEnd, BelliesMoveAndReportAsTheWholeMeshDoes) {
+TEST(ModalEndToEnd, BelliesMoveAndReportAsTheFullMesh) {
   MOBIL_SLOW();
   for (const Case& what :
        {Case{FarEnd::held, false}, Case{FarEnd::held, true}, Case{FarEnd::sliding, false}, Case{FarEnd::free, true}}) {
@@ -207,8 +207,8 @@ TEST(ModalEndToEnd, BelliesMoveAndReportAsTheWholeMeshDoes) {
       const auto figure = [&](std::size_t i) {
         return distance(fast[lane], whole, [i](const History& h, std::size_t n) { return std::array{h.report[n][i]}; });
       };
-      EXPECT_LT(figure(0), 0.015);  // the far face's mean is of nine nodes, not of twenty-five
-      // The whole mesh's far nodes take part of it for their own mass.
+      EXPECT_LT(figure(0), 0.015);  // the far face's mean is over nine nodes instead of twenty-five
+      // The full mesh's far nodes use part of the force for their own mass.
       EXPECT_LT(figure(1), what.end == FarEnd::held ? 0.04 : 0.1);
       EXPECT_LT(figure(2), 0.03);
       EXPECT_LT(figure(3), 0.01);

@@ -1,5 +1,4 @@
-// The modal kernels on motions made up here: against the closed form of each, against sums in double precision, and,
-// with as many modes as a small mesh has displacements, against the whole model.
+// The modal kernels on random motions, compared with the closed form of each and with sums in double precision.
 #include "systems/deformation/modal.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +21,7 @@ struct Kind {
   bool frame;
 };
 
-/// Every far end with and without frame loads, and numbers of modes that fit registers well, badly or not at all.
+/// Returns every far end with and without frame loads, and mode counts that fit registers well, badly or not at all.
 std::vector<Kind> kinds() {
   std::vector<Kind> all;
   for (const FarEnd end : far_ends) {
@@ -33,8 +32,8 @@ std::vector<Kind> kinds() {
   return all;
 }
 
-/// Largest difference of X and W of any motion from the closed form over `ticks` ticks, over the largest of either and
-/// of ṡ (a motion of a whole number of turns a tick hardly moves at all).
+/// Returns the largest difference of X and W of any motion from the closed form over `ticks` ticks, relative to the
+/// maximum of either and of ṡ. (A motion with a whole number of periods a tick hardly moves.)
 double distance_from_closed_form(ModalBodies& bodies, int ticks, double tick_s) {
   bodies.write_motion(tick_s);
   const std::size_t count = bodies.basis.modes;
@@ -64,9 +63,9 @@ double distance_from_closed_form(ModalBodies& bodies, int ticks, double tick_s) 
   return worst;
 }
 
-TEST(Modal, EveryMotionIsTheClosedForm) {
+TEST(Modal, EveryMotionMatchesItsClosedForm) {
   for (const Kind& kind : kinds()) {
-    for (const double damping : {0.0, 8.0, 60.0, 900.0}) {  // of the slower motions overdamped
+    for (const double damping : {0.0, 8.0, 60.0, 900.0}) {  // the largest overdamps the slower motions
       ModalBodies bodies(kind.modes, kind.end, kind.frame, damping);
       ModalBodies finer(bodies);
       EXPECT_LT(distance_from_closed_form(bodies, 120, 1.0 / 60), 1e-4) << damping;
@@ -75,7 +74,7 @@ TEST(Modal, EveryMotionIsTheClosedForm) {
   }
 }
 
-TEST(Modal, ControlPointsAreTheSumsInDoublePrecision) {
+TEST(Modal, ControlPointsMatchSumsInDoublePrecision) {
   for (const Kind& kind : kinds()) {
     for (const Cells& cells : {Cells{2, 2, 8}, Cells{1, 1, 2}, Cells{2, 3, 4}}) {
       ModalBodies bodies(kind.modes, kind.end, kind.frame, 8, cells);
@@ -96,7 +95,7 @@ TEST(Modal, ControlPointsAreTheSumsInDoublePrecision) {
   }
 }
 
-TEST(Modal, WithoutMotionOfItsOwnABellyIsInItsStaticPlace) {
+TEST(Modal, BellyWithoutItsOwnMotionIsInItsStaticShape) {
   for (const Kind& kind : kinds()) {
     ModalBodies moving(kind.modes, kind.end, kind.frame, 8), at_rest(moving);
     ModalDrive drive(moving, 29);
@@ -115,7 +114,7 @@ std::vector<Lanes<float>> figures(const BellyReport<Lanes<float>>& report) {
   return {report.elongation_m, report.reaction_n, report.volume_ratio, report.kinetic_energy_j, report.strain_energy_j};
 }
 
-TEST(Modal, ReportsHaveTheSameBitsEverywhereAndKeepANotANumberInItsLane) {
+TEST(Modal, ReportsHaveTheSameBitsEverywhereAndKeepNanInItsLane) {
   for (const Kind& kind : kinds()) {
     const MuscleTemplate control = control_of(kind.end);
     constexpr std::size_t sick = 6;
@@ -137,7 +136,7 @@ TEST(Modal, ReportsHaveTheSameBitsEverywhereAndKeepANotANumberInItsLane) {
   }
 }
 
-TEST(Modal, ABellyAtRestHasItsVolumeAndNoEnergy) {
+TEST(Modal, BellyAtRestHasItsVolumeAndNoEnergy) {
   for (const Kind& kind : kinds()) {
     ModalBodies bodies(kind.modes, kind.end, kind.frame, 8);
     bodies.write_motion(1.0 / 60);

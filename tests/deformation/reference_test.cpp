@@ -1,4 +1,4 @@
-// The double-precision solver against dense matrices, closed forms and the invariants of its methods.
+// The double-precision solver compared with dense matrices, closed forms and the invariants of its methods.
 #include "demo/lab/reference/reference.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ ReferenceLoad traction(double size) {
   return {{0.3 * size, -0.2 * size, size}, {}, {}};
 }
 
-/// One belly straight from the equations of deformation.h, all matrices dense.
+/// One belly, computed directly from the equations of deformation.h with dense matrices.
 struct Dense {
   ReferenceOptions o;
   HexahedralMesh mesh;
@@ -129,7 +129,7 @@ struct Dense {
   }
 };
 
-TEST(Reference, EveryMethodFollowsTheDenseModelHoweverItsEndIsDrivenAndWhateverActs) {
+TEST(Reference, EveryMethodFollowsTheDenseModelForAnyDriveAndLoad) {
   const auto mesh = spindle({2, 2, 4});
   for (const Method method : {Method::explicit_central, Method::implicit_central, Method::newmark, Method::statics}) {
     for (const Mass mass : {Mass::lumped, Mass::consistent}) {
@@ -137,7 +137,7 @@ TEST(Reference, EveryMethodFollowsTheDenseModelHoweverItsEndIsDrivenAndWhateverA
           (method == Method::implicit_central && mass == Mass::lumped))
         continue;
       for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
-        for (const bool all : {false, true}) {  // that may act
+        for (const bool all : {false, true}) {  // all loads and damping terms
           const ReferenceOptions o{method, mass, end, 2e-4, 8, all ? 3e-4 : 0, all ? 44.0 : 0, 0.9, 1.2};
           auto belly = make(mesh, o);
           Dense dense(mesh, o);
@@ -164,7 +164,7 @@ TEST(Reference, EveryMethodFollowsTheDenseModelHoweverItsEndIsDrivenAndWhateverA
   }
 }
 
-TEST(Reference, OneModeKeepsThePeriodThatTheoryGivesEachMethod) {
+TEST(Reference, OneModeHasTheTheoreticalPeriodOfEachMethod) {
   const auto mesh = spindle({1, 1, 3});
   for (const Method method : moving_methods) {
     const Modes modes(mesh, mass_of(method), FarEnd::free);
@@ -193,8 +193,8 @@ TEST(Reference, OneModeKeepsThePeriodThatTheoryGivesEachMethod) {
   }
 }
 
-/// Displacement at `end_s` under a traction that grows by 1 N/s from rest, C = α·M + β·K: the exact solution mode by
-/// mode.
+/// Returns the exact displacement at `end_s` under a traction that grows by 1 N/s from rest, C = α·M + β·K, summed over
+/// the modes.
 Vector exact_ramp(const Modes& modes, double alpha, double beta, double end_s) {
   Vector q(modes.omega.size());
   for (Eigen::Index i = 0; i < q.size(); ++i) {
@@ -241,7 +241,7 @@ TEST(Reference, LaggedStiffnessDampingConvergesAtFirstOrder) {
   EXPECT_LT(coarse, 1e-3);
 }
 
-/// Relative range of the energy over a million steps of a belly that was pulled, let go and left alone.
+/// Returns the relative range of the energy over a million steps of a belly that was pulled and released.
 double energy_drift(Method method, double dt_of_limit, double foundation_1_s) {
   const auto mesh = spindle({1, 1, 2});
   const Modes modes(mesh, mass_of(method), FarEnd::free);
@@ -265,23 +265,23 @@ double energy_drift(Method method, double dt_of_limit, double foundation_1_s) {
   return (high - low) / first;
 }
 
-TEST(ReferenceEnergy, OfExplicitStepsIsConstantToRoundingOverAMillion) {
+TEST(ReferenceEnergy, ConstantOverAMillionExplicitSteps) {
   EXPECT_LT(energy_drift(Method::explicit_central, 0.95, 0), 1e-11);
 }
 
-TEST(ReferenceEnergy, OfImplicitCentralDifferencesIsConstantToRoundingOverAMillion) {
+TEST(ReferenceEnergy, ConstantOverAMillionImplicitCentralDifferenceSteps) {
   EXPECT_LT(energy_drift(Method::implicit_central, 0.95, 0), 1e-11);
 }
 
-TEST(ReferenceEnergy, OfConstantAverageAccelerationIsConstantToRoundingOverAMillion) {
+TEST(ReferenceEnergy, ConstantOverAMillionAverageAccelerationSteps) {
   EXPECT_LT(energy_drift(Method::newmark, 5, 0), 1e-11);
 }
 
-TEST(ReferenceEnergy, CountsTheFoundation) {
+TEST(ReferenceEnergy, IncludesTheFoundation) {
   EXPECT_LT(energy_drift(Method::explicit_central, 0.8, 44), 1e-11);
 }
 
-TEST(Reference, StaticSolvesTheDenseSystemAndDampedMotionComesToRestThere) {
+TEST(Reference, StaticSolvesTheDenseSystemAndDampedMotionEndsThere) {
   const auto mesh = spindle({2, 2, 3});
   const auto model = oracle::assemble(mesh, Material{});
   const Modes modes(mesh, Mass::lumped, FarEnd::free);
@@ -301,7 +301,7 @@ TEST(Reference, StaticSolvesTheDenseSystemAndDampedMotionComesToRestThere) {
   }
 }
 
-TEST(Reference, AHeldFaceFollowsItsDriveAndSlowlySoDoesTheBelly) {
+TEST(Reference, HeldFaceAndBellyFollowASlowDrive) {
   const auto mesh = spindle({2, 2, 4});
   auto still = make(mesh, {Method::statics, Mass::lumped, FarEnd::held});
   still.start({{0, 0, 0.01}, {}, {}});
@@ -320,7 +320,7 @@ TEST(Reference, AHeldFaceFollowsItsDriveAndSlowlySoDoesTheBelly) {
   }
 }
 
-TEST(Reference, RefusesWhatHasNoMeaning) {
+TEST(Reference, RefusesInvalidOptions) {
   const auto mesh = spindle({1, 1, 2});
   const auto terms = assemble(mesh, Material{}).value();
   const auto refused = [&](const HexahedralMesh& m, const ReferenceOptions& options) {

@@ -1,4 +1,4 @@
-// Tuned kernels on motions made up here: against the closed form of each, with another activation in each lane and
+// Tuned kernels on random motions, compared with the closed form of each, with a different activation in each lane and
 // tick.
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array far_ends = {FarEnd::held, FarEnd::sliding, FarEnd::free};
 
-/// Bellies whose motions tension stiffens by up to five times.
+/// Bellies whose motions are stiffened by tension up to a factor of five.
 struct TunedBodies : ModalBodies {
   std::array<std::array<double, lane_count>, max_modes> tension{};
   Lanes<float> activation{};
@@ -54,14 +54,14 @@ struct TunedBodies : ModalBodies {
     return omega[j][l] * omega[j][l] + (double{activation[l]} - tuned_activation) * tension[j][l];
   }
 
-  /// As the kernel has it: no motion of a lane is damped to where it creeps.
+  /// Returns the kernel's damping, which overdamps no motion of a lane.
   double damping_of(std::size_t l) const {
     double least = square(0, l);
     for (std::size_t j = 1; j < basis.modes; ++j) least = std::min(least, square(j, l));
     return std::min(tuned_damping_per_s(double{activation[l]}), 1.9 * std::sqrt(least));
   }
 
-  /// s of what the ends, or the frame, do.
+  /// Returns the part of s from the ends, or from the frame.
   double part(const Columns& inputs, std::size_t j, std::size_t l, bool frame) const {
     if (basis.inputs == 1) return frame ? 0 : double{inputs[0][l]};
     const std::size_t ends = input_count(basis.options.far_end, false);
@@ -72,7 +72,7 @@ struct TunedBodies : ModalBodies {
   }
 };
 
-TEST(Tuned, EveryMotionIsTheClosedFormWhateverTheActivation) {
+TEST(Tuned, EveryMotionMatchesItsClosedFormAtAnyActivation) {
   for (const FarEnd end : far_ends) {
     for (const bool frame : {false, true}) {
       for (const std::uint32_t modes : {1U, 5U, 12U, 32U}) {
@@ -112,8 +112,9 @@ TEST(Tuned, EveryMotionIsTheClosedFormWhateverTheActivation) {
   }
 }
 
-/// At the activation that a belly's motions are made for nothing is stiffer: as untuned, of the same damping.
-TEST(Tuned, AtTheToneOfItsMotionsItSwingsAsUntuned) {
+/// At the activation that a belly's modes are computed for, tension adds no stiffness: it moves as untuned, with equal
+/// damping.
+TEST(Tuned, AtItsModesActivationItMovesAsUntuned) {
   TunedBodies tuned(12, FarEnd::held, true);
   for (float& a : tuned.activation.lane) a = static_cast<float>(tuned_activation);
   ModalBodies plain(12, FarEnd::held, true, tuned_damping_per_s(tuned_activation));

@@ -26,14 +26,14 @@ static void give_back(void* memory) {
 }
 }  // namespace mobil
 
-// Every other form of new and delete is defined to end in these. (Inlined, gcc takes them for a mismatched pair.)
+// Every other form of new and delete ends in these. (When they are inlined, gcc reports a mismatched pair.)
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
   return mobil::counted(bytes, alignof(std::max_align_t));
 }
 [[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return mobil::counted(bytes, static_cast<std::size_t>(alignment));
 }
-// AddressSanitizer has one of its own for this form.
+// AddressSanitizer replaces this form separately.
 [[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   try {
     return mobil::counted(bytes, alignof(std::max_align_t));

@@ -1,6 +1,7 @@
 #pragma once
-// Replaces the whole program's malloc and its kin by ones that count, so that requests of libraries count too. For one
-// source file of a test program. With a sanitizer, which does the same, and without glibc it counts nothing.
+// Replaces the whole program's malloc functions by versions that count, so that requests of libraries count as well.
+// Include it in one source file of a test program. It counts nothing without glibc, or under a sanitizer, which also
+// replaces malloc.
 
 #include <atomic>
 #include <cerrno>

@@ -1,4 +1,4 @@
-// The clock's books balance to the last unit.
+// The clock's time adds up to the last unit.
 #include <mobil/engine/clock.h>
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ rc::Gen<double> seconds_between(double low, double high) {
                       [=](std::int64_t i) { return low + (high - low) * static_cast<double>(i) * 1e-12; });
 }
 
-RC_GTEST_PROP(EngineClock, TicksRemainderAndDroppedAreAllThatWasFed, ()) {
+RC_GTEST_PROP(EngineClock, TicksRemainderAndDroppedAddUpToTheInput, ()) {
   const double tick_s = *seconds_between(1e-3, 0.1);
   const double max_frame_s = tick_s + *seconds_between(0, 0.5);
   Clock clock = *Clock::make(tick_s, max_frame_s);
@@ -51,14 +51,14 @@ RC_GTEST_PROP(EngineClock, FramesOfWholeUnitsBalanceExactly, ()) {
   }
 }
 
-TEST(EngineClock, ADayOfFramesComesWithoutDrift) {
+TEST(EngineClock, ADayOfFramesHasNoDrift) {
   Clock clock;
   std::uint64_t ticks = 0;
   for (int i = 0; i < 60 * 86400; ++i) ticks += clock.advance(1.0 / 60).count;
   EXPECT_EQ(ticks, 60U * 86400U);
 }
 
-RC_GTEST_PROP(EngineClock, ImpossibleFramesRunNothingAndComeBack, ()) {
+RC_GTEST_PROP(EngineClock, ImpossibleFramesRunNothing, ()) {
   Clock clock;
   clock.advance(*seconds_between(0, 0.2));
   const double before = clock.remainder_s();
@@ -73,7 +73,7 @@ RC_GTEST_PROP(EngineClock, ImpossibleFramesRunNothingAndComeBack, ()) {
   }
 }
 
-TEST(EngineClock, AHitchIsClampedHoweverLong) {
+TEST(EngineClock, AHitchOfAnyLengthIsClamped) {
   Clock clock;
   const Ticks ticks = clock.advance(1e12);
   EXPECT_EQ(ticks.count, 15U);

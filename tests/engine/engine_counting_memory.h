@@ -1,5 +1,5 @@
 #pragma once
-// A memory resource that knows what it has lent.
+// A memory resource that counts its allocations.
 
 #include <gtest/gtest.h>
 

@@ -21,7 +21,7 @@ struct Faint {
   F x;
 };
 
-/// Half of the smallest normal number, computed where nobody can know it beforehand.
+/// Returns half of the smallest normal number, computed at run time.
 float half_of_smallest() {
   volatile float smallest = std::numeric_limits<float>::min();
   return smallest * 0.5F;
@@ -61,7 +61,7 @@ TEST(EngineJobs, SystemsRunWithoutDenormalsOnEveryThreadAndCallersKeepTheirs) {
   const Threads threads(2);
   schedule->run(world, {}, threads.jobs());
   for (const Entity e : all) EXPECT_EQ(world.get<Faint>(e)->x, 0.0F);
-  std::atomic<int> lost = 0;  // the pool's threads flush none any more
+  std::atomic<int> lost = 0;  // threads of the pool that do not flush denormals
   const Jobs jobs = threads.jobs();
   jobs.parallel_for(
       jobs.user, 1000,
@@ -74,7 +74,7 @@ TEST(EngineJobs, SystemsRunWithoutDenormalsOnEveryThreadAndCallersKeepTheirs) {
 }
 #endif
 
-TEST(EngineJobs, EveryIndexIsDoneOnce) {
+TEST(EngineJobs, EveryIndexRunsOnce) {
   for (const int count : {0, 1, 2, 3}) {
     Threads first(count);
     const Jobs jobs = first.jobs();
@@ -92,15 +92,15 @@ TEST(EngineJobs, EveryIndexIsDoneOnce) {
   }
 }
 
-TEST(EngineJobs, OfNothingNobodyIsAsked) {
+TEST(EngineJobs, EmptyRangesStartNoJob) {
   const Jobs never{nullptr, [](void*, std::size_t, Jobs::Body, void*) { ADD_FAILURE() << "asked"; }, 2};
   in_parallel(never, 0, [](std::size_t, std::size_t) { ADD_FAILURE() << "worked"; });
   run_in_parallel(
       never, 0, [](void*, std::size_t, std::size_t) { ADD_FAILURE() << "worked"; }, nullptr);
 }
 
-/// A host's own threads, one a part, which no exception may leave.
-TEST(EngineJobs, WhatWorkThrowsComesBackToTheCaller) {
+/// A host's own threads, one a part. No exception can leave them.
+TEST(EngineJobs, ExceptionsOfJobsReachTheCaller) {
   const Jobs own{nullptr,
                  [](void*, std::size_t count, Jobs::Body body, void* context) {
                    std::vector<std::thread> threads;

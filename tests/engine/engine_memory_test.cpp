@@ -1,4 +1,4 @@
-// A steady tick takes no memory, neither from the world's resource nor from the heap.
+// A steady tick allocates no memory, neither from the world's resource nor from the heap.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -49,7 +49,7 @@ TEST(EngineMemory, ASteadyTickTakesNone) {
     const std::size_t heap_before = heap_requests, lent_before = memory.requests;
     for (std::uint32_t i = 0; i < 200; ++i) {
       schedule->run(world, {0.5F, i}, threads.jobs());
-      // one leaves, one comes, and one changes tables there and back
+      // one is destroyed, one is created, and one changes tables and back
       EXPECT_EQ(world.destroy(all[i]), Status::ok);
       all[i] = world.create(A<float>{}, B<float>{}, FieldWidth<Nodes>{3}, TagValue<Substeps>{i % 4});
       EXPECT_EQ(world.set(all[i + 1], TagValue<Substeps>{i % 4}), Status::ok);

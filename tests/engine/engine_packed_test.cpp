@@ -1,4 +1,4 @@
-// Packed systems: the rows chosen are worked on as if alone and put back where they were, all else keeps its bits.
+// Packed systems: chosen rows are processed as if alone and written back; all other rows keep their bits.
 #include <mobil/engine/packed.h>
 
 #include <gtest/gtest.h>
@@ -19,12 +19,12 @@
 MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_packed_test {
-/// Whether to be chosen, and by whom it can be told.
+/// A choice flag, and a number that identifies the row.
 template <class F>
 struct Choice {
   UInt32<F> chosen, number;
 };
-/// More than one word, whole numbers among them.
+/// Several words, some of them integers.
 template <class F>
 struct Value {
   F x, y[2];
@@ -51,7 +51,7 @@ std::uint32_t asked(const Choices& choice) {
   return bits;
 }
 
-/// What becomes of one row; every other lane's words have no part in it.
+/// Returns the expected result of one row. Other lanes have no effect on it.
 Value<float> worked_on(const Value<float>& v, const Given<float>& g, const Choice<float>& c, float tick_s) {
   return {v.x * 1.5F + g.x[0], {v.y[1] - tick_s, g.x[1] * v.y[0]}, v.count * 3 + c.number};
 }
@@ -72,7 +72,7 @@ std::array<std::uint32_t, sizeof(Row) / 4> words(const Row& row) {
   return std::bit_cast<std::array<std::uint32_t, sizeof(Row) / 4>>(row);
 }
 
-/// A world of rows over several tables, and what they were made of.
+/// A world of rows in several tables, and the values they were created with.
 struct Population {
   World world;
   std::vector<Entity> all;
@@ -88,7 +88,7 @@ struct Population {
     choice.push_back({chosen ? 1U : 0U, i + 7});
     value.push_back({x * 0.25F - 3, {1 / (x + 1), x}, i * 77});
     given.push_back({{x * 0.125F, -x}});
-    // The same parts behind others, so that they lie at other words.
+    // These components come after others, so that they are at different words.
     const Value<float>& v = value.back();
     const Given<float>& g = given.back();
     const Choice<float>& c = choice.back();
@@ -111,7 +111,7 @@ struct Population {
   }
 };
 
-/// Some hundred rows at most; from nobody chosen to everybody.
+/// Adds at most two hundred rows, with any fraction of them chosen.
 void populate(Population& people) {
   const auto count = *rc::gen::inRange(0U, 200U);
   const auto tables = *rc::gen::inRange(1U, 6U);
@@ -126,7 +126,7 @@ Schedule packed() {
   return std::move(*schedule);
 }
 
-RC_GTEST_PROP(EnginePacked, TheChosenAreWorkedOnAndNobodyElseChanges, ()) {
+RC_GTEST_PROP(EnginePacked, OnlyChosenRowsChange, ()) {
   Population people;
   populate(people);
   Schedule schedule = packed();
@@ -147,7 +147,7 @@ RC_GTEST_PROP(EnginePacked, TheChosenAreWorkedOnAndNobodyElseChanges, ()) {
   RC_ASSERT(schedule.timing("packed")->rows == 0U);
 }
 
-RC_GTEST_PROP(EnginePacked, EachChosenRowIsHandedOverOnceInFullBlocks, ()) {
+RC_GTEST_PROP(EnginePacked, EachChosenRowIsPassedOnceInFullBlocks, ()) {
   Population people;
   populate(people);
   struct Seen {
@@ -155,7 +155,7 @@ RC_GTEST_PROP(EnginePacked, EachChosenRowIsHandedOverOnceInFullBlocks, ()) {
     std::vector<std::uint32_t> numbers;
     std::size_t blocks = 0;
   } seen;
-  // Lanes without a row are copies of the first one's.
+  // Lanes without a row are copies of the first lane.
   const auto note = [&seen](const Choices& choice, Tick) {
     const std::scoped_lock lock(seen.mutex);
     ++seen.blocks;
@@ -185,11 +185,11 @@ TEST(EnginePacked, ParkedLanesAreNeverChosen) {
     for (unsigned i = 0; i < count; i += 3) EXPECT_EQ(people.world.destroy(people.all[i]), Status::ok);
     schedule->reset_timings();
     schedule->run(people.world, {});
-    EXPECT_EQ(schedule->timing("all")->rows, count - (count + 2) / 3);  // rows that left are not chosen either
+    EXPECT_EQ(schedule->timing("all")->rows, count - (count + 2) / 3);  // removed rows are not chosen either
   }
 }
 
-RC_GTEST_PROP(EnginePacked, TheBitsAreTheSameOnAnyThreadsAndAnyCut, ()) {
+RC_GTEST_PROP(EnginePacked, SameBitsOnAnyThreadsAndAnyCut, ()) {
   Population people;
   populate(people);
   const Threads one(1), two(2), three(3);
@@ -209,8 +209,8 @@ RC_GTEST_PROP(EnginePacked, TheBitsAreTheSameOnAnyThreadsAndAnyCut, ()) {
   }
 }
 
-RC_GTEST_PROP(EnginePacked, AChosenRowsResultDoesNotDependOnItsCompany, ()) {
-  // Beside others, and alone with the same words.
+RC_GTEST_PROP(EnginePacked, ResultIsIndependentOfOtherRows, ()) {
+  // The row with others in its block, and alone with the same words.
   Population crowd;
   populate(crowd);
   RC_PRE(!crowd.all.empty());
@@ -232,7 +232,7 @@ std::string order_of(const ScheduleBuilder& builder) {
   return names;
 }
 
-TEST(EnginePacked, ItsPlaceFollowsFromWhatItReadsAndWrites) {
+TEST(EnginePacked, OrderFollowsFromReadsAndWrites) {
   const auto give = [](Givens&) {};
   const auto choose = [](Choices&) {};
   const auto read = [](const Values&, Other<Lanes<float>>&) {};
@@ -240,11 +240,11 @@ TEST(EnginePacked, ItsPlaceFollowsFromWhatItReadsAndWrites) {
   systems.add("read", read).add_packed("packed", &asked, &work).add("give", give).add("choose", choose);
   EXPECT_EQ(order_of(systems), "give choose packed read");
 
-  // What the chooser alone reads counts as well.
+  // Components that only the chooser reads count as well.
   const auto only_given = [](const Givens&, Values&) {};
   EXPECT_EQ(order_of(ScheduleBuilder().add_packed("packed", &asked, only_given).add("choose", choose)),
             "choose packed");
-  // It may read what the function writes.
+  // The chooser can read a component that the function writes.
   const auto by_value = +[](const Values&) { return 0U; };
   EXPECT_EQ(order_of(ScheduleBuilder().add("read", read).add_packed("packed", by_value, &work)), "packed read");
   // Two writers need an `after`, packed or not.
@@ -257,7 +257,7 @@ TEST(EnginePacked, ItsPlaceFollowsFromWhatItReadsAndWrites) {
   EXPECT_EQ(schedule->describe(), "1. packed; reads Given, Choice; writes Value\n");
 }
 
-TEST(EnginePacked, TablesWithoutAPartOfTheChooserOrTheFunctionAreLeftOut) {
+TEST(EnginePacked, TablesWithoutARequiredComponentAreSkipped) {
   World world;
   const Value<float> value{1, {2, 3}, 4};
   const Entity no_choice = world.create(value, Given<float>{});

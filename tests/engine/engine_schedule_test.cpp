@@ -1,4 +1,4 @@
-// The order of systems, what they are handed, and that neither threads nor blocks show in the result.
+// The order of systems and their parameters. Neither threads nor blocks affect the result.
 #include <mobil/schedule.h>
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ std::string order_of(const ScheduleBuilder& builder) {
   return names;
 }
 
-TEST(EngineSchedule, ALookupAndAFieldAreReadsToo) {
+TEST(EngineSchedule, LookupsAndFieldsCountAsReads) {
   EXPECT_EQ(order_of(ScheduleBuilder().add("look", [](Lookup<A>, LB&) {}).add("write", &write_a)), "write look");
   EXPECT_EQ(order_of(ScheduleBuilder().add("look", [](Field<const Nodes>) {}).add("write", [](Field<Nodes>) {})),
             "write look");
@@ -73,11 +73,11 @@ std::string passes_of(const ScheduleBuilder& builder) {
   return text;
 }
 
-TEST(EngineSchedule, SystemsThatNeedNothingOfOtherBlocksShareAPass) {
+TEST(EngineSchedule, SystemsWithoutCrossBlockReadsShareAPass) {
   EXPECT_EQ(passes_of(ScheduleBuilder().add("a", &write_a).add("b", &a_to_b).add("c", &b_to_c)), "abc|");
   const auto look_at_a = [](Lookup<A>, LB&) {};
   EXPECT_EQ(passes_of(ScheduleBuilder().add("a", &write_a).add("b", look_at_a).add("c", &b_to_c)), "a|bc|");
-  // nobody changes what others of the pass may still look up
+  // no system changes a component that others of the pass can still look up
   EXPECT_EQ(passes_of(ScheduleBuilder().add("a", &write_a).after("b").add("b", look_at_a).add("c", &b_to_c)), "b|ac|");
   EXPECT_EQ(passes_of(ScheduleBuilder()
                           .add("a", &write_a)
@@ -87,7 +87,7 @@ TEST(EngineSchedule, SystemsThatNeedNothingOfOtherBlocksShareAPass) {
             "a|p|c|");
 }
 
-TEST(EngineSchedule, PreviousReadsAheadOfTheWriterAndBreaksACircle) {
+TEST(EngineSchedule, PreviousReadsBeforeTheWriterAndBreaksACycle) {
   EXPECT_EQ(order_of(ScheduleBuilder().add("a", &write_a).add("p", [](Previous<A>, LB&) {})), "p a");
   ScheduleBuilder circle;
   circle.add("ab", &a_to_b).add("bc", &b_to_c).add("ca", &c_to_a);
@@ -99,8 +99,8 @@ TEST(EngineSchedule, PreviousReadsAheadOfTheWriterAndBreaksACircle) {
   EXPECT_EQ(order_of(open), "ca ab bc");
 }
 
-/// Alternatives write one component without an order, as long as no table has two of them.
-TEST(EngineSchedule, AlternativesNeedNoOrderUntilATableHasTwo) {
+/// Alternative systems can write one component without an order, as long as no table matches two of them.
+TEST(EngineSchedule, AlternativesNeedNoOrderUnlessATableHasTwo) {
   const auto both = [] {
     ScheduleBuilder systems;
     systems.add("one", [](LA&, const LB&) {}).one_of("ways").add("two", [](LA&, const LC&) {}).one_of("ways");
@@ -125,7 +125,7 @@ TEST(EngineSchedule, AlternativesNeedNoOrderUntilATableHasTwo) {
   }
 }
 
-TEST(EngineSchedule, AfterOrdersWritersAndWinsOverTheRule) {
+TEST(EngineSchedule, AfterOrdersWritersAndOverridesTheRule) {
   EXPECT_EQ(order_of(ScheduleBuilder().add("one", &write_a).add("two", &write_a)),
             "schedule: systems 'one' and 'two' both write " + std::string(type_name<A<float>>()) +
                 "; say which comes second with .after(…)");
@@ -160,7 +160,7 @@ bool touches(const System& system, std::uint64_t id, Access::Mode mode) {
                      [=](const Access& a) { return a.id == id && a.mode == mode; });
 }
 
-/// Whether the `after` of the systems lead from a to b.
+/// Returns true if the `after` of the systems leads from a to b.
 bool leads(const std::vector<System>& systems, std::size_t a, std::size_t b, std::size_t steps = 0) {
   if (steps > systems.size()) return false;
   for (const std::string& name : systems[b].after) {
@@ -169,7 +169,7 @@ bool leads(const std::vector<System>& systems, std::size_t a, std::size_t b, std
   return false;
 }
 
-/// Whether a must run before b, from the rules as written.
+/// Returns true if a must run before b by the written rules.
 bool must_precede(const std::vector<System>& systems, std::size_t a, std::size_t b) {
   if (leads(systems, a, b)) return true;
   if (a == b || leads(systems, b, a)) return false;
@@ -184,7 +184,7 @@ bool must_precede(const std::vector<System>& systems, std::size_t a, std::size_t
   return false;
 }
 
-RC_GTEST_PROP(EngineSchedule, TheOrderIsTheFirstOfAllThatKeepTheRules, ()) {
+RC_GTEST_PROP(EngineSchedule, OrderIsTheFirstThatKeepsTheRules, ()) {
   const std::size_t count = *rc::gen::inRange<std::size_t>(1, 6);
   std::vector<System> systems(count);
   for (std::size_t s = 0; s < count; ++s) {
@@ -231,7 +231,7 @@ RC_GTEST_PROP(EngineSchedule, TheOrderIsTheFirstOfAllThatKeepTheRules, ()) {
   RC_ASSERT(order.error().message.find("waits for") != std::string::npos);
 }
 
-TEST(EngineSchedule, ALookupFindsRowsAndNothingElse) {
+TEST(EngineSchedule, LookupFindsOnlyRows) {
   World world;
   std::vector<Entity> all;
   for (unsigned i = 0; i < 20; ++i) all.push_back(world.create(Friend<float>{i, i + 1}));
@@ -258,7 +258,7 @@ TEST(EngineSchedule, DescribesItself) {
   EXPECT_EQ(schedule->describe(), "1. mix; reads A; reads last tick's C; looks up B; writes Nodes\n");
 }
 
-TEST(EngineSchedule, HandsEveryParameterItsOwn) {
+TEST(EngineSchedule, PassesEachParameter) {
   World world;
   const auto mesh = world.share(std::make_shared<const Mesh>(Mesh{3}));
   std::vector<Entity> all;
@@ -290,7 +290,7 @@ TEST(EngineSchedule, HandsEveryParameterItsOwn) {
   EXPECT_EQ(world.get<B>(without)->x, -1);
 }
 
-TEST(EngineSchedule, WhatIsFetchedForALaterSystemIsNoAccess) {
+TEST(EngineSchedule, PrefetchForALaterSystemIsNotAnAccess) {
   World world;
   const Entity with = world.create(A<float>{1}, FieldWidth<Nodes>{3});
   world.create(A<float>{2});
@@ -310,7 +310,7 @@ TEST(EngineSchedule, WhatIsFetchedForALaterSystemIsNoAccess) {
   EXPECT_TRUE(world.alive(with));
 }
 
-TEST(EngineSchedule, SeesTablesThatComeLaterAndOtherWorlds) {
+TEST(EngineSchedule, SeesNewTablesAndOtherWorlds) {
   const auto count = [](LA& a) {
     for (float& x : a.x.lane) x += 1;
   };

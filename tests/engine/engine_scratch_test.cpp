@@ -1,4 +1,4 @@
-// Memory that systems work in, and components that not every table has.
+// Scratch memory of systems, and components that only some tables have.
 #include <mobil/engine/scratch.h>
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(ScratchPool, NoTwoHoldersShareABuffer) {
   EXPECT_EQ(memory.lent(), 0U);
 }
 
-TEST(ScratchPool, GrowsWhenAskedAndNeverShrinks) {
+TEST(ScratchPool, GrowsOnRequestAndNeverShrinks) {
   CountingMemory memory;
   ScratchPool pool(&memory);
   EXPECT_EQ(memory.requests, 0U);
@@ -91,14 +91,14 @@ TEST(ScratchPool, AFailedGrowthLeavesItUsable) {
   EXPECT_NE(another.data(), held.data());
 }
 
-/// Sums its lanes by way of scratch memory.
+/// Sums its lanes in scratch memory.
 void work(A<Lanes<float>>& a, Scratch<Floats> scratch) {
   if (scratch.data == nullptr) return;
   std::fill_n(scratch.data, scratch.floats, a.x[0] + 1);
   a.x[0] = scratch.data[scratch.floats - 1];
 }
 
-TEST(Scratch, IsAsLargeAsTheTableSaysAndNullWhereItSaysNothing) {
+TEST(Scratch, HasTheTablesSizeAndIsNullWithoutOne) {
   World world;
   const Entity none = world.create(A<float>{}), zero = world.create(A<float>{}, TagValue<Floats>{0});
   std::vector<Entity> some;
@@ -138,7 +138,7 @@ TEST(Scratch, MoreThreadsThanPromisedAreServed) {
   }
 }
 
-TEST(Maybe, IsThereWhereTheTableHasIt) {
+TEST(Maybe, IsSetWhereTheTableHasTheComponent) {
   World world;
   const Entity plain = world.create(A<float>{1}), more = world.create(A<float>{1}, Extra<float>{5});
   world.create(Extra<float>{7});

@@ -1,4 +1,4 @@
-// The world against a plain map of the same entities, compared whole after every change.
+// The world compared with a plain map of the same entities after every change.
 #include <mobil/engine/world.h>
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ bool same(const void* a, const void* b, std::size_t bytes) {
   return std::memcmp(a, b, bytes) == 0;
 }
 
-/// What one entity should be.
+/// The expected state of one entity.
 struct Person {
   std::optional<Size<float>> size;
   std::optional<Arms<float>> arms;
@@ -46,7 +46,7 @@ struct Person {
   std::optional<int> cells;
 };
 
-/// One random change: what, to whom, with which number.
+/// One random change: its kind, person and number.
 struct Change {
   unsigned what, whom, number;
 };
@@ -137,7 +137,7 @@ class Pair {
       rows += table.row_count();
       compare(table);
       auto& parts = *keys_.emplace(&table, parts_of(table)).first;
-      RC_ASSERT(parts.second == parts_of(table));  // a table stays what it is, and where it is
+      RC_ASSERT(parts.second == parts_of(table));  // a table keeps its components and its address
       RC_ASSERT(keys.insert(parts.second).second);
     }
     RC_ASSERT(rows == model_.size());
@@ -199,7 +199,7 @@ class Pair {
     (person->*part).reset();
   }
 
-  /// Everything else goes; a field that stays keeps its values.
+  /// Removes all other components. A field that stays keeps its values.
   void remake(Person* person, Entity e, unsigned n) {
     const TagValue<Substeps> substeps{n % 3};
     const bool with_nodes = n % 2 == 0;
@@ -252,7 +252,7 @@ class Pair {
     RC_ASSERT(world_.find(e).table->key().size() == parts);
   }
 
-  /// Rows dense, handles and rows pointing at each other, parked lanes copies of the block's first.
+  /// Checks that rows are dense, handles and rows match, and parked lanes copy the block's first lane.
   void compare(const Table& table) {
     RC_ASSERT(table.block_count() == (table.row_count() + 15) / 16);
     for (std::size_t b = 0; b < table.block_count(); ++b) {
@@ -280,7 +280,7 @@ class Pair {
   CountingMemory memory_;
   World world_{&memory_};
   std::vector<Shared<Mesh>> meshes_;
-  std::vector<Entity> handles_;  // all that ever were
+  std::vector<Entity> handles_;  // all handles ever created
   std::map<Key, Person> model_;
   std::map<const Table*, std::vector<std::pair<std::uint64_t, std::uint64_t>>> keys_;
 };
@@ -290,7 +290,7 @@ rc::Gen<Change> any_change() {
                                     rc::gen::inRange(0U, 1000U));
 }
 
-RC_GTEST_PROP(EngineWorld, IsAMapOfEntitiesWhateverIsDoneToIt, ()) {
+RC_GTEST_PROP(EngineWorld, MatchesAMapAfterAnyChange, ()) {
   Pair pair;
   for (const Change& change : *rc::gen::container<std::vector<Change>>(any_change())) {
     pair.apply(change);
@@ -313,7 +313,7 @@ RC_GTEST_PROP(EngineWorld, FullBlocksGrowAndShrinkOneAtATime, ()) {
   pair.compare();
 }
 
-TEST(EngineWorld, AnEmptiedTableKeepsItsFirstMemoryAtMost) {
+TEST(EngineWorld, EmptiedTableKeepsAtMostItsFirstMemory) {
   CountingMemory memory;
   World world(&memory);
   std::vector<Entity> all{world.create(Size<float>{})};
@@ -324,7 +324,7 @@ TEST(EngineWorld, AnEmptiedTableKeepsItsFirstMemoryAtMost) {
   EXPECT_LE(memory.lent(), one_block + 2);  // the registers' own arrays
 }
 
-TEST(EngineWorld, TheDefaultHandleIsNobody) {
+TEST(EngineWorld, DefaultHandleIsNeverAlive) {
   World world;
   EXPECT_FALSE(world.alive(Entity{}));
   const Entity e = world.create(Size<float>{});
@@ -334,7 +334,7 @@ TEST(EngineWorld, TheDefaultHandleIsNobody) {
   EXPECT_FALSE(world.alive({e.index, e.generation + 1}));  // not yet given out
 }
 
-TEST(EngineWorld, TheSameResourceIsTheSameTable) {
+TEST(EngineWorld, RowsWithTheSameResourceShareATable) {
   World world;
   const auto mesh = std::make_shared<const Mesh>(Mesh{4});
   const Entity a = world.create(world.share(mesh)), b = world.create(world.share(mesh));
@@ -344,10 +344,10 @@ TEST(EngineWorld, TheSameResourceIsTheSameTable) {
   EXPECT_EQ(world.shared<Mesh>(a), mesh.get());
 }
 
-TEST(EngineKey, TypesAreKnownByTheirNames) {
+TEST(EngineKey, TypesAreIdentifiedByName) {
   EXPECT_TRUE(type_name<Vec3<float>>().starts_with("mobil::"));
   EXPECT_TRUE(type_name<Vec3<float>>().ends_with("Vec3<float>"));
-  // The version in our namespace's name is left out: snapshots and hashes are of every version.
+  // The version in the library's namespace is left out, because snapshots and hashes are common to all versions.
   static_assert(type_id<Vec3<float>>() == [] {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : std::string_view("mobil::Vec3<float>"))
@@ -358,7 +358,7 @@ TEST(EngineKey, TypesAreKnownByTheirNames) {
   static_assert(!distinct({1, 2, 1}) && distinct({1, 2, 3}));
 }
 
-TEST(Status, EveryAnswerHasWordsOfItsOwn) {
+TEST(Status, EveryValueHasItsOwnText) {
   std::set<std::string_view> texts;
   for (const Status status : {Status::ok, Status::stale_entity, Status::missing, Status::already_there,
                               Status::wrong_width, Status::not_valid})

@@ -1,4 +1,4 @@
-// Elementary functions are the nearest doubles to what thirty-three digits say.
+// Elementary functions return the double nearest to a result of thirty-three digits.
 
 #include "engine/exact_math.h"
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-// gcc's libquadmath, whose header other compilers do not find.
+// gcc's libquadmath. Other compilers do not find its header.
 using Long = __float128;
 extern "C" {
 Long expq(Long);
@@ -26,7 +26,7 @@ Long powq(Long, Long);
 namespace mobil {
 namespace {
 
-/// Of random numbers of a range, mostly even in the logarithm of their size.
+/// Compares random numbers of a range, half of them uniform in the logarithm of their size.
 template <class Ours, class Theirs>
 void expect_nearest(double low, double high, Ours ours, Theirs theirs) {
   std::mt19937_64 random(11);
@@ -40,7 +40,7 @@ void expect_nearest(double low, double high, Ours ours, Theirs theirs) {
   }
 }
 
-TEST(ExactMath, IsTheNearestDouble) {
+TEST(ExactMath, ReturnsTheNearestDouble) {
   expect_nearest(
       -700, 700, [](double x) { return exact::exp(x); }, expq);
   expect_nearest(
@@ -69,7 +69,7 @@ TEST(ExactMath, IsTheNearestDouble) {
   }
 }
 
-TEST(ExactMath, EndsAreThoseOfTheStandardLibrary) {
+TEST(ExactMath, SpecialValuesMatchTheStandardLibrary) {
   const double inf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(exact::exp(-inf), 0);
   EXPECT_EQ(exact::exp(inf), inf);

@@ -1,5 +1,5 @@
 #pragma once
-// Kernels on each instruction set of this machine, and whether blocks of lanes hold the same bits.
+// Runs kernels on each instruction set of this machine, and compares the bits of blocks.
 
 #include <hwy/targets.h>
 
@@ -13,7 +13,7 @@ namespace mobil {
 
 inline constexpr std::int64_t fused_targets = HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL | HWY_NEON;
 
-/// The instruction sets that kernels are compiled for and this machine has: one alone where MOBIL_X86 is `native`.
+/// Returns the instruction sets that kernels are compiled for and this machine has: only one if MOBIL_X86 is `native`.
 inline std::vector<std::int64_t> instruction_sets() {
   auto sets = hwy::SupportedAndGeneratedTargets();  // the best one first
 #if defined(MOBIL_KERNELS_FOR_THIS_MACHINE)
@@ -34,22 +34,22 @@ void for_each_instruction_set(std::int64_t targets, F&& f) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   }
 }
-/// For all there are.
+/// Runs `f` for all of this machine's instruction sets.
 template <class F>
 void for_each_instruction_set(F&& f) {
   for_each_instruction_set(~std::int64_t{0}, f);
 }
-/// For those that have fused multiply-add: the same bits on each.
+/// Runs `f` for the instruction sets with fused multiply-add, which give the same bits.
 template <class F>
 void for_each_fused_instruction_set(F&& f) {
   for_each_instruction_set(fused_targets, [&](const char*) { f(); });
 }
-/// Whether kernels are dispatched to such a one now.
+/// Returns true if kernels are now dispatched to an instruction set with fused multiply-add.
 inline bool has_fused_multiply_add() {
   return (hwy::SupportedTargets() & ~fused_targets) == 0;
 }
 
-/// All lanes but `but_lane`.
+/// Compares the bits of all lanes except `but_lane`.
 inline bool same_bits(const std::vector<Lanes<float>>& a, const std::vector<Lanes<float>>& b, std::size_t but_lane) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t l = 0; l < lane_count; ++l) {

@@ -1,4 +1,4 @@
-// Who belongs to whom, against a plain model, through everything that makes, changes and ends rows.
+// Owners and members compared with a plain model, while rows are created, changed and destroyed.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -22,7 +22,7 @@ struct Weight {
 struct Model {
   World world;
   std::vector<Entity> alive;
-  std::map<std::uint32_t, Entity> keeper;  // by index, also of those that name somebody gone
+  std::map<std::uint32_t, Entity> keeper;  // by index, including owners that are gone
 
   Model() { world.set_owner_part(component_id<Keeper>()); }
 
@@ -50,7 +50,7 @@ Keeper<float> kept_by(Entity owner, std::uint32_t number) {
   return {owner.index, owner.generation, number};
 }
 
-TEST(Members, AreThoseThatNameTheOwnerThroughAnyHistory) {
+TEST(Members, MatchTheModelThroughAnyHistory) {
   rc::check([] {
     Model model;
     World& world = model.world;
@@ -106,7 +106,7 @@ TEST(Members, AreThoseThatNameTheOwnerThroughAnyHistory) {
   });
 }
 
-TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
+TEST(Members, AreRebuiltFromASnapshot) {
   Model model;
   for (std::uint32_t i = 0; i < 40; ++i) {
     const Entity owner = model.some(i * 7);
@@ -138,7 +138,7 @@ TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
   model.check();
 }
 
-TEST(Snapshot, WhatItLeavesOutIsWhatWhoRestoresItMakesAgain) {
+TEST(Snapshot, OmittedComponentsMatchThoseTheReaderRebuilds) {
   World world;
   world.create(Weight<float>{70}, kept_by({}, 1), TagValue<Model>{3});
   const auto nothing = [](const Archetype&) { return std::uint64_t{0}; };
@@ -164,7 +164,7 @@ TEST(Snapshot, WhatItLeavesOutIsWhatWhoRestoresItMakesAgain) {
   }
 }
 
-TEST(Members, CountInTheHashOfTheirOwnerAndNotByHandle) {
+TEST(Members, HashCountsOwnersIndependentOfHandles) {
   World one, other;
   one.set_owner_part(component_id<Keeper>());
   other.set_owner_part(component_id<Keeper>());
@@ -177,7 +177,7 @@ TEST(Members, CountInTheHashOfTheirOwnerAndNotByHandle) {
   const Entity c = other.create(Weight<float>{1});
   const Entity moved = other.create(kept_by(c, 5));
   EXPECT_EQ(state_hash(one, {}), state_hash(other, {}));
-  other.set(moved, kept_by(d, 5));  // the same rows, otherwise owned
+  other.set(moved, kept_by(d, 5));  // the same rows with another owner
   EXPECT_NE(state_hash(one, {}), state_hash(other, {}));
 }
 

@@ -1,4 +1,4 @@
-// Order of phases around the systems, changes of rows in them, and the state after one of them throws.
+// Order of phases around the systems, row changes in phases, and the state after a phase throws.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,7 +18,7 @@ struct Births {
   std::vector<Entity> all;
 };
 
-/// Writes what runs into `said`, with the number of finished ticks.
+/// Writes the name of each phase that runs into `said`, with the number of finished ticks.
 Module telling(std::string& said, const std::string& name) {
   const auto tell = [&said](const std::string& what) {
     return Phase{what, [&said, what](const Frame& frame) { said += what + std::to_string(frame.tick.index) + ' '; }};
@@ -34,7 +34,7 @@ Module telling(std::string& said, const std::string& name) {
           .after = {tell("after " + name)}};
 }
 
-/// Creates an entity before each tick, and destroys those that are three ticks old after it.
+/// Creates an entity before each tick. After it, destroys entities that are three ticks old.
 Module generations() {
   return {.name = "generations",
           .parts = {component_id<Age>()},
@@ -69,7 +69,7 @@ TEST(Phases, RunAroundTheSystemsInTheOrderOfModules) {
             "after: after a\nafter: after b\n");
 }
 
-TEST(Phases, ChangeRowsAndKeepWhatTheyNeed) {
+TEST(Phases, ChangeRowsAndKeepTheirWorkspace) {
   auto schedule = *make_schedule(std::array{generations()});
   World world;
   Workspace workspace;
@@ -81,7 +81,7 @@ TEST(Phases, ChangeRowsAndKeepWhatTheyNeed) {
   EXPECT_EQ(world.get<Age>(all[18])->ticks, 2);
 }
 
-TEST(Phases, ATickWhoseBeginningThrowsDoesNotCount) {
+TEST(Phases, ThrowingFirstPhaseVoidsTheTick) {
   std::string said;
   Module failing = telling(said, "b");
   failing.before.front().run = [](const Frame&) { throw std::runtime_error("no room"); };
@@ -95,7 +95,7 @@ TEST(Phases, ATickWhoseBeginningThrowsDoesNotCount) {
   EXPECT_EQ(said, "before a3 ");
 }
 
-TEST(Phases, TheTickAfterOneThatThrewBeginsWithThePhaseThatThrew) {
+TEST(Phases, NextTickResumesWithThePhaseThatThrew) {
   std::string said;
   Module failing = telling(said, "b");
   int left = 2;
@@ -137,7 +137,7 @@ TEST(Phases, AreTimed) {
   EXPECT_EQ(schedule.after().front().seconds, 0);
 }
 
-TEST(Phases, NeedANameOfTheirOwnAndAFunction) {
+TEST(Phases, NeedAUniqueNameAndAFunction) {
   const Phase good{"one", [](const Frame&) {}}, same{"one", [](const Frame&) {}}, nameless{"", [](const Frame&) {}},
       empty{"two", {}};
   for (const Phase& bad : {same, nameless, empty}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Rows in and out of the lanes of a block: both are nothing but 4-byte words.
+// Copies rows into and out of the lanes of a block. Both consist of 4-byte words.
 
 #include <cstddef>
 #include <cstring>
@@ -8,7 +8,7 @@
 
 namespace mobil {
 
-/// One row into one lane of a block.
+/// Writes one row into one lane of a block.
 template <class Row, class Block>
 void put(const Row& row, Block& block, std::size_t lane) {
   static_assert(sizeof(Block) == lane_count * sizeof(Row));
@@ -17,7 +17,7 @@ void put(const Row& row, Block& block, std::size_t lane) {
                 reinterpret_cast<const char*>(&row) + 4 * i, 4);
 }
 
-/// One lane of a block as a row.
+/// Returns one lane of a block as a row.
 template <template <class> class C>
 C<float> row(const C<Lanes<float>>& block, std::size_t lane) {
   C<float> r;

@@ -1,5 +1,5 @@
-// The sixteen-lane functions against double precision, on every instruction set that this machine has. A ulp is the
-// distance of neighbouring floats at the exact value; an ulp of one bounds results of that size absolutely.
+// The sixteen-lane functions compared with double precision, on every instruction set of this machine. A ulp is the
+// distance of neighbouring floats at the exact value. "A ulp of one" is an absolute bound, 2⁻²³.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
@@ -22,7 +22,7 @@ void exponential(const float* x, const float* y, float* e, float* l) {
   store(exp(load(x)), e);
   store(log(load(y)), l);
 }
-/// One result a row of `out`.
+/// Writes one row of `out` for each function.
 void arithmetic(const float* a, const float* b, const float* c, float* out) {
   const Wide x = load(a), y = load(b), z = load(c);
   const Wide all[] = {
@@ -65,7 +65,7 @@ struct Dice {
     for (float& lane : x.lane) lane = static_cast<float>((*this)(low, high));
     return x;
   }
-  /// Of either sign, from 2^-most to 2^most, one as likely as another.
+  /// Returns random numbers of either sign, from 2^-most to 2^most, log-uniform.
   Lanes<float> of_any_size(int most) {
     Lanes<float> x;
     for (float& lane : x.lane) {
@@ -86,7 +86,7 @@ double ulps(float got, double exact) {
 double of(float x) {
   return x;
 }
-/// The larger one; what is not a number stays.
+/// Keeps the larger error. NaN stays.
 void keep(double& worst, double off) {
   if (!(off <= worst) && !std::isnan(worst)) worst = off;
 }
@@ -106,7 +106,7 @@ TEST(Wide, SineAndCosineAreWithinTwoThirdsOfAnUlpOfOne) {
         keep(worst, std::fabs(of(c[l]) - std::cos(of(x[l]))));
       }
     }
-    // Without fused multiply-add the reduction to a quadrant loses bits, the more the larger the angle.
+    // Without fused multiply-add the reduction to a quadrant loses bits, more at larger angles.
     EXPECT_LT(near, ulp(1) * (has_fused_multiply_add() ? 2.0 / 3 : 2.5)) << set;
     EXPECT_LT(far, ulp(1) * (has_fused_multiply_add() ? 2.0 / 3 : 300)) << set;
   });
@@ -148,7 +148,7 @@ TEST(Wide, ExponentialAndLogarithmAreWithinFourUlps) {
       }
     }
     EXPECT_LT(near, 4) << set;
-    // Without fused multiply-add the reduction loses bits, the more the larger the argument.
+    // Without fused multiply-add the reduction loses bits, more at larger arguments.
     EXPECT_LT(far, has_fused_multiply_add() ? 4 : 300) << set;
     EXPECT_LT(logarithm, 2) << set;
     const Lanes<float> beyond{{200, -200, 88, -88, 0}}, y1{{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}};

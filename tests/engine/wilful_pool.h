@@ -1,6 +1,6 @@
 #pragma once
-// A caller's own job system that does everything differently each time: ranges cut at random places, taken up in
-// random order by as many threads as it likes, more than the machine has too.
+// An adversarial job system: it cuts ranges at random places and runs them in random order on any number of threads,
+// possibly more than the machine has.
 
 #include <algorithm>
 #include <atomic>
@@ -37,7 +37,7 @@ class WilfulPool {
   WilfulPool(const WilfulPool&) = delete;
   WilfulPool& operator=(const WilfulPool&) = delete;
 
-  /// `promised`: how many threads it says it has, which need not be true.
+  /// Returns jobs that report `promised` threads, which can differ from the true number.
   Jobs jobs(std::size_t promised) {
     return {this,
             [](void* user, std::size_t count, Jobs::Body body, void* context) {
@@ -76,10 +76,10 @@ class WilfulPool {
   Jobs::Body body_ = nullptr;
   void* context_ = nullptr;
   std::atomic<std::size_t> next_ = 0;
-  std::vector<std::jthread> workers_;  // last: gone first
+  std::vector<std::jthread> workers_;  // last member: destroyed first
 };
 
-/// One thread, whatever it promises, one part at a time, the last one first.
+/// Returns jobs on one thread that run one part at a time, the last one first, and report `promised` threads.
 inline Jobs backwards(std::size_t promised = 1) {
   return {nullptr,
           [](void*, std::size_t count, Jobs::Body body, void* context) {

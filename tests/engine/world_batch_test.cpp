@@ -1,4 +1,4 @@
-// Many entities made and destroyed at once are what they would be one by one.
+// Entities created and destroyed in batches match those created and destroyed singly.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -54,7 +54,7 @@ Values read(const World& world, Entity entity) {
   return {place->at.x, age->ticks, points[0]};
 }
 
-/// `count` entities of one kind with the values of first, first + 1, …
+/// Creates `count` entities of one kind with the values of first, first + 1, …
 std::vector<Entity> create(World& world, std::uint64_t kind, int first, std::size_t count, const Jobs& jobs) {
   const std::size_t blocks = (count + lane_count - 1) / lane_count;
   std::vector<Place3<Lanes<float>>> place(blocks);
@@ -88,7 +88,7 @@ Entity create_one(World& world, std::uint64_t kind, int seed) {
   return entity;
 }
 
-/// Rows are dense, everybody is where the register says, and lanes without a row hold the first lane's words.
+/// Checks that rows are dense, every entity is where the register expects it, and empty lanes copy the first lane.
 void check_tables(const World& world, std::size_t alive) {
   std::size_t rows = 0;
   for (const Table& table : world.tables()) {
@@ -111,7 +111,7 @@ void check_tables(const World& world, std::size_t alive) {
   ASSERT_EQ(rows, alive);
 }
 
-RC_GTEST_PROP(WorldBatch, ManyAreWhatTheyWouldBeOneByOne, ()) {
+RC_GTEST_PROP(WorldBatch, BatchMatchesSingleEntities, ()) {
   World many, single;
   std::vector<Entity> in_many, in_single;
   int seed = 0;
@@ -154,7 +154,7 @@ RC_GTEST_PROP(WorldBatch, ManyAreWhatTheyWouldBeOneByOne, ()) {
   }
 }
 
-TEST(WorldBatch, WhoIsStaleOrNamedTwiceIsRefusedAndAllStay) {
+TEST(WorldBatch, StaleOrRepeatedHandlesAreRefusedUnchanged) {
   World world;
   const auto people = create(world, 0, 0, 40, {});
   const Entity gone = create_one(world, 1, 7);
@@ -192,7 +192,7 @@ struct Badge {
   F value;
 };
 
-/// Lanes without a row hold copies of the last block's first.
+/// Checks that lanes without a row copy the first lane of the last block.
 void expect_parked(const World& world) {
   for (const Table& table : world.tables()) {
     if (table.row_count() % lane_count == 0) continue;
@@ -204,7 +204,7 @@ void expect_parked(const World& world) {
   }
 }
 
-RC_GTEST_PROP(WorldBatch, RemadeTogetherTheyAreAsOneByOne, ()) {
+RC_GTEST_PROP(WorldBatch, BatchChangeOfArchetypeMatchesSingleChanges, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 90);
   const auto there = *rc::gen::inRange<std::size_t>(0, 40);
   World together, single;
@@ -242,8 +242,8 @@ RC_GTEST_PROP(WorldBatch, RemadeTogetherTheyAreAsOneByOne, ()) {
   expect_parked(single);
 }
 
-/// A part that is given and is there already, which nobody owns, is there once.
-TEST(WorldBatch, WhatIsGivenAndThereIsThereOnce) {
+/// A component that is given and already present exists once.
+TEST(WorldBatch, GivenAndPresentComponentExistsOnce) {
   World world;
   const std::vector<Entity> all = create(world, 1, 0, 20, {});
   const Age<float> older{77};
@@ -266,9 +266,9 @@ TEST(WorldBatch, WhatIsGivenAndThereIsThereOnce) {
   expect_parked(world);
 }
 
-/// Some are remade in pieces and others come, some of whom get one part more; where that is not kept, nothing of it has
-/// been, and where it is, it is as without an transaction.
-RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
+/// Some entities are changed piecewise, others are created, and some of those get one more component. Without a commit
+/// nothing has changed; with one, the result is as without a transaction.
+RC_GTEST_PROP(WorldBatch, TransactionIsCommittedOrUndone, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 90), more = *rc::gen::inRange<std::size_t>(0, 40);
   const bool kept = *rc::gen::inRange(0, 2) == 1;
   World world, twin;
@@ -306,8 +306,8 @@ RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
   expect_parked(world);
 }
 
-/// An transaction within another: what it did is undone where it is not kept, or where the other one is not.
-RC_GTEST_PROP(WorldBatch, AnAttemptWithinAnotherIsPartOfIt, ()) {
+/// A nested transaction is undone if it is not committed, or if the outer one is not.
+RC_GTEST_PROP(WorldBatch, NestedTransactionIsPartOfTheOuterOne, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 60);
   const bool outer_kept = *rc::gen::arbitrary<bool>(), inner_kept = *rc::gen::arbitrary<bool>();
   World world, twin;

@@ -1,6 +1,5 @@
 #pragma once
-// Bellies, materials and elements drawn at random, and the stencil written out: what the tests of stiffness and of
-// critical steps share.
+// Random bellies, materials and elements, and the stencil as a dense matrix, for tests of stiffness and critical steps.
 
 #include <rapidcheck.h>
 
@@ -32,7 +31,7 @@ inline Element any_element() {
   return static_cast<Element>(*rc::gen::inRange(0, 3));
 }
 
-/// A block whose inner nodes lie up to a fifth of a cell off their places.
+/// Returns a block whose inner nodes are displaced by up to a fifth of a cell.
 inline HexahedralMesh any_distorted_block(const Cells& cells, double cell_size_m) {
   HexahedralMesh mesh = *make_block(cells, cell_size_m);
   const double most = 0.2 * cell_size_m;
@@ -44,7 +43,7 @@ inline HexahedralMesh any_distorted_block(const Cells& cells, double cell_size_m
   return mesh;
 }
 
-/// The stencil written out as a dense matrix.
+/// Returns the stencil as a dense matrix.
 inline oracle::Matrix dense(const StiffnessTerms& terms, double across, double along) {
   const auto size = static_cast<Eigen::Index>(3 * terms.lumped_mass_kg.size());
   oracle::Matrix k = oracle::Matrix::Zero(size, size);

@@ -1,4 +1,4 @@
-// How stiff a belly is along its line, against dense statics in double, energy bounds and bars that theory knows.
+// Axial stiffness of a belly, compared with dense double-precision statics, energy bounds and bars of known stiffness.
 #include "assets/fem/axial_stiffness.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace mobil::axial_stiffness_test {
 using oracle::Matrix;
 using oracle::Vector;
 
-/// Over the whole range from the first try on.
+/// Draws from the full range from the first try on.
 template <class T>
 T within(T low, T high) {
   return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
@@ -22,7 +22,7 @@ double uniform(double low, double high) {
   return low + (high - low) * within(0, 10001) / 10000.0;
 }
 
-/// A spindle whose sections are off its axis, small enough for dense matrices.
+/// Returns a spindle whose sections are off its axis, small enough for dense matrices.
 HexahedralMesh any_mesh() {
   const Cells cells = {within(1U, 4U), within(1U, 4U), within(2U, 7U)};
   const auto wide = [] { return static_cast<float>(uniform(0.02, 0.05)); };
@@ -36,7 +36,7 @@ Material any_material() {
   return {1000, uniform(1e3, 1e5), uniform(0, 0.45)};
 }
 
-/// What `static_stretch` promises, by a dense factorisation of a model that is assembled another way.
+/// Returns the result of `static_stretch` from a dense factorisation of an independently assembled model.
 StaticStretch dense_stretch(const HexahedralMesh& mesh, const Material& material, double across, double along) {
   const auto model = oracle::assemble(oracle::scaled(mesh, across, along), material);
   const auto moving = oracle::free_components(mesh.cells, FarEnd::held);
@@ -50,7 +50,7 @@ StaticStretch dense_stretch(const HexahedralMesh& mesh, const Material& material
   return {{u.begin(), u.end()}, pull.dot(model.stiffness * u)};
 }
 
-RC_GTEST_PROP(AxialStiffness, IsThatOfADenseStaticSolve, ()) {
+RC_GTEST_PROP(AxialStiffness, MatchesADenseStaticSolve, ()) {
   const auto mesh = any_mesh();
   const auto material = any_material();
   const double across = uniform(0.6, 1.6), along = uniform(0.6, 1.6);
@@ -63,8 +63,8 @@ RC_GTEST_PROP(AxialStiffness, IsThatOfADenseStaticSolve, ()) {
   }
 }
 
-// Uniform stretch is a possible displacement and costs the constrained modulus; letting the sides go gives E.
-RC_GTEST_PROP(AxialStiffness, OfABarLiesBetweenItsModulusAndItsConstrainedOne, ()) {
+// Uniform stretch is admissible and costs the constrained modulus. Free sides reduce the stiffness to E.
+RC_GTEST_PROP(AxialStiffness, BarIsBetweenYoungsAndConstrainedModulus, ()) {
   const Cells cells = {within(1U, 4U), within(1U, 4U), within(2U, 13U)};
   const double edge = uniform(0.005, 0.05);
   const auto material = any_material();
@@ -75,7 +75,7 @@ RC_GTEST_PROP(AxialStiffness, OfABarLiesBetweenItsModulusAndItsConstrainedOne, (
   RC_ASSERT(k / bar < (1 - nu) / ((1 + nu) * (1 - 2 * nu)) + 1e-9);
 }
 
-TEST(AxialStiffness, OfABarThatDoesNotThinIsExact) {
+TEST(AxialStiffness, BarWithoutLateralStrainIsExact) {
   const Material material{1000, 2e4, 0};
   for (const std::uint32_t length : {1U, 2U, 9U}) {
     const auto terms = assemble(*make_block({2, 3, length}, 0.01), material);
@@ -85,8 +85,8 @@ TEST(AxialStiffness, OfABarThatDoesNotThinIsExact) {
   }
 }
 
-// The clamped ends stiffen a fixed length of bar, so that their part falls as one over its slenderness.
-TEST(AxialStiffness, OfASlenderBarNearsItsModulus) {
+// The clamped ends stiffen a fixed length of bar, so their share is proportional to one over its slenderness.
+TEST(AxialStiffness, SlenderBarApproachesYoungsModulus) {
   const Material material;
   double before = 0;
   for (const std::uint32_t length : {4U, 8U, 16U, 32U}) {
@@ -115,7 +115,7 @@ std::vector<float> far_shares(const HexahedralMesh& mesh) {
   return {share.begin() + first_insertion_node(mesh.cells), share.end()};
 }
 
-RC_GTEST_PROP(AxialStiffness, UnderAUniformPullIsThatOfADenseStaticSolve, ()) {
+RC_GTEST_PROP(AxialStiffness, UniformPullMatchesADenseStaticSolve, ()) {
   const auto mesh = any_mesh();
   const auto material = any_material();
   const double across = uniform(0.6, 1.6), along = uniform(0.6, 1.6);
@@ -128,11 +128,11 @@ RC_GTEST_PROP(AxialStiffness, UnderAUniformPullIsThatOfADenseStaticSolve, ()) {
   const Matrix inner = model.stiffness(moving, moving);
   const Vector at = load(moving);
   RC_ASSERT(std::abs(at.dot(oracle::solve(inner, at)) * k - 1) < 1e-6);
-  // By Castigliano a face that may warp gives way at least as far as a stiff one.
+  // By Castigliano's theorem a face that can warp yields at least as much as a rigid one.
   RC_ASSERT(k <= static_stretch(*assemble(mesh, material), across, along).stiffness_n_per_m * (1 + 1e-6));
 }
 
-RC_GTEST_PROP(AxialStiffness, TableIsTheDirectSolveWithinAPercent, ()) {
+RC_GTEST_PROP(AxialStiffness, TableMatchesTheDirectSolveWithinAPercent, ()) {
   const auto mesh = any_mesh();
   const auto share = far_shares(mesh);
   const auto terms = *assemble(mesh, any_material());
@@ -148,7 +148,7 @@ RC_GTEST_PROP(AxialStiffness, TableIsTheDirectSolveWithinAPercent, ()) {
   }
 }
 
-TEST(AxialStiffness, BeyondTheTableItsEndIsTaken) {
+TEST(AxialStiffness, BeyondTheTableItsEndIsUsed) {
   const auto mesh = *make_block({2, 2, 8}, 0.015);
   const auto table = tabulate_axial_stiffness(*assemble(mesh, Material{}), far_shares(mesh), 0.5, 2);
   for (const double ratio : {1e-3, 0.4, 2.0, 3.0, 1e3}) {

@@ -1,5 +1,5 @@
-// Refinement: a displacement made up beforehand, held on the boundary and driven by the body force it needs, comes out
-// with an error in the L2 norm that falls with the square of the element size, for every kind of element.
+// Mesh refinement with a manufactured solution: a prescribed displacement on the boundary and the matching body force.
+// The error in the L2 norm falls with the square of the element size, for every kind of element.
 #include <gtest/gtest.h>
 
 #include "engine/eigen.h"
@@ -130,7 +130,7 @@ HexahedralMesh graded_belly(std::uint32_t n) {
   return *bend_block({n, n, 2 * n}, stations, 0.12, {1.5, 2});
 }
 
-/// Twisted, and every inner node off its place by up to a fifth of a cell.
+/// Returns a twisted block whose inner nodes are displaced by up to a fifth of a cell.
 HexahedralMesh distorted_block(std::uint32_t n) {
   HexahedralMesh mesh = block(n);
   std::uint32_t seed = 1;
@@ -169,7 +169,7 @@ TEST(Convergence, OnePointIsOfSecondOrder) {
   expect_second_order(Element::one_point);
 }
 
-TEST(Convergence, BbarAndOnePointKeepTheirAccuracyWhereTissueIsNearlyIncompressible) {
+TEST(Convergence, BbarAndOnePointStayAccurateNearIncompressibility) {
   Waves incompressible;
   for (std::size_t c = 0; c < 3; ++c) incompressible.wave[c](static_cast<Eigen::Index>(c)) = 0;
   Material wet;

@@ -1,4 +1,4 @@
-// The critical step of every body: never above the exact one, and close, against eigen-solves.
+// The critical step of every body, compared with eigenvalue solves: never above the exact one, and close to it.
 #include "assets/fem/critical_step.h"
 
 #include "engine/eigen.h"
@@ -29,7 +29,7 @@ Mass any_mass() {
   return *rc::gen::arbitrary<bool>() ? Mass::consistent : Mass::lumped;
 }
 
-/// Mass and stiffness of what moves, the foundation in it.
+/// Mass and stiffness of the moving components, including the foundation.
 struct Pencil {
   Matrix mass, stiffness;
 };
@@ -74,7 +74,7 @@ RC_GTEST_PROP(CriticalStep, NeverAboveTheExactLimitAndWithinTwoTenthsOfAPercent,
   RC_ASSERT(step > 0.998 * exact);
 }
 
-// Slivers of a scaled Jacobian down to 2e-3 and aspect ratios to 100.
+// Slivers with a scaled Jacobian down to 2e-3, and aspect ratios to 100.
 RC_GTEST_PROP(CriticalStep, SafeAndCloseOnSliversAndNeedles, ()) {
   const bool sheared = *rc::gen::arbitrary<bool>();
   const auto shift = static_cast<float>(sheared ? any_between(0.5, 4) : 0);
@@ -104,7 +104,7 @@ double growth(const Pencil& p, double alpha, double beta, double dt) {
   advance.topLeftCorner(n, n) = share * (2 * unit - dt * dt * k - beta * dt * k);
   advance.topRightCorner(n, n) = share * (beta * dt * k - (1 - 0.5 * alpha * dt) * unit);
   advance.bottomLeftCorner(n, n) = unit;
-  double log_growth = 0;  // of the norm of the 2^i-th power, over 2^i
+  double log_growth = 0;  // of the norm of the 2^i-th power, divided by 2^i
   for (int i = 0; i < 40; ++i) {
     const double norm = advance.norm();
     log_growth += std::ldexp(std::log(norm), -i);
@@ -113,7 +113,7 @@ double growth(const Pencil& p, double alpha, double beta, double dt) {
   return std::exp(log_growth);
 }
 
-RC_GTEST_PROP(CriticalStep, JustBelowNothingGrowsAndJustAboveSomethingDoes, ()) {
+RC_GTEST_PROP(CriticalStep, NoGrowthJustBelowAndGrowthJustAbove, ()) {
   const HexahedralMesh mesh = any_belly({1, 1, 3});
   const Material material = any_material();
   const double alpha = any_between(0, 50);
@@ -153,9 +153,9 @@ RC_GTEST_PROP(CriticalStep, TableServesMassDampingAndFoundationWithinTwoPercent,
   RC_ASSERT(*step > 0.98 * exact);
 }
 
-/// A foundation about as stiff as the tissue: the fastest mode changes from stretching along to swaying across as the
-/// body gets wider, so that h(r, q) has a corner in q.
-TEST(CriticalStep, TableFollowsWhereAFoundationTakesOver) {
+/// The foundation is about as stiff as the tissue. As the body gets wider, the fastest mode changes from stretching
+/// along the belly to swaying across it, so h(r, q) has a corner in q.
+TEST(CriticalStep, TableFollowsTheChangeToAFoundationMode) {
   const auto terms = assemble(*make_block({2, 2, 4}, 0.03), Material{1000, 1e3, 0.3});
   const StepCase step_case{FarEnd::held, Mass::lumped, 1e-3, 60};
   const CriticalSteps table = tabulate_critical_steps(*terms, step_case, 0.7, 1.5);
@@ -164,13 +164,13 @@ TEST(CriticalStep, TableFollowsWhereAFoundationTakesOver) {
       const double exact = critical_step(*terms, across, across / ratio, step_case);
       const auto step = critical_step(table, across, across / ratio);
       ASSERT_TRUE(step);
-      EXPECT_LE(*step, 1.003 * exact) << across << ' ' << ratio;  // `exact` may lie as much below the exact one
+      EXPECT_LE(*step, 1.003 * exact) << across << ' ' << ratio;  // `exact` itself can be as much below the true limit
       EXPECT_GT(*step, 0.98 * exact) << across << ' ' << ratio;
     }
   }
 }
 
-TEST(CriticalStep, TableRefusesWhatItDoesNotCover) {
+TEST(CriticalStep, TableRefusesBodiesOutsideItsRange) {
   const auto terms = assemble(*make_block({1, 1, 2}, 0.015), Material{});
   const auto table = tabulate_critical_steps(*terms, FarEnd::held, 0.8, 1.25);
   EXPECT_TRUE(critical_step(table, 1, 1));
@@ -180,13 +180,13 @@ TEST(CriticalStep, TableRefusesWhatItDoesNotCover) {
   EXPECT_FALSE(critical_step(table, std::nan(""), 1));
 }
 
-TEST(CriticalStep, WhatCannotMoveHasNoLimit) {
+TEST(CriticalStep, FullyHeldBlockHasNoLimit) {
   const auto terms = assemble(*make_block({2, 2, 1}, 0.015), Material{});
   EXPECT_TRUE(std::isinf(critical_step(*terms, 1, 1, FarEnd::held)));
   EXPECT_EQ(substeps_within(critical_step(*terms, 1, 1, FarEnd::held), 1.0 / 60), 1U);
 }
 
-/// 2/ω_max of a large belly with a free end, by another's Lanczos iteration with restarts.
+/// Returns 2/ω_max of a large belly with a free end, from an independent restarted Lanczos iteration.
 double sparse_limit(const HexahedralMesh& mesh, const Material& material, Mass kind) {
   std::vector<Eigen::Index> place(3 * mesh.node.size(), -1);
   const auto moving = oracle::free_components(mesh.cells, FarEnd::free);

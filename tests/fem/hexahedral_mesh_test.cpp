@@ -18,7 +18,7 @@ Cells any_cells(std::uint32_t across = 4, std::uint32_t along = 9) {
   return {*rc::gen::inRange(1U, across), *rc::gen::inRange(1U, across), *rc::gen::inRange(1U, along)};
 }
 
-/// A belly of moderate curvature and taper.
+/// Returns the stations of a belly with moderate curvature and taper.
 std::vector<LatticeStation> any_belly() {
   const auto length = [](int low_mm, int high_mm) {
     return static_cast<float>(*rc::gen::inRange(low_mm, high_mm)) * 1e-3F;
@@ -45,7 +45,7 @@ double volume_by_gauss(const HexahedralMesh& mesh) {
   return sum;
 }
 
-RC_GTEST_PROP(HexahedralMesh, BlockHasItsNodesItsVolumeAndPerfectElements, ()) {
+RC_GTEST_PROP(HexahedralMesh, BlockHasItsNodesVolumeAndPerfectElements, ()) {
   const Cells cells = any_cells();
   const double size = *rc::gen::inRange(1, 100) * 1e-3;
   const auto mesh = make_block(cells, size);
@@ -107,7 +107,7 @@ TEST(HexahedralMesh, RoundedSectionTouchesItsEllipseAndContainsIt) {
   EXPECT_GE(smallest, 1 - 1e-7);
 }
 
-RC_GTEST_PROP(HexahedralMesh, GradedElementsFillTheSameBlockAndGrowGeometricallyToTheMiddle, ()) {
+RC_GTEST_PROP(HexahedralMesh, GradedElementsFillTheBlockAndGrowTowardTheMiddle, ()) {
   const Cells cells = any_cells(6, 12);
   const Grading grading{*rc::gen::inRange(1, 400) * 0.05, *rc::gen::inRange(1, 400) * 0.05};
   const auto uniform = make_block(cells, 0.01), graded = make_block(cells, 0.01, grading);
@@ -132,7 +132,7 @@ RC_GTEST_PROP(HexahedralMesh, GradedElementsFillTheSameBlockAndGrowGeometrically
   }
 }
 
-TEST(HexahedralMesh, GradedBelliesLieWithinTheSameEllipses) {
+TEST(HexahedralMesh, GradedBelliesStayWithinTheSameEllipses) {
   const auto uniform = bend_block({4, 4, 10}, fixed_belly, 0.2),
              graded = bend_block({4, 4, 10}, fixed_belly, 0.2, {3, 4});
   ASSERT_TRUE(graded.has_value());
@@ -140,7 +140,7 @@ TEST(HexahedralMesh, GradedBelliesLieWithinTheSameEllipses) {
   EXPECT_LT(graded->node[plane_nodes({4, 4, 10})].z, 0.6 * uniform->node[plane_nodes({4, 4, 10})].z);
 }
 
-/// Whether every node of the coarse block is one of the fine block's.
+/// Returns true if every node of the coarse block is a node of the fine block.
 bool nested(const Cells& coarse, const Cells& fine) {
   const Grading grading{2, 3};
   const auto a = make_block(coarse, 0.12 / coarse[0], grading), b = make_block(fine, 0.12 / fine[0], grading);
@@ -157,7 +157,7 @@ bool nested(const Cells& coarse, const Cells& fine) {
   return same;
 }
 
-TEST(HexahedralMesh, BlocksOfThePaperAndThoseBetweenThemNest) {
+TEST(HexahedralMesh, PaperAndIntermediateBlocksNest) {
   const std::pair<Cells, std::uint32_t> blocks[] = {{{2, 2, 8}, 81},   {{2, 2, 10}, 99},   {{4, 4, 16}, 425},
                                                     {{4, 4, 20}, 525}, {{8, 8, 32}, 2673}, {{8, 8, 40}, 3321}};
   for (const auto& [cells, nodes] : blocks) {
@@ -171,7 +171,7 @@ TEST(HexahedralMesh, BlocksOfThePaperAndThoseBetweenThemNest) {
   EXPECT_FALSE(nested({2, 2, 8}, {4, 4, 20}));
 }
 
-TEST(ElementSize, MaterialOfThePaperTakesThirtyMillimetres) {
+TEST(ElementSize, PaperMaterialAllowsThirtyMillimetreElements) {
   EXPECT_NEAR(compression_wave_speed(Material{}), 4, 1e-3);
   EXPECT_NEAR(largest_element_m(Material{}), 0.030, 1e-5);
 }
@@ -182,7 +182,7 @@ RC_GTEST_PROP(ElementSize, GrowsWithTheSpeedOfCompressionWaves, ()) {
       heavy{1000 * times * times, 1e4, poisson};
   RC_ASSERT(std::abs(largest_element_m(stiff) / largest_element_m(soft) / times - 1) < 1e-12);
   RC_ASSERT(std::abs(largest_element_m(heavy) / largest_element_m(soft) * times - 1) < 1e-12);
-  // λ and μ from their own definitions
+  // λ and μ by their definitions
   const double lambda = 1e4 * poisson / ((1 + poisson) * (1 - 2 * poisson)), mu = 1e4 / (2 * (1 + poisson));
   RC_ASSERT(std::abs(compression_wave_speed(soft) / std::sqrt((lambda + 2 * mu) / 1000) - 1) < 1e-12);
 }

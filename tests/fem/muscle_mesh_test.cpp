@@ -1,4 +1,4 @@
-// The meshes of the table's muscles, for every body there can be.
+// Meshes of the table's muscles, for every allowed body.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -39,7 +39,7 @@ Body reference() {
   return make_body({static_cast<float>(reference_body_height_m), static_cast<float>(reference_body_mass_kg)}).value();
 }
 
-/// From the least to the most muscular body of a height, short and tall, light and heavy.
+/// Returns a body from the least to the most muscular of its height, short or tall, light or heavy.
 Body any_body() {
   const auto part = [] { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1001)) / 1000.0; };
   BodyRequest request;
@@ -50,7 +50,7 @@ Body any_body() {
   return make_body(request).value();
 }
 
-TEST(MuscleMesh, OfASingleMuscleHasItsVolumeAndOfAGroupEnclosesIt) {
+TEST(MuscleMesh, SingleMuscleHasItsVolumeAndGroupEnclosesIt) {
   const Body body = reference();
   for (const Muscle muscle : all_muscles()) {
     const MusclePlan plan = make_muscle_plan(body, muscle).value();
@@ -91,7 +91,7 @@ RC_GTEST_PROP(MuscleMesh, ElementsAreWellShapedInEveryBody, ()) {
   }
 }
 
-RC_GTEST_PROP(MuscleMesh, TheTemplateScaledIsAsLargeAsThePlanSays, ()) {
+RC_GTEST_PROP(MuscleMesh, ScaledTemplateHasThePlannedSize, ()) {
   const Body body = any_body();
   for (const Muscle muscle : all_muscles()) {
     const MusclePlan plan = make_muscle_plan(body, muscle).value(), one = make_muscle_plan(reference(), muscle).value();
@@ -103,7 +103,7 @@ RC_GTEST_PROP(MuscleMesh, TheTemplateScaledIsAsLargeAsThePlanSays, ()) {
   }
 }
 
-// Of a surface in the belly's span: how far its vertices lie outside the mesh.
+// Measures how far surface vertices within the belly's span are outside the mesh.
 TEST(MuscleMesh, FollowsTheSurfacesOfItsMuscle) {
   const Body body = reference();
   const auto surfaces = make_muscle_surfaces(body, MuscleRoom::alone);

@@ -54,8 +54,8 @@ Matrix strain_matrix(const Shape& s) {
 
 namespace {
 
-/// Hourglass stiffness of Flanagan and Belytschko: `share`·4μ·V·Σ|b|²/8 on each pattern's part orthogonal to linear
-/// fields; `mean` the mean strain matrix.
+/// Returns the hourglass stiffness of Flanagan and Belytschko: `share`·4μ·V·Σ|b|²/8 on each pattern's part orthogonal
+/// to linear fields. `mean` is the mean strain matrix.
 Matrix hourglass_stiffness(const HexahedralMesh& mesh, const Hexahedron& h, const Matrix& mean, double volume_m3,
                            const Material& material, double share) {
   Eigen::Matrix<double, 8, 3> b, place;
@@ -164,7 +164,7 @@ Vector far_shares(const HexahedralMesh& mesh) {
       for (const double y : {-g, g}) {
         const Shape s = shape_at(mesh, h, x, y, 1);
         Eigen::Matrix2d plane = Eigen::Matrix2d::Zero();
-        // the face is flat, so that its own Jacobian is that of its x, y alone
+        // the face is flat, so its Jacobian depends on x and y only
         for (std::size_t a = 4; a < 8; ++a) {
           const double sx = a == 5 || a == 6 ? 1 : -1, sy = a > 5 ? 1 : -1;
           const auto& p = mesh.node[h[a]];

@@ -1,6 +1,6 @@
 #pragma once
-// An independent finite-element model in double precision and dense matrices: Voigt strain-displacement matrices,
-// assembled directly on the mesh it is given. What the kernels are compared with.
+// An independent finite-element model in double precision with dense matrices: Voigt strain-displacement matrices,
+// assembled directly on the given mesh. Reference for the kernels.
 
 #include <vector>
 
@@ -44,22 +44,22 @@ Model assemble(const HexahedralMesh& mesh, const Material& material, Element kin
 
 HexahedralMesh scaled(HexahedralMesh mesh, double across, double along);
 
-/// Numbers of the displacements that move freely.
+/// Returns the indices of the displacements that move freely.
 std::vector<Eigen::Index> free_components(const Cells& cells, FarEnd end);
 
-/// Exact largest angular frequency of the lumped-mass model, 1/s.
+/// Returns the exact largest angular frequency of the lumped-mass model, 1/s.
 double highest_frequency(const Model& model, const std::vector<Eigen::Index>& moving);
 
-/// Equal parts of area per node of the far face for a flat structured face of arbitrary cells: ∫N dA / ∫dA.
+/// Returns each node's share of the far face's area for a flat structured face of arbitrary cells: ∫N dA / ∫dA.
 Vector far_shares(const HexahedralMesh& mesh);
 
-/// x of A·x = `right` for a symmetric A.
+/// Solves A·x = `right` for a symmetric A.
 Vector solve(const Matrix& symmetric, const Vector& right);
-/// Of a symmetric matrix, ascending.
+/// Returns the eigenvalues of a symmetric matrix, ascending.
 Vector eigenvalues(const Matrix& symmetric);
-/// λ and x of K·x = λ·M·x, λ ascending, xᵀ·M·x = 1.
+/// Solves K·x = λ·M·x. λ is ascending, xᵀ·M·x = 1.
 SymmetricEigen modes(const Matrix& stiffness, const Matrix& mass);
-/// The λ alone.
+/// Returns only the λ of that problem.
 Vector eigenvalues(const Matrix& stiffness, const Matrix& mass);
 
 }  // namespace mobil::oracle

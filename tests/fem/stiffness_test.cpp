@@ -1,4 +1,4 @@
-// Stiffness, mass, their affine scaling and the critical step, against dense double-precision assembly.
+// Stiffness, mass and their affine scaling, compared with dense double-precision assembly.
 #include "assets/fem/stiffness_terms.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ RC_GTEST_PROP(StiffnessTerms, SymmetricWithSixRigidModesAndNoOther, ()) {
   RC_ASSERT(w(6) > 1e-7 * w(w.size() - 1));
 }
 
-// A linear displacement strains every element alike: no force on inner nodes, σ·n·A on the faces.
+// A linear displacement strains every element equally: no force on inner nodes, σ·n·A on the faces.
 RC_GTEST_PROP(StiffnessTerms, PatchTestGivesTheExactConstantStress, ()) {
   const Cells cells = {3, 2, 4};
   const HexahedralMesh mesh = any_distorted_block(cells, 0.01);
@@ -104,7 +104,7 @@ RC_GTEST_PROP(StiffnessTerms, PatchTestGivesTheExactConstantStress, ()) {
   RC_ASSERT((moment - stress * volume(body)).norm() < 1e-11 * stress.norm() * volume(body));
 }
 
-/// Deflection of a clamped block's far face under a unit force sideways, over that of Timoshenko's beam.
+/// Returns the deflection of a clamped block's far face under a unit force sideways, relative to Timoshenko's beam.
 double bending_flexibility(const Cells& cells, double cell_size_m, double poisson, Element kind) {
   const Material material{1000, 1e4, poisson};
   const HexahedralMesh mesh = *make_block(cells, cell_size_m);
@@ -122,7 +122,7 @@ double bending_flexibility(const Cells& cells, double cell_size_m, double poisso
   return deflection / beam;
 }
 
-TEST(StiffnessTerms, OnlyFullIntegrationLocksWhereTissueIsNearlyIncompressible) {
+TEST(StiffnessTerms, OnlyFullIntegrationLocksNearIncompressibility) {
   for (const double poisson : {0.3333, 0.45, 0.49, 0.4999}) {
     EXPECT_NEAR(bending_flexibility({2, 2, 8}, 0.015, poisson, Element::bbar), 1, 0.15) << poisson;
     EXPECT_NEAR(bending_flexibility({2, 2, 8}, 0.015, poisson, Element::one_point), 1, 0.15) << poisson;
@@ -131,7 +131,7 @@ TEST(StiffnessTerms, OnlyFullIntegrationLocksWhereTissueIsNearlyIncompressible) 
   EXPECT_LT(bending_flexibility({2, 2, 8}, 0.015, 0.4999, Element::full), 0.2);
 }
 
-TEST(StiffnessTerms, CubesOfEveryKindVibrateAtMostAtTheirDilatationsFrequency) {
+TEST(StiffnessTerms, CubesVibrateAtMostAtTheirDilatationFrequency) {
   const double size = 0.015;
   const HexahedralMesh cube = *make_block({1, 1, 1}, size);
   const std::vector<Eigen::Index> all = [] {

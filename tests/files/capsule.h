@@ -1,5 +1,5 @@
 #pragma once
-// Closed meshes that tests make, and how they are written in each format.
+// Closed test meshes, and writers for each format.
 
 #include <fmt/format.h>
 

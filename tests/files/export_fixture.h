@@ -1,5 +1,5 @@
 #pragma once
-// A synthetic walk to export, a viewer that puts a GLB together again, other programs.
+// A synthetic walk to export, a viewer that reassembles a GLB, and runs of other programs.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -56,7 +56,8 @@ inline void set_world(Pose<float>& pose, std::size_t s, const Vector3d& p, const
                       static_cast<float>(q.w())};
 }
 
-/// Right thigh and shank swing, the pelvis travels, the right kneecap slides a millimetre; all other offsets are fixed.
+/// Returns a walk: right thigh and shank swing, the pelvis travels, the right kneecap slides a millimetre, and all
+/// other offsets are fixed.
 inline std::vector<Pose<float>> swinging(std::size_t frame_count) {
   std::vector<Pose<float>> frames(frame_count);
   for (std::size_t f = 0; f < frame_count; ++f) {
@@ -102,7 +103,7 @@ inline SurfaceMesh tube(const std::string& name, std::uint32_t rings, std::uint3
   return mesh;
 }
 
-/// Where a vertex of the muscle is in its segment's frame, at rest position p and time t.
+/// Position of a muscle's vertex in its segment's frame, at rest position p and time t.
 using Motion = std::function<Vector3d(const Vector3d& p, double t)>;
 
 inline Vector3d two_shapes(const Vector3d& p, double t) {
@@ -111,7 +112,7 @@ inline Vector3d two_shapes(const Vector3d& p, double t) {
          0.01 * std::cos(6 * pi * t) * along * Vector3d::UnitX();
 }
 
-/// A swelling that travels along the tube: no finite number of shapes makes it.
+/// A swelling that travels along the tube. No finite number of shapes reproduces it.
 inline Vector3d travelling(const Vector3d& p, double t) {
   return p + 0.02 * std::exp(-std::pow((-p.y() - 0.15 - 0.12 * std::sin(2 * pi * t)) / 0.04, 2)) *
                  Vector3d(p.x(), 0, p.z()) / 0.04;
@@ -185,7 +186,7 @@ struct Viewer {
     return values;
   }
 
-  /// The values that a node's property has at a key; empty where it is not animated.
+  /// Returns the values of a node's property at a key, or nothing if it is not animated.
   std::vector<double> key(std::size_t n, const std::string& path, std::size_t f) const {
     if (model.animations.empty()) return {};
     for (const auto& channel : model.animations[0].channels) {
@@ -213,7 +214,8 @@ struct Viewer {
     return model.meshes[static_cast<std::size_t>(model.nodes[n].mesh)];
   }
 
-  /// POSITION (or NORMAL, before it is normalised) of a mesh's primitive with its targets' weights at a key, as bound.
+  /// Returns POSITION (or NORMAL, before normalisation) of a mesh's primitive with its targets' weights at a key, as
+  /// bound.
   std::vector<Vector3d> morphed(std::size_t n, const std::string& attribute, std::size_t f,
                                 std::size_t part = 0) const {
     const auto& primitive = mesh_of(n).primitives[part];
@@ -239,7 +241,7 @@ struct Viewer {
     return {first, first + 4 * accessor.count};
   }
 
-  /// The joint that each vertex follows, all with weight 1.
+  /// Returns the joint that each vertex follows; all have weight 1.
   std::vector<std::size_t> joints(std::size_t n, std::size_t part = 0) const {
     const auto& attributes = mesh_of(n).primitives[part].attributes;
     const auto joint = bytes(attributes.at("JOINTS_0")), weight = bytes(attributes.at("WEIGHTS_0"));
@@ -251,7 +253,7 @@ struct Viewer {
     return followed;
   }
 
-  /// What takes a place as bound to where a joint has it at a key.
+  /// Returns the transform from bound positions to the joint's pose at a key.
   Eigen::Affine3d skinning(std::size_t n, std::size_t joint, std::size_t f) const {
     const auto& skin = model.skins.at(static_cast<std::size_t>(model.nodes[n].skin));
     const auto inverse = floats(skin.inverseBindMatrices);
@@ -261,7 +263,7 @@ struct Viewer {
     return Eigen::Affine3d(world_of.matrix() * bound.cast<double>());
   }
 
-  /// Where a viewer draws the vertices of a skinned mesh at a key.
+  /// Returns the vertices of a skinned mesh at a key, as a viewer draws them.
   std::vector<Vector3d> drawn(std::size_t n, std::size_t f, std::size_t part = 0) const {
     auto shape = morphed(n, "POSITION", f, part);
     const auto followed = joints(n, part);

@@ -1,4 +1,4 @@
-// The GLB of a recorded walk, read back and put together again the way a viewer does, against the recording.
+// The GLB of a recorded walk, read back and reassembled as a viewer does, compared with the recording.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -58,7 +58,7 @@ std::string parent_name(const Viewer& viewer, const std::string& name) {
 
 TEST(Export, NodesAreTheSegmentsNestedUnderOneRootAndTheJointsOfOneSkin) {
   const auto walk = small_walk();
-  const Viewer viewer = viewed(walk);  // which finds two nodes of one name
+  const Viewer viewer = viewed(walk);  // the viewer detects duplicate node names
   ASSERT_EQ(viewer.model.nodes.size(), 1 + segment_count + 1 + walk.muscles.size());
   ASSERT_EQ(viewer.model.scenes.size(), 1U);
   EXPECT_EQ(parent_name(viewer, "pelvis"), "walker");
@@ -83,7 +83,7 @@ TEST(Export, NodesAreTheSegmentsNestedUnderOneRootAndTheJointsOfOneSkin) {
   EXPECT_EQ(roots, skinned);
 }
 
-TEST(Export, BonesAreDrawnWhereTheirSegmentsAreAndHaveTexturePlaces) {
+TEST(Export, BonesFollowTheirSegmentsAndHaveTextureCoordinates) {
   const auto walk = small_walk();
   const Viewer viewer = viewed(walk);
   const auto n = viewer.node.at("bones");
@@ -109,7 +109,7 @@ TEST(Export, BonesAreDrawnWhereTheirSegmentsAreAndHaveTexturePlaces) {
   }
 }
 
-/// Three people: two of one figure, the second of them taller, wider and in colour, and one with a muscle.
+/// Three people: two with one figure, the second of them taller, wider and in colour, and one with a muscle.
 CrowdRecording small_crowd() {
   CrowdRecording crowd;
   const auto walk = small_walk();
@@ -129,7 +129,7 @@ CrowdRecording small_crowd() {
   return crowd;
 }
 
-TEST(Export, SeveralPeopleHaveARootEachAndShareWhatTheyLookLike) {
+TEST(Export, PeopleHaveTheirOwnRootsAndShareFigures) {
   const Folder folder;
   const auto crowd = small_crowd();
   const auto report = write_glb(folder.path / "crowd.glb", crowd);
@@ -169,7 +169,7 @@ TEST(Export, SeveralPeopleHaveARootEachAndShareWhatTheyLookLike) {
   }
 }
 
-TEST(Export, ASkinLiesOverItsAtlasAndHasTangents) {
+TEST(Export, SkinHasItsAtlasCoordinatesAndTangents) {
   const Folder folder;
   const BodySkin skin = *make_body_skin(*make_body({.sex = Sex::woman}), SkinDetail::distant);
   CrowdRecording crowd;
@@ -209,7 +209,7 @@ TEST(Export, ASkinLiesOverItsAtlasAndHasTangents) {
   EXPECT_TRUE(write_glb(folder.path / "skin.glb", crowd));
 }
 
-TEST(Export, WorldPosesComeBackAtEveryKeyAndFixedJointsHaveNoTranslationKeys) {
+TEST(Export, WorldPosesRoundTripAndFixedJointsHaveNoTranslationKeys) {
   const auto walk = small_walk();
   const Viewer viewer = viewed(walk);
   expect_same_poses(viewer, walk.frames);
@@ -225,7 +225,7 @@ TEST(Export, WorldPosesComeBackAtEveryKeyAndFixedJointsHaveNoTranslationKeys) {
   }
 }
 
-RC_GTEST_PROP(Export, AnySkeletonComesBackEvenWhereNoOffsetIsFixed, ()) {
+RC_GTEST_PROP(Export, AnySkeletonRoundTripsWithoutFixedOffsets, ()) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   std::normal_distribution<double> normal;
   WalkRecording walk;
@@ -240,7 +240,7 @@ RC_GTEST_PROP(Export, AnySkeletonComesBackEvenWhereNoOffsetIsFixed, ()) {
   RC_ASSERT(!testing::Test::HasFatalFailure());
 }
 
-TEST(Export, RotationKeysHaveUnitLengthAndTakeTheShortWay) {
+TEST(Export, RotationKeysHaveUnitLengthAndTakeTheShortestPath) {
   auto walk = small_walk();
   for (std::size_t f = 0; f < walk.frames.size(); f += 2) {  // the same rotations with the opposite sign
     for (auto& q : walk.frames[f].rotation) q = {-q.x, -q.y, -q.z, -q.w};
@@ -260,7 +260,7 @@ TEST(Export, RotationKeysHaveUnitLengthAndTakeTheShortWay) {
   }
 }
 
-TEST(Export, MusclesComeBackWithinTheErrorThatWasReported) {
+TEST(Export, MusclesRoundTripWithinTheReportedError) {
   const Folder folder;
   const auto walk = small_walk();
   const auto report = write_glb(folder.path / "walk.glb", walk);
@@ -304,7 +304,7 @@ TEST(Export, TheLargestWeightOfEachTargetIsPlusOne) {
   for (const double w : largest) EXPECT_EQ(w, 1.0);
 }
 
-TEST(Export, AMotionOfTwoShapesTakesTwoTargetsAndARigidOneNone) {
+TEST(Export, TwoShapeMotionNeedsTwoTargetsAndRigidMotionNone) {
   const Folder folder;
   const auto report = write_glb(folder.path / "walk.glb", small_walk());
   ASSERT_TRUE(report);
@@ -365,7 +365,7 @@ TEST(Export, TheSameRecordingGivesTheSameBytes) {
   EXPECT_EQ(read_bytes(folder.path / "a.glb"), read_bytes(folder.path / "b.glb"));
 }
 
-TEST(Export, AFailureIsOneLineAndLeavesNothingNewAndNothingBroken) {
+TEST(Export, FailureIsOneLineAndLeavesFilesUnchanged) {
   const Folder folder;
   const auto good = small_walk();
   const auto expect_failure = [&](const fs::path& path, const WalkRecording& walk, const std::string& says) {

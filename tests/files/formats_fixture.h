@@ -1,5 +1,5 @@
 #pragma once
-// What tests of export formats share: folders, other programs that read, walks in which everything moves.
+// Common to tests of export formats: other programs as readers, and walks in which every joint moves.
 
 #include <assimp/anim.h>
 #include <assimp/scene.h>
@@ -30,7 +30,7 @@ inline bool has_python() {
   return said_by("python3 --version").status == 0;
 }
 
-/// Output of a Python library for each frame, and for each of `names` if given; empty if Python lacks that library.
+/// Returns a Python library's output for each frame, and for each of `names` if given; empty if the library is missing.
 inline std::vector<std::string> read_by_python(const std::string& what, const fs::path& file,
                                                const std::vector<std::size_t>& frames, const std::string& names = {}) {
   std::string at;
@@ -46,7 +46,7 @@ inline std::vector<std::string> read_by_python(const std::string& what, const fs
   return of;
 }
 
-/// "NAME X Y Z" a line.
+/// Parses lines of "NAME X Y Z".
 inline std::map<std::string, Vector3d> named_places(const std::string& text) {
   std::map<std::string, Vector3d> places;
   std::istringstream lines(text);
@@ -57,7 +57,7 @@ inline std::map<std::string, Vector3d> named_places(const std::string& text) {
   return places;
 }
 
-/// So many numbers a line.
+/// Parses lines of numbers.
 inline std::vector<std::vector<double>> number_rows(const std::string& text) {
   std::vector<std::vector<double>> rows;
   std::istringstream lines(text);
@@ -78,7 +78,7 @@ inline Vector3d on_bone(const Pose<float>& pose, Segment segment, const Vec3<flo
   return widened(pose.position_m[s]) + widened(pose.rotation[s]).normalized() * widened(p);
 }
 
-/// All joints bent every way, the pelvis turning round more than once.
+/// Returns a walk with all joints bent in every direction, and a pelvis that turns more than once around.
 inline std::vector<Pose<float>> writhing(std::size_t frame_count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> some(-1.2, 1.2);
@@ -103,7 +103,7 @@ inline std::vector<Pose<float>> writhing(std::size_t frame_count, unsigned seed)
   return frames;
 }
 
-/// A file that assimp has read, with its first animation.
+/// A file read by assimp, with its first animation.
 struct AssimpWalk {
   Assimp::Importer importer;
   const aiScene* scene;
@@ -167,7 +167,7 @@ inline void expect_python_surfaces(const fs::path& file, const WalkRecording& wa
   }
   const auto rows = number_rows(read_by_python("bones", file, {f}).at(0));
   ASSERT_EQ(rows.size(), expected.size());
-  for (const auto& row : rows) {  // in whatever order segments come
+  for (const auto& row : rows) {  // segments can be in any order
     ASSERT_TRUE(std::ranges::any_of(expected, [&](const Vector3d& p) { return distance(row, p) < near_m; }));
   }
   std::string names;

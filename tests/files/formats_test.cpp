@@ -1,5 +1,5 @@
-// BVH, USD, X3D, VRML and GL coordinates of a recorded walk, read back by other programs: assimp where it knows the
-// format, else read_formats.py, which shares nothing with the writers, and pxr where Python has it.
+// BVH, USD, X3D, VRML and GL coordinates of a recorded walk, read back by other programs: assimp for formats that it
+// supports, else read_formats.py, which shares no code with the writers, and pxr if Python has it.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -43,7 +43,7 @@ TEST(Formats, AssimpReadsTheJointsOfAGlbAndOneSkinOfAllBones) {
   }
 }
 
-TEST(Formats, AssimpReadsTheJointsOfABvhHoweverTheyTurn) {
+TEST(Formats, AssimpReadsBvhJointsAtAnyRotation) {
   const TemporaryFolder place;
   for (const unsigned seed : {0U, 1U, 2U}) {
     WalkRecording walk;
@@ -53,7 +53,7 @@ TEST(Formats, AssimpReadsTheJointsOfABvhHoweverTheyTurn) {
   }
 }
 
-TEST(Formats, ABvhTellsItsTipsItsFramesAndWhichJointsSlide) {
+TEST(Formats, BvhContainsTipsFramesAndSlidingJoints) {
   const TemporaryFolder place;
   WalkRecording walk;
   walk.frames = swinging(45);
@@ -68,7 +68,7 @@ TEST(Formats, ABvhTellsItsTipsItsFramesAndWhichJointsSlide) {
   for (std::size_t at = 0; (at = text.find("CHANNELS ", at)) != std::string::npos; ++at) {
     ++(text[at + 9] == '6' ? six : three);
   }
-  EXPECT_EQ(six, 2U);  // the pelvis and the kneecap that slides
+  EXPECT_EQ(six, 2U);  // the pelvis and the sliding kneecap
   EXPECT_EQ(three, segment_count - 2);
   const auto last = text.find_last_of('\n', text.size() - 2);
   std::istringstream row(text.substr(last));
@@ -77,7 +77,7 @@ TEST(Formats, ABvhTellsItsTipsItsFramesAndWhichJointsSlide) {
   EXPECT_EQ(numbers, 6 * six + 3 * three);
 }
 
-RC_GTEST_PROP(Formats, AnglesMakeTheRotationAgainWithoutJumps, ()) {
+RC_GTEST_PROP(Formats, AnglesReproduceTheRotationWithoutJumps, ()) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   std::normal_distribution<double> normal;
   std::vector<Quaterniond> rotations = {
@@ -94,11 +94,11 @@ RC_GTEST_PROP(Formats, AnglesMakeTheRotationAgainWithoutJumps, ()) {
                               Eigen::AngleAxisd(y, Vector3d::UnitY());
     RC_ASSERT(again.angularDistance(rotations[i]) < 1e-6);
     if (i == 0 || i + 1 == turns.size()) continue;
-    RC_ASSERT(std::abs(z - turns[i - 1].z) < 0.2);  // x and y may turn fast where z nears a right angle
+    RC_ASSERT(std::abs(z - turns[i - 1].z) < 0.2);  // x and y can turn fast where z is near a right angle
   }
 }
 
-/// A name that no other notation takes as it is.
+/// A walk with a name that no other notation accepts unchanged.
 WalkRecording oddly_named_walk() {
   auto walk = small_walk();
   walk.name = "1st walker's";
@@ -106,7 +106,7 @@ WalkRecording oddly_named_walk() {
   return walk;
 }
 
-TEST(Formats, UsdPutsJointsBonesAndMusclesWhereTheyAre) {
+TEST(Formats, UsdKeepsJointsBonesAndMuscles) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   const TemporaryFolder place;
   const auto file = place.path / "walk.usda";
@@ -116,7 +116,7 @@ TEST(Formats, UsdPutsJointsBonesAndMusclesWhereTheyAre) {
   expect_python_surfaces(file, walk);
 }
 
-TEST(Formats, UsdOfSeveralPeopleRefersToWhatTheyShare) {
+TEST(Formats, UsdPeopleReferToSharedFigures) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   const TemporaryFolder place;
   const auto walk = small_walk();
@@ -149,7 +149,7 @@ TEST(Formats, TheUsdLibraryReadsTheSameJoints) {
   expect_python_joints("pxr", place.path / "walk.usda", walk.frames);
 }
 
-TEST(Formats, VrmlAndX3dPutJointsBonesAndMusclesWhereTheyAre) {
+TEST(Formats, VrmlAndX3dKeepJointsBonesAndMuscles) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   const TemporaryFolder place;
   const auto walk = oddly_named_walk();
@@ -167,7 +167,7 @@ TEST(Formats, AssimpReadsTheFirstPoseOfAnX3d) {
   const TemporaryFolder place;
   const auto file = place.path / "walk.x3d";
   auto walk = small_walk();
-  walk.bones.clear();  // assimp 5.2 loses its place at a Transform with nothing in it
+  walk.bones.clear();  // assimp 5.2 fails at an empty Transform
   for (std::size_t s = 0; s < segment_count; ++s) {
     walk.bones.push_back({static_cast<Segment>(s), tube(std::string(segment_name[s]), 2, 3, 0.01, 0.03)});
   }
@@ -185,7 +185,7 @@ TEST(Formats, AssimpReadsTheFirstPoseOfAnX3d) {
   EXPECT_EQ(triangles, expected);
 }
 
-TEST(Formats, GlCoordinatesAreThoseOfTheFrameWithUnitNormals) {
+TEST(Formats, GlCoordinatesMatchTheFrameWithUnitNormals) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   const TemporaryFolder place;
   const auto file = place.path / "walk.gl";
@@ -212,7 +212,7 @@ TEST(Formats, GlCoordinatesAreThoseOfTheFrameWithUnitNormals) {
   }
 }
 
-TEST(Formats, AStandingBodyHasNothingThatMoves) {
+TEST(Formats, StandingBodyHasNoAnimation) {
   const TemporaryFolder place;
   auto walk = small_walk();
   walk.frames.resize(1);
@@ -227,7 +227,7 @@ TEST(Formats, AStandingBodyHasNothingThatMoves) {
   EXPECT_TRUE(write_gl(place.path / "still.gl", walk));
 }
 
-TEST(Formats, WhatCannotBeWrittenIsOneLineAndLeavesNothing) {
+TEST(Formats, UnwritableRecordingsAreRefusedWithoutFiles) {
   const TemporaryFolder place;
   WalkRecording walk = small_walk();
   walk.frames[3].position_m[index(Segment::head)].y = NAN;

@@ -1,6 +1,6 @@
-// A real leg's anatomy fitted to bodies of any height: bones meet at the body's joints, feet stand on the ground,
-// muscles stay on their bones. Skipped where the meshes are absent.
-// One process for all tests of a suite: the meshes are read once.
+// A real leg's anatomy fitted to bodies of any height: bones meet at the body's joints, feet are on the ground, muscles
+// stay on their bones. Skipped without the meshes.
+// The tests share the meshes, so they run in one process.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -53,7 +53,7 @@ const BoneSurface& bone(const FittedAnatomy& fitted, const std::string& name) {
   throw std::runtime_error("no " + name);
 }
 
-/// The vertex farthest along `direction` among those less than `band` above the lowest.
+/// Returns the vertex farthest along `direction` among those less than `band` above the lowest.
 Vector3d farthest_low_point(const SurfaceMesh& mesh, double band, const Vector3d& direction) {
   double lowest = 1e9;
   for (const auto& p : mesh.position) lowest = std::min<double>(lowest, p.y);
@@ -67,7 +67,7 @@ Vector3d farthest_low_point(const SurfaceMesh& mesh, double band, const Vector3d
   return best;
 }
 
-/// Least squares: |p|² = 2 c·p + (r² − |c|²).
+/// Fits a sphere by least squares: |p|² = 2 c·p + (r² − |c|²).
 Vector3d sphere_centre(const std::vector<Vector3d>& points) {
   Eigen::MatrixXd a(static_cast<Eigen::Index>(points.size()), 4);
   Eigen::VectorXd b(static_cast<Eigen::Index>(points.size()));
@@ -79,13 +79,14 @@ Vector3d sphere_centre(const std::vector<Vector3d>& points) {
   return a.colPivHouseholderQr().solve(b).head<3>();
 }
 
-TEST_F(RealLeg, JointCentresMeasuredOnTheFittedBonesAreTheBodys) {
+TEST_F(RealLeg, JointCentresOfFittedBonesMatchTheBody) {
   EXPECT_TRUE(rc::check([&] {
     const Body body = body_of(static_cast<float>(*rc::gen::inRange(120, 221)) / 100.0F);
     const auto fitted = fit_anatomy(*anatomy, body).value();
     const double size = bone_maps(*anatomy, body)->size;
 
-    // In the thigh's frame the hip is the origin, the knee lies the thigh's length below; likewise the shank.
+    // In the thigh's frame the hip is the origin and the knee is the thigh's length below; the same holds for the
+    // shank.
     const auto& femur = bone(fitted, "femur_right").mesh;
     std::vector<Vector3d> head;
     for (const auto& p : femur.position) {
@@ -106,7 +107,7 @@ TEST_F(RealLeg, JointCentresMeasuredOnTheFittedBonesAreTheBodys) {
   }));
 }
 
-TEST_F(RealLeg, BothBonesOfAJointMapItsCentreOntoTheBodys) {
+TEST_F(RealLeg, BothBonesOfAJointMapToTheBodysCentre) {
   EXPECT_TRUE(rc::check([&] {
     const Body body = body_of(static_cast<float>(*rc::gen::inRange(120, 221)) / 100.0F);
     const auto maps = bone_maps(*anatomy, body).value();
@@ -159,7 +160,7 @@ TEST_F(RealLeg, LeftBonesMirrorTheRightAndAllFaceOutwards) {
   EXPECT_GE(pairs, 32U);
 }
 
-TEST_F(RealLeg, MusclesKeepTheManifestsVolumeTimesTheBodysSize) {
+TEST_F(RealLeg, MuscleVolumesScaleWithTheBody) {
   const auto table = read_csv(folder + "/manifest.csv", std::array<std::string_view, 2>{"file", "volume_cm3"});
   ASSERT_TRUE(table.has_value());
   const Body body = body_of(1.7F);
@@ -206,7 +207,7 @@ TEST_F(RealLeg, MusclesStayOnTheirBonesAndAreNeitherTornNorFolded) {
   }
 }
 
-TEST_F(RealLeg, SoleusReadsAlikeFromEveryFormat) {
+TEST_F(RealLeg, SoleusReadsEquallyFromEveryFormat) {
   const auto reference = read_mesh(folder + "/muscles/soleus_right.obj");
   ASSERT_TRUE(reference.has_value());
   for (const auto* name :

@@ -1,5 +1,4 @@
-// Anatomy folders: what is read, what is refused and with which line, and how the bones of a real leg meet a body's
-// joints.
+// Anatomy folders: accepted files, refusals with their line, and fit of a real leg's bones to a body's joints.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -25,7 +24,7 @@ namespace mobil::import_test {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-// ---------------------------------------------------------------------------------------------- made-up folders
+// ---------------------------------------------------------------------------------------------- synthetic folders
 
 struct Cube {
   Vector3d centre;  // mm, anatomy's axes
@@ -60,7 +59,7 @@ const std::map<std::string, Cube> leg = {
     {"muscles/soleus_right", {{-80, -40, 250}, 40}},     {"muscles/rectus_femoris_right", {{-85, -120, 640}, 40}},
 };
 
-/// A folder of cubes that loads; gone with its owner.
+/// A temporary folder of cubes that loads; removed with its owner.
 class Folder : public TemporaryFolder {
  public:
   explicit Folder(double unit = 1) {
@@ -93,7 +92,7 @@ class Folder : public TemporaryFolder {
   [[nodiscard]] Result<Anatomy> load() const { return load_anatomy(path.string()); }
 };
 
-/// One line that holds every given piece.
+/// Expects one line that contains every given piece.
 void expect_refused(const Folder& folder, const std::vector<std::string>& pieces) {
   const auto anatomy = folder.load();
   ASSERT_FALSE(anatomy.has_value());
@@ -119,7 +118,7 @@ TEST(AnatomyFolder, LoadsCubesClosedAndOutwards) {
   }
 }
 
-TEST(AnatomyFolder, WhichMuscleAMeshIsFollowsFromItsNameOrItsFiles) {
+TEST(AnatomyFolder, MuscleFollowsFromNameOrFile) {
   const Folder folder;
   const auto muscle = [&](const std::string& name, const std::string& file, const std::string& group) {
     folder.write("muscles/" + file + ".obj", obj(leg.at("muscles/soleus_right")));
@@ -138,7 +137,7 @@ TEST(AnatomyFolder, WhichMuscleAMeshIsFollowsFromItsNameOrItsFiles) {
             "triceps_surae/gastrocnemius_lateral");
   EXPECT_EQ(muscle("Right tibialis anterior", "c", ""), "tibialis_anterior/tibialis_anterior");
   EXPECT_EQ(muscle("Right quadriceps", "d", "quadriceps"), "quadriceps/?");
-  EXPECT_EQ(muscle("Right soleus", "e", "hamstrings"), "hamstrings/?");  // the group that is written counts
+  EXPECT_EQ(muscle("Right soleus", "e", "hamstrings"), "hamstrings/?");  // the written group counts
   EXPECT_EQ(muscle("Right sartorius", "f", ""), "none");
 }
 
@@ -178,7 +177,7 @@ TEST(BadAnatomy, Manifest) {
   expect_refused(folder, {folder.path.string(), ".csv", "cannot be read"});
 }
 
-/// Cut after any byte: what is left may still be a fine file for its format, but never the one the manifest tells of.
+/// Cut after any byte: the remainder can be a valid file of its format, but never the one that the manifest describes.
 TEST(BadAnatomy, TruncatedMesh) {
   const std::string whole = obj(leg.at("bones/femur_right"));
   const Folder folder;
@@ -230,7 +229,7 @@ TEST(BadAnatomy, BodyWithoutLengths) {
 
 // ------------------------------------------------------------------------------------------------ simplification
 
-TEST(Simplify, SpecksGoAndTheMainPieceStays) {
+TEST(Simplify, RemovesSpecksAndKeepsTheMainPiece) {
   SurfaceMesh mesh;
   const auto fan = [&](std::uint32_t triangles, float at) {
     const auto first = static_cast<std::uint32_t>(mesh.position.size());

@@ -1,5 +1,5 @@
-// What the surfaces of an anatomy must be, from a closed capsule that is spoilt: mended to the same volume, or refused;
-// where they must lie, in which units and axes; and the real leg's figures where its meshes are there.
+// Checks of anatomical surfaces on damaged closed capsules: repaired to the same volume, or refused. Also position,
+// units and axes, and the figures of the real leg if its meshes are available.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -30,7 +30,13 @@ namespace fs = std::filesystem;
 using Eigen::Vector3f;
 using test::TestMesh;
 
-/// A folder with a shin bone and a soleus, in mm, z up; gone with its owner.
+/// A temporary folder with a shin bone and a soleus, mm, z up, the right side at x < 0; removed with its owner:
+///
+///     z 820   + hip            + left hip
+///       434   + knee    _
+///             | |      ( )     tibia: z 70 to 430, radius 15 at (-78, -60)
+///             | |      ( )     soleus, as of belly(): z 100 to 400, radius 35 at (-80, -40)
+///        60   + ankle   -
 class Shin : public TemporaryFolder {
  public:
   Shin() {
@@ -98,7 +104,7 @@ void expect_refused(const SurveyedMesh& mesh, const std::vector<std::string>& pi
     EXPECT_NE(line.find(piece), std::string::npos) << "no '" << piece << "' in: " << line;
 }
 
-TEST(MeshCheck, ASoundMeshIsTakenAndNothingIsSaid) {
+TEST(MeshCheck, SoundMeshIsAcceptedWithoutNotes) {
   const auto taken = Shin().soleus(belly());
   expect_mended(taken, volume(belly()), "");
   EXPECT_TRUE(taken.part.report.said.empty()) << all_said(taken);
@@ -107,7 +113,7 @@ TEST(MeshCheck, ASoundMeshIsTakenAndNothingIsSaid) {
   EXPECT_EQ(taken.part.report.open_edges + taken.part.report.overused_edges + taken.part.report.self_intersections, 0U);
 }
 
-RC_GTEST_PROP(MeshCheck, AnyTrianglesWoundOtherwiseAreTurnedBack, ()) {
+RC_GTEST_PROP(MeshCheck, ReversedTrianglesAreTurnedBack, ()) {
   TestMesh mesh = belly();
   std::size_t turned = 0;
   const int one_in = *rc::gen::inRange(1, 12), seed = *rc::gen::inRange(0, 1000);
@@ -125,13 +131,13 @@ RC_GTEST_PROP(MeshCheck, AnyTrianglesWoundOtherwiseAreTurnedBack, ()) {
 
 TEST(MeshCheck, PinchedVerticesAreSplit) {
   TestMesh mesh = test::capsule({-80, -40, 175}, 30, 150);
-  add(mesh, test::capsule({-80, -40, 325}, 30, 150));  // tip to tip
+  add(mesh, test::capsule({-80, -40, 325}, 30, 150));  // touching at their tips
   const auto taken = Shin().soleus(mesh);
   expect_mended(taken, volume(mesh), "1 pinched vertex split");
   EXPECT_EQ(taken.part.report.pieces, 2U);
 }
 
-TEST(MeshCheck, DoubledTrianglesGo) {
+TEST(MeshCheck, DuplicateTrianglesAreRemoved) {
   TestMesh mesh = belly();
   for (std::size_t t = 0; t < 100; ++t) mesh.triangle.push_back(mesh.triangle[3 * t]);
   const auto taken = Shin().soleus(mesh);
@@ -151,7 +157,7 @@ RC_GTEST_PROP(MeshCheck, SmallHolesAreClosedAndOthersRefused, ()) {
   RC_ASSERT(all_said(taken).find("closed") != std::string::npos);
 }
 
-TEST(MeshCheck, OpenMusclesAreRefusedAndOpenBonesSaid) {
+TEST(MeshCheck, OpenMusclesAreRefusedAndOpenSkinsReported) {
   TestMesh mesh = belly();
   std::erase_if(mesh.triangle, [&](const auto& t) { return mesh.position[t[0]].z() > 340; });
   const Shin shin;
@@ -175,13 +181,13 @@ TEST(MeshCheck, TriangleSoupIsRefused) {
   expect_refused(Shin().soleus(mesh), {"open edges"});
 }
 
-TEST(MeshCheck, WhatIsFlatOverlapsOrCutsItselfIsRefused) {
+TEST(MeshCheck, FlatOverlappingOrSelfIntersectingMeshIsRefused) {
   const Shin shin;
   TestMesh flat = belly();
   for (auto& p : flat.position) p.y() = -40 + 0.004F * (p.y() + 40);
   expect_refused(shin.soleus(flat), {"is flat"});
   for (auto& p : flat.position) p.y() = -40;
-  expect_refused(shin.soleus(flat), {});  // both sides fall into one
+  expect_refused(shin.soleus(flat), {});  // both sides coincide
 
   TestMesh copies = belly(), copy = belly();
   for (auto& p : copy.position) p += Vector3f(7, 3, 11);
@@ -196,14 +202,14 @@ TEST(MeshCheck, WhatIsFlatOverlapsOrCutsItselfIsRefused) {
   expect_refused(shin.soleus(crumpled), {"cuts itself"});
 }
 
-TEST(MeshCheck, AHollowStaysOne) {
+TEST(MeshCheck, HollowIsKept) {
   TestMesh mesh = belly(), hollow = test::capsule({-80, -40, 250}, 20, 200);
   for (auto& t : hollow.triangle) std::swap(t[1], t[2]);
   add(mesh, hollow);
   expect_mended(Shin().soleus(mesh), volume(mesh), "");
 }
 
-TEST(MeshCheck, ASurfaceOfOneSideIsRefused) {
+TEST(MeshCheck, OneSidedSurfaceIsRefused) {
   TestMesh strip;
   constexpr std::uint32_t steps = 40;
   for (std::uint32_t i = 0; i < steps; ++i) {
@@ -222,7 +228,7 @@ TEST(MeshCheck, ASurfaceOfOneSideIsRefused) {
   expect_refused(Shin().soleus(strip), {"one side only"});
 }
 
-TEST(MeshCheck, SpecksAndTheOtherSideAreTakenAway) {
+TEST(MeshCheck, SpecksAndTheOtherSideAreRemoved) {
   const Shin shin;
   TestMesh mesh = belly();
   add(mesh, test::capsule({-80, -90, 300}, 1, 3, 1, 3));
@@ -234,13 +240,13 @@ TEST(MeshCheck, SpecksAndTheOtherSideAreTakenAway) {
   expect_refused(shin.soleus(test::capsule({-20, -40, 250}, 110, 300)), {"left of the middle plane"});
 }
 
-/// The mesh in a file of other units and axes.
+/// Returns the mesh in a file of other units and axes.
 TestMesh in_frame(TestMesh mesh, float per_mm, bool y_up) {
   for (auto& p : mesh.position) p = per_mm * (y_up ? Vector3f(p.x(), p.z(), -p.y()) : p);
   return mesh;
 }
 
-TEST(MeshPlace, UnitAndAxesOfARowAreTakenOrNamedWhereTheyAreMissing) {
+TEST(MeshPlace, RowUnitAndAxesAreUsedOrSuggestedWhenMissing) {
   for (const auto& [unit, per_mm] :
        std::map<std::string, float>{{"m", 0.001F}, {"cm", 0.1F}, {"in", 1 / 25.4F}, {"mm", 1}}) {
     for (const bool y_up : {false, true}) {
@@ -260,7 +266,7 @@ TEST(MeshPlace, UnitAndAxesOfARowAreTakenOrNamedWhereTheyAreMissing) {
   }
 }
 
-TEST(MeshPlace, TheFoldersFrameIsToldFromHipToAnkleOrByItsColumns) {
+TEST(MeshPlace, FolderFrameFollowsFromLandmarksOrColumns) {
   for (const auto& [unit, per_mm] :
        std::map<std::string, float>{{"m", 0.001F}, {"cm", 0.1F}, {"in", 1 / 25.4F}, {"mm", 1}}) {
     for (const bool y_up : {false, true}) {
@@ -280,7 +286,7 @@ TEST(MeshPlace, TheFoldersFrameIsToldFromHipToAnkleOrByItsColumns) {
   }
 }
 
-TEST(MeshPlace, FramesThatContradictAreRefused) {
+TEST(MeshPlace, ContradictoryFramesAreRefused) {
   const Shin shin;
   const auto refused = [&](const std::string& piece) {
     const auto loaded = load_anatomy(shin.path.string());
@@ -299,7 +305,7 @@ TEST(MeshPlace, FramesThatContradictAreRefused) {
   refused("up 'x'");
 }
 
-TEST(MeshPlace, AMuscleLiesByTheBonesOfItsSegmentsWhereAllOfThemAreKnown) {
+TEST(MeshPlace, MuscleMustBeNearTheBonesOfItsSegments) {
   const AnatomyLandmarks landmarks{{-0.08F, 0.82F, 0.09F}, {-0.075F, 0.434F, 0.065F}, {-0.08F, 0.06F, 0.054F}, 0};
   AnatomyPart part;
   part.kind = AnatomyKind::muscle;
@@ -340,7 +346,7 @@ TEST(MeshPlace, NoFileLeadsOutOfTheFolder) {
   }
 }
 
-/// Whether two triangles cut each other, by solving for where each edge meets the other's plane.
+/// Returns true if two triangles intersect, from the point where each edge meets the other's plane.
 bool cut(const std::array<Eigen::Vector3d, 3>& a, const std::array<Eigen::Vector3d, 3>& b) {
   const auto pierces = [](const auto& triangle, const auto& edges) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -355,7 +361,7 @@ bool cut(const std::array<Eigen::Vector3d, 3>& a, const std::array<Eigen::Vector
   return pierces(a, b) || pierces(b, a);
 }
 
-RC_GTEST_PROP(TriangleCuts, AsManyAsEveryPairComparedAlone, ()) {
+RC_GTEST_PROP(TriangleCuts, MatchPairwiseComparison, ()) {
   std::mt19937 random(static_cast<unsigned>(*rc::gen::inRange(0, 100000)));
   std::uniform_real_distribution<float> place(-1, 1), size(-0.3F, 0.3F);
   SurfaceMesh mesh;
@@ -387,7 +393,7 @@ RC_GTEST_PROP(TriangleCuts, AsManyAsEveryPairComparedAlone, ()) {
   RC_ASSERT(counted.complete);
 }
 
-TEST(RealMeshes, AllAreTakenWithTheFiguresOfTheirManifest) {
+TEST(RealMeshes, AllAreAcceptedWithManifestFigures) {
   const auto folder = test::anatomy_folder();
   if (!folder) GTEST_SKIP() << test::no_anatomy;
   const auto table = read_csv((*folder / "manifest.csv").string(), std::array<std::string_view, 1>{"file"});
@@ -405,7 +411,7 @@ TEST(RealMeshes, AllAreTakenWithTheFiguresOfTheirManifest) {
       EXPECT_NEAR(report.volume_cm3, figure("volume_cm3"), 0.01 + 0.002 * figure("volume_cm3")) << mesh.file;
       EXPECT_NEAR(report.area_cm2, figure("area_cm2"), 0.1 + 0.01 * figure("area_cm2")) << mesh.file;
       const double pairs = static_cast<double>(report.self_intersections), known = figure("self_intersecting_pairs");
-      EXPECT_LE(pairs, known) << mesh.file;  // without those of specks
+      EXPECT_LE(pairs, known) << mesh.file;  // specks are excluded
       const bool whole = static_cast<double>(report.pieces) == figure("components");
       EXPECT_GE(pairs, whole ? known - 2 : 0) << mesh.file;
     }

@@ -1,4 +1,4 @@
-// The readers of mesh formats against what was written, against assimp, and against damaged files.
+// Readers of mesh formats, compared with the written data, with assimp, and on damaged files.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -72,7 +72,7 @@ double largest_difference(const Corners& a, const Corners& b) {
   return largest;
 }
 
-/// A capsule whose vertices are moved about at random.
+/// Returns a capsule with randomly displaced vertices.
 TestMesh random_mesh() {
   auto mesh = test::capsule({static_cast<float>(*rc::gen::inRange(-900, 900)), 20, 400}, 40, 200,
                             static_cast<std::uint32_t>(*rc::gen::inRange(2, 7)),
@@ -89,7 +89,7 @@ std::vector<std::pair<std::string, std::string>> every_format(const TestMesh& me
           {"b.Ply", test::binary_ply(mesh, false)}, {"c.ply", test::binary_ply(mesh, true)}};
 }
 
-RC_GTEST_PROP(MeshReader, EveryFormatGivesBackWhatWasWritten, ()) {
+RC_GTEST_PROP(MeshReader, EveryFormatRoundTrips, ()) {
   const TestMesh mesh = random_mesh();
   const Corners wanted = corners(mesh);
   for (const auto& [path, bytes] : every_format(mesh)) {
@@ -101,10 +101,10 @@ RC_GTEST_PROP(MeshReader, EveryFormatGivesBackWhatWasWritten, ()) {
   }
 }
 
-RC_GTEST_PROP(MeshReader, ReadsWhatAssimpWritesAsAssimpReadsIt, ()) {
+RC_GTEST_PROP(MeshReader, ReadsAssimpFilesAsAssimpDoes, ()) {
   TestMesh mesh = random_mesh();
-  mesh.position[0].x() = 0.5F;  // assimp takes a first byte of 9, 10, 13 or 32 for a blank before binary data
-  aiScene scene;                // owns what it points at
+  mesh.position[0].x() = 0.5F;  // assimp skips a first byte of 9, 10, 13 or 32 before binary data
+  aiScene scene;                // owns its pointers
   scene.mRootNode = new aiNode("root");
   scene.mNumMeshes = scene.mNumMaterials = scene.mRootNode->mNumMeshes = 1;
   scene.mMeshes = new aiMesh* [1] { new aiMesh };
@@ -135,7 +135,7 @@ RC_GTEST_PROP(MeshReader, ReadsWhatAssimpWritesAsAssimpReadsIt, ()) {
     Assimp::Importer importer;
     const auto* again = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, path + 2);
     RC_ASSERT(again != nullptr);
-    RC_ASSERT(largest_difference(corners(*read), corners(*again)) < 1e-3);  // in mm; assimp's own decimals
+    RC_ASSERT(largest_difference(corners(*read), corners(*again)) < 1e-3);  // mm; assimp's own decimals
   }
 }
 
@@ -169,7 +169,7 @@ RC_GTEST_PROP(MeshReader, ObjIsReadInEverySpellingOfItsGrammar, ()) {
   RC_ASSERT(read->mesh.position.size() == mesh.position.size());
 }
 
-/// Refused in one line that begins with the path and holds the piece.
+/// Expects a refusal of one line that starts with the path and contains the piece.
 void expect_refused(const std::string& path, const std::string& bytes, const std::string& piece) {
   const auto read = read_mesh_bytes(bytes, path);
   ASSERT_FALSE(read.has_value()) << path << " " << bytes;
@@ -179,7 +179,7 @@ void expect_refused(const std::string& path, const std::string& bytes, const std
   EXPECT_NE(line.find(piece), std::string::npos) << "no '" << piece << "' in: " << line;
 }
 
-TEST(MeshReaderRefuses, NumbersThatAreNotWholeWords) {
+TEST(MeshReaderRefuses, MalformedNumbers) {
   for (const std::string bad :
        {"1.2x", "1,5", "0x10", "inf", "nan", "-", "+", ".", "1e", "1e60", "--1", "+-1", "1.2.3"}) {
     expect_refused("a.obj", "v 0 0 0\nv 1 0 0\nv 0 " + bad + " 0\nf 1 2 3\n", "a.obj line 3");
@@ -194,7 +194,7 @@ TEST(MeshReaderRefuses, NumbersThatAreNotWholeWords) {
   }
 }
 
-TEST(MeshReaderRefuses, WhatIsNotObj) {
+TEST(MeshReaderRefuses, InvalidObj) {
   const std::string v = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   expect_refused("a.obj", v + "f 1 2\n", "2 corners");
   expect_refused("a.obj", v + "f 1 2 4\n", "line 4");
@@ -212,10 +212,10 @@ TEST(MeshReaderRefuses, WhatIsNotObj) {
   expect_refused("a.obj", v + "f 1 1 2\n", "no triangle");
   expect_refused("a.obj", "", "no triangle");
   expect_refused("a.obj", "v \x1b[31m 0 0\n", "'?[31m'");
-  EXPECT_TRUE(read_mesh_bytes("f 1 2 3\n" + v, "a.obj").has_value());  // a face may stand before its vertices
+  EXPECT_TRUE(read_mesh_bytes("f 1 2 3\n" + v, "a.obj").has_value());  // a face can precede its vertices
 }
 
-TEST(MeshReaderRefuses, WhatIsNotStl) {
+TEST(MeshReaderRefuses, InvalidStl) {
   const TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 3, 5);
   std::string text = test::stl_text(mesh);
   expect_refused("a.stl", text.substr(0, text.find("endsolid")), "endsolid");
@@ -228,7 +228,7 @@ TEST(MeshReaderRefuses, WhatIsNotStl) {
   EXPECT_TRUE(read_mesh_bytes(test::stl_text(mesh) + test::stl_text(mesh), "a.stl").has_value());  // two solids
 }
 
-TEST(MeshReaderRefuses, WhatIsNotPly) {
+TEST(MeshReaderRefuses, InvalidPly) {
   const TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 3, 5);
   const std::string text = test::ply_text(mesh), big = test::binary_ply(mesh, true);
   const auto changed = [&](const std::string& from, const std::string& to) {
@@ -268,7 +268,7 @@ TEST(MeshReaderRefuses, OtherFormatsByName) {
 
 using Folder = TemporaryFolder;
 
-/// The smallest glTF of a mesh, its numbers in a file beside it.
+/// Returns the smallest glTF of a mesh, with its numbers in a separate file.
 std::string gltf(const TestMesh& mesh, const std::string& uri) {
   return fmt::format(
       R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"translation":[1,2,3]}}],)"
@@ -291,7 +291,7 @@ std::string gltf_buffer(const TestMesh& mesh) {
   return bytes;
 }
 
-TEST(MeshReader, GltfIsReadInAProcessOfItsOwn) {
+TEST(MeshReader, GltfIsReadInASeparateProcess) {
   const Folder folder;
   TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 5, 7);
   folder.write("a.bin", gltf_buffer(mesh));
@@ -301,7 +301,7 @@ TEST(MeshReader, GltfIsReadInAProcessOfItsOwn) {
   EXPECT_LT(largest_difference(corners(*read), corners(mesh)), 1e-5);
 }
 
-TEST(MeshReaderRefuses, GltfThatIsDamagedOrLooksElsewhere) {
+TEST(MeshReaderRefuses, DamagedOrOutsideReferringGltf) {
   const Folder folder;
   const TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 5, 7);
   const std::string buffer = gltf_buffer(mesh);
@@ -325,7 +325,7 @@ TEST(MeshReaderRefuses, GltfThatIsDamagedOrLooksElsewhere) {
   refused(folder.write("h.gltf", std::string(100000, '[')));
 }
 
-/// Processor seconds for reading a mesh in each format.
+/// Returns the processor seconds for reading a mesh in each format.
 std::vector<double> reading_s(int rings) {
   std::vector<double> took;
   for (const auto& [path, bytes] : every_format(test::capsule({0, 0, 0}, 100, 400, rings, rings))) {
@@ -338,8 +338,8 @@ std::vector<double> reading_s(int rings) {
   return took;
 }
 
-/// Four times as many triangles take less than ten times as long; up to a million with MOBIL_LONG in the environment.
-TEST(MeshReader, TimeGrowsAsTrianglesDo) {
+/// Four times as many triangles cost less than 10 times as much; up to a million triangles with MOBIL_LONG.
+TEST(MeshReader, TimeGrowsWithTriangleCount) {
   MOBIL_SLOW();
   const int rings = std::getenv("MOBIL_LONG") != nullptr ? 700 : 300;
   const std::vector<double> few = reading_s(rings / 2), many = reading_s(rings);

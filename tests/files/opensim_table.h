@@ -1,5 +1,5 @@
 #pragma once
-// A table of OpenSim's, read back.
+// Reads a table of OpenSim.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace mobil {
 
-/// A table of OpenSim's, by column.
+/// A table of OpenSim, by column.
 struct OpensimTable {
   std::map<std::string, std::string> header;
   std::map<std::string, std::vector<double>> column;

@@ -1,4 +1,4 @@
-// OpenSim's tables of a recorded walk: names, axes and signs.
+// OpenSim tables of a recorded walk: names, axes and signs.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace mobil::formats_test {
 
-/// A body that stands, with one segment and all below it turned about its own joint, in OpenSim's axes.
+/// Returns a standing body with one segment and its descendants turned about its joint, in OpenSim's axes.
 WalkRecording bent(Segment segment, const Vector3d& axis, double angle) {
   const Vector3d ours(-axis.z(), axis.y(), axis.x());
   const Quaterniond turn(Eigen::AngleAxisd(angle, ours));
@@ -39,8 +39,8 @@ TEST(Opensim, AnglesHaveTheSignsOfGait2392) {
   const auto file = place.path / "walk.mot";
   const Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   using enum Segment;
-  // A positive coordinate turns the segment about this axis of the model (its joints' SpatialTransforms; of the foot's
-  // oblique axes the nearest), those of the left hip and foot mirrored.
+  // A positive coordinate turns the segment about this axis of the model (its joints' SpatialTransforms, with the
+  // nearest axis for the foot's oblique ones). Left hip and foot are mirrored.
   const struct {
     const char* coordinate;
     Segment segment;
@@ -65,13 +65,13 @@ TEST(Opensim, AnglesHaveTheSignsOfGait2392) {
     }
   }
   ASSERT_TRUE(write_opensim_motion(file, bent(head, x, 0)));
-  const OpensimTable table(file);  // hips as far apart as the model's: its own offsets
+  const OpensimTable table(file);  // hips as far apart as in the model: its own offsets
   EXPECT_NEAR(table.at("pelvis_tx", 0), 2 + 0.01 + 0.0707, 1e-5);
   EXPECT_NEAR(table.at("pelvis_ty", 0), 1 + 0.0661, 1e-5);
   EXPECT_NEAR(table.at("pelvis_tz", 0), -0.3, 1e-5);
 }
 
-TEST(Opensim, ForcesAreInItsAxesAndRefusedWhereThereAreNone) {
+TEST(Opensim, ForcesAreInItsAxesAndRefusedWhenMissing) {
   const TemporaryFolder place;
   WalkRecording walk;
   walk.frames = swinging(3);

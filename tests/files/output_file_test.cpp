@@ -1,4 +1,4 @@
-// Results on disk: whole or not there; links are followed, devices written to; those of one run come together.
+// Result files: complete or absent; links are followed, devices are written to, and files of one run appear together.
 
 #include <mobil/assets/files/output_file.h>
 
@@ -39,7 +39,7 @@ class Output : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(Output, ANameIsWrittenAnewAndOver) {
+TEST_F(Output, FileIsCreatedAndOverwritten) {
   for (const std::string text : {"first", "second, and longer", ""}) {
     ASSERT_TRUE(write_file(folder / "a.txt", text).has_value());
     EXPECT_EQ(text_of(folder / "a.txt"), text);
@@ -49,7 +49,7 @@ TEST_F(Output, ANameIsWrittenAnewAndOver) {
 
 TEST_F(Output, ALinkIsFollowedAndStays) {
   fs::create_directories(folder / "far");
-  fs::create_symlink("far/b.txt", folder / "a.txt");  // where nothing is yet
+  fs::create_symlink("far/b.txt", folder / "a.txt");  // no target yet
   for (const std::string text : {"first", "second"}) {
     ASSERT_TRUE(write_file(folder / "a.txt", text).has_value());
     EXPECT_TRUE(fs::is_symlink(folder / "a.txt"));
@@ -81,7 +81,7 @@ TEST_F(Output, ADeviceIsNeverReplaced) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-TEST_F(Output, WhatCannotBeWrittenIsRefusedAndLeavesNothing) {
+TEST_F(Output, FailedWritesLeaveNothing) {
   fs::create_directories(folder / "taken");
   fs::create_symlink("loop", folder / "loop");
   fs::create_symlink("ping", folder / "pong");
@@ -100,7 +100,7 @@ TEST_F(Output, WhatCannotBeWrittenIsRefusedAndLeavesNothing) {
   EXPECT_EQ(entries(), 5) << left;
 }
 
-TEST_F(Output, ResultsOfARunComeTogether) {
+TEST_F(Output, ResultsOfARunAppearTogether) {
   const fs::path out = folder / "deep" / "out";
   {
     auto results = OutputFolder::make(out);
@@ -128,7 +128,7 @@ TEST_F(Output, ResultsOfARunComeTogether) {
   EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 3);
 }
 
-TEST_F(Output, WhatOthersPutIntoAFolderStays) {
+TEST_F(Output, ForeignFilesInAFolderStay) {
   {
     auto results = OutputFolder::make(folder / "out");
     ASSERT_TRUE(results.has_value());
@@ -167,8 +167,8 @@ TEST(OneLine, ControlCharactersAreShownAndLongWordsCut) {
   EXPECT_EQ(kept.find("..."), 60U) << "a character of three bytes was cut";
 }
 
-/// Pictures of a longer run before go; whatever else is there stays.
-TEST_F(Output, OfANumberedSeriesNothingOldStays) {
+/// Pictures of an earlier, longer run are removed; all other files stay.
+TEST_F(Output, OldFramesOfANumberedSeriesAreRemoved) {
   const fs::path out = folder / "out";
   const auto put = [&](std::initializer_list<const char*> names, std::string_view numbered) {
     auto results = OutputFolder::make(out);

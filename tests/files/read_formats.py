@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Reads what the exporters wrote, with nothing of theirs, and prints where things are.
+"""Reads the exporters' files, without any of their code, and prints positions.
 
     read_formats.py joints FILE.usda|.x3d|.wrl FRAME     NAME X Y Z: each joint in the world
     read_formats.py bones  FILE.usda|.x3d|.wrl FRAME     X Y Z: each vertex of the skinned or nested surfaces
     read_formats.py muscle FILE.usda|.x3d|.wrl FRAME NAME    X Y Z: each vertex of that muscle
     read_formats.py gl     FILE.gl FRAME                 the header's numbers, then X Y Z NX NY NZ of each vertex
-    read_formats.py pxr    FILE.usda FRAME               as joints, by the USD library; status 77 where there is none
+    read_formats.py pxr    FILE.usda FRAME               as joints, by the USD library; status 77 without it
 
-Of several frames FRAME,FRAME or several names, a line "." is between what it says of each.
+With several frames FRAME,FRAME or several names, a line "." separates their outputs.
 """
 import functools
 import math
@@ -16,7 +16,7 @@ import struct
 import sys
 import xml.etree.ElementTree as xml
 
-# --- linear algebra: column modes, 4x4 as lists of rows
+# --- linear algebra: column vectors, 4x4 as lists of rows
 
 
 def times(a, b):
@@ -36,7 +36,7 @@ def placed(translation, w, x, y, z):
 
 
 def inverse_of_scale_and_place(m):
-    """Of rows (s 0 0 0) … (x y z 1), as USD writes it: to column modes, and back."""
+    """Inverts a matrix of rows (s 0 0 0) … (x y z 1), as USD writes it, into column-vector form."""
     return [[1 / m[i][i] if i == j else 0 for j in range(3)] + [-m[3][i] / m[i][i]] for i in range(3)] + [[0, 0, 0, 1]]
 
 
@@ -59,7 +59,7 @@ class Prim:
 
 @functools.cache
 def read_usda(path):
-    """Prims with their attributes; of the format what the exporter uses."""
+    """Reads prims with their attributes, as far as the exporter uses the format."""
     lines = open(path, encoding='utf-8').read().split('\n')
     assert lines[0] == '#usda 1.0'
     header = '\n'.join(lines[:lines.index(')') + 1])
@@ -234,7 +234,7 @@ def read_wrl(path):
 
 
 def scene_at(path, frame):
-    """The scene with each interpolator's value of that frame put in place."""
+    """Returns the scene with each interpolator's value of that frame inserted."""
     scene, routes = read_wrl(path) if path.endswith('.wrl') else read_x3d(path)
     by_name = {}
     for node in scene.all():

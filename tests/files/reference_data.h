@@ -1,6 +1,6 @@
 #pragma once
-// Where tests find measured data. Tables that may be handed on are committed in assets/reference; others, and
-// anatomical meshes, lie in folders outside the project, and tests that need them are skipped where those are absent.
+// Locations of measured data. Tables that can be redistributed are committed in assets/reference. Others, and
+// anatomical meshes, are in folders outside the project; tests that need them are skipped if those are absent.
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +9,8 @@
 
 namespace mobil::test {
 
-/// The folder that the environment variable names; where it is not set, shared/`name` beside the project.
+/// Returns the folder named by the environment variable, or shared/`name` in the project's parent folder if it is
+/// unset.
 inline std::optional<std::filesystem::path> data_folder(const char* variable, const char* name) {
   const char* named = std::getenv(variable);
   const auto beside = std::filesystem::path(MOBIL_SOURCE_DIR).parent_path() / "shared" / name;
@@ -18,12 +19,12 @@ inline std::optional<std::filesystem::path> data_folder(const char* variable, co
   return folder;
 }
 
-/// Of anatomical meshes.
+/// Returns the folder of anatomical meshes.
 inline std::optional<std::filesystem::path> anatomy_folder() {
   return data_folder("MOBIL_ANATOMY", "anatomy");
 }
 
-/// A table of measured or published figures: the committed one where there is one.
+/// Returns a table of measured or published figures, the committed one if it exists.
 inline std::optional<std::filesystem::path> reference_table(const std::string& file) {
   const auto committed = std::filesystem::path(MOBIL_SOURCE_DIR) / "assets/reference" / file;
   if (std::filesystem::exists(committed)) return committed;

@@ -1,4 +1,4 @@
-// Pictures and films: what is drawn stands where the camera sees it, and files are whole or absent.
+// Pictures and films: objects appear where the camera sees them, and files are complete or absent.
 #include <gtest/gtest.h>
 #include <png.h>
 #include <rapidcheck/gtest.h>
@@ -29,13 +29,14 @@ struct Folder : TemporaryFolder {
   std::string file(const char* name) const { return (path / name).string(); }
 };
 
-/// An upright triangle of about 1 m, counter-clockwise seen from +Z, at that depth.
+/// Returns an upright triangle of about 1 m at that depth, counter-clockwise seen from +Z.
 std::vector<Point> triangle_at(float z) {
   return {{-0.6F, 0.7F, z}, {0.6F, 0.7F, z}, {0, 1.7F, z}};
 }
 const std::vector<std::uint32_t> forward = {0, 1, 2}, backward = {0, 2, 1};
 
-/// From the front, 1 m up, through a window a little to the right; light from over the shoulder.
+/// Returns a scene seen from the front at a height of 1 m, through a window shifted slightly to the right, lit from
+/// over the shoulder.
 Scene empty_scene() {
   Scene scene;
   scene.camera = {.eye = {0, 1, 4}, .target = {0, 1, 0}, .vertical_fov_deg = 40, .window_shift = 0.03F};
@@ -82,13 +83,13 @@ class Render : public testing::Test {
   std::optional<Renderer> renderer;
 };
 
-TEST_F(Render, ATriangleCoversThePixelsItsInsideProjectsToAndNoOthers) {
+TEST_F(Render, TriangleCoversExactlyItsProjectedPixels) {
   const auto corners = triangle_at(0);
   const Image image = draw({.position = corners, .triangle = forward, .colour = red});
   const Camera camera = empty_scene().camera;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      float least = 1e9F;  // distance inside the nearest edge, in pixels; an independent answer
+      float least = 1e9F;  // distance inside the nearest edge, in pixels, computed independently
       for (std::size_t i = 0; i < 3; ++i) {
         const Point a = project(camera, width, height, corners[i]);
         const Point b = project(camera, width, height, corners[(i + 1) % 3]);
@@ -103,7 +104,7 @@ TEST_F(Render, ATriangleCoversThePixelsItsInsideProjectsToAndNoOthers) {
   }
 }
 
-TEST_F(Render, TheNearerHidesTheFartherWhicheverIsDrawnFirst) {
+TEST_F(Render, NearerHidesFartherInAnyDrawOrder) {
   const auto near = triangle_at(0.5F), far = triangle_at(-0.5F);
   DrawMesh meshes[] = {{.position = near, .triangle = forward, .colour = red},
                        {.position = far, .triangle = forward, .colour = green}};
@@ -117,7 +118,7 @@ TEST_F(Render, TheNearerHidesTheFartherWhicheverIsDrawnFirst) {
   EXPECT_TRUE(is_green(at(draw(scene), scene.camera, {0, 1, -0.5F})));
 }
 
-TEST_F(Render, AMirroredWindingIsHiddenUnlessFlippedAndThenLooksTheSame) {
+TEST_F(Render, MirroredWindingIsHiddenUnlessFlipped) {
   const auto corners = triangle_at(0);
   const Image whole = draw({.position = corners, .triangle = forward, .colour = red});
   const Image hidden = draw({.position = corners, .triangle = backward, .colour = red});
@@ -126,7 +127,7 @@ TEST_F(Render, AMirroredWindingIsHiddenUnlessFlippedAndThenLooksTheSame) {
   EXPECT_EQ(differing_bytes(whole, flipped), 0);
 }
 
-TEST_F(Render, APlacedMeshLooksLikeTheMeshWithItsVerticesMoved) {
+TEST_F(Render, PlacedMeshMatchesMovedVertices) {
   const std::vector<Point> corners = {{-0.3F, -0.2F, 0}, {0.3F, -0.2F, 0.1F}, {0.1F, 0.4F, -0.1F}};
   const float s = std::sin(0.4F), c = std::cos(0.4F);  // half of 0.8 rad about Z
   for (const float mirror : {1.0F, -1.0F}) {
@@ -176,7 +177,7 @@ TEST_F(Render, AWireframeShowsItsEdgesAndTheBackgroundThroughItsFaces) {
   EXPECT_GT(differing_bytes(bare, draw({.position = corners, .triangle = backward, .wireframe = true})), 100);
 }
 
-TEST_F(Render, TheGroundHidesWhatIsUnderItAndShowsItsGridFromAboveOnly) {
+TEST_F(Render, GroundHidesObjectsBelowAndShowsItsGridFromAbove) {
   Scene scene = empty_scene();
   scene.camera = {.eye = {0.5F, 2, 4.5F}, .target = {0.5F, 0, 0.5F}, .vertical_fov_deg = 40};
   const std::vector<Point> under = {{0.2F, -0.3F, 0.8F}, {0.8F, -0.3F, 0.8F}, {0.5F, -0.3F, 0.2F}};
@@ -216,7 +217,7 @@ TEST_F(Render, AShadowFallsOnTheGroundAwayFromTheLight) {
   EXPECT_NEAR(at(draw(scene), scene.camera, {-0.9F, 0, 0.1F})[1], sunny, 10);
 }
 
-TEST_F(Render, LinesAndBallsHaveTheSizeTheyWereGiven) {
+TEST_F(Render, LinesAndBallsHaveTheGivenSize) {
   Scene scene = empty_scene();
   const std::vector<Point> ends = {{-0.8F, 1, 0}, {0.8F, 1, 0}}, centre = {{0, 1, 0}};
   const auto rows_of_red = [&](int column) {
@@ -239,7 +240,7 @@ TEST_F(Render, LinesAndBallsHaveTheSizeTheyWereGiven) {
   EXPECT_NEAR(rows_of_red(middle), 0.6F * pixels_per_metre, 3.1F);
 }
 
-TEST_F(Render, ASceneRendersToTheSamePictureEveryTimeAndInEveryRenderer) {
+TEST_F(Render, SceneRendersEquallyEveryTimeInEveryRenderer) {
   Scene scene = empty_scene();
   scene.ground = true;
   const auto corners = triangle_at(0);
@@ -257,7 +258,7 @@ TEST_F(Render, ASceneRendersToTheSamePictureEveryTimeAndInEveryRenderer) {
   EXPECT_EQ(differing_bytes(first, draw(scene)), 0);
 }
 
-TEST_F(Render, WhatCannotBeDrawnIsOneClearLine) {
+TEST_F(Render, InvalidScenesAreRefusedInOneLine) {
   const auto corners = triangle_at(0);
   const std::vector<std::uint32_t> beyond = {0, 1, 3}, two = {0, 1};
   const auto message = [&](const Scene& scene) {
@@ -362,7 +363,7 @@ RC_GTEST_PROP(CapturePng, ReadsBackAsTheSamePixels, (bool opaque)) {
 TEST(CapturePng, AFailedWriteIsOneLineAndLeavesNothing) {
   const Folder folder;
   const Image image{2, 2, std::vector<std::uint8_t>(16, 255)};
-  fs::create_directory(folder.path / "taken.png");  // a folder has the name already: the last step fails
+  fs::create_directory(folder.path / "taken.png");  // a folder has that name, so the last step fails
   std::ofstream(folder.path / "taken.png" / "inside") << "x";
   for (const auto& path : {folder.file("missing/picture.png"), folder.file("taken.png")}) {
     EXPECT_TRUE(is_refused(write_png(path, image), path)) << path;
@@ -405,7 +406,7 @@ TEST_F(CaptureVideo, TenPicturesMakeAFilmWithItsIndexInFront) {
   EXPECT_EQ(bytes.substr(4, 4), "ftyp");
   ASSERT_NE(bytes.find("moov"), std::string::npos);
   EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
-  const auto sizes = bytes.find("stsz");  // type, flags, common size, then how many pictures there are
+  const auto sizes = bytes.find("stsz");  // type, flags, common size, then the number of pictures
   ASSERT_NE(sizes, std::string::npos);
   EXPECT_EQ(bytes[sizes + 15], 10);
   EXPECT_FALSE(video->close().has_value());
@@ -417,7 +418,7 @@ TEST_F(CaptureVideo, AnAbandonedEmptyOrImpossibleFilmLeavesNothing) {
     auto video = VideoWriter::create(folder.file("abandoned.mp4"), 64, 48, 30);
     ASSERT_TRUE(video.has_value());
     for (int i = 0; i < 2000 && folder.files() == 0; ++i) ASSERT_TRUE(video->add(image).has_value());
-    EXPECT_EQ(folder.files(), 1U);  // the film has begun, under its temporary name
+    EXPECT_EQ(folder.files(), 1U);  // the film is started under its temporary name
     EXPECT_FALSE(fs::exists(folder.path / "abandoned.mp4"));
     EXPECT_FALSE(video->add(Image{2, 2, std::vector<std::uint8_t>(16)}).has_value());
   }
@@ -444,7 +445,7 @@ TEST_F(CaptureVideo, OutOfRangeRequestsNameTheRange) {
   EXPECT_EQ(folder.files(), 0U);
 }
 
-TEST(CaptureVideoWithoutFfmpeg, SaysWhichPackageIsMissing) {
+TEST(CaptureVideoWithoutFfmpeg, NamesTheMissingPackage) {
   const std::string path = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
   setenv("PATH", "/nowhere", 1);
   const auto video = VideoWriter::create((fs::temp_directory_path() / "film.mp4").string(), 64, 48, 30);

@@ -10,7 +10,7 @@
 
 namespace mobil {
 
-/// A folder of one's own, gone with its owner.
+/// A temporary folder, removed with its owner.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -1,5 +1,4 @@
-// Bellies at finite strain in double precision: forces and tangents, volumes, against CalculiX, and the committed
-// tables.
+// Bellies at finite strain in double precision: forces and tangents, volumes, and the committed tables.
 #include "assets/finite/finite_belly.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +20,7 @@ std::vector<Muscle> every_muscle() {
   return all;
 }
 
-/// Area of a plane of control points: the four cells of a 3×3 section, seen along z.
+/// Returns the area of a plane of control points: the four cells of a 3×3 section, seen along z.
 double section_area(const HexahedralMesh& mesh, const std::vector<double>& moved, std::uint32_t k) {
   double area = 0;
   const auto at = [&](std::uint32_t i, std::uint32_t j) {
@@ -47,7 +46,7 @@ std::vector<double> tabled(Muscle muscle, double ratio, double shortening, doubl
   return shape_at(table, body_coefficients(table, ratio), finite_mesh(muscle, table.control), shortening, activation);
 }
 
-/// What is shown keeps its volume: any muscle, body, shortening and activation.
+/// The displayed shape keeps its volume for any muscle, body, shortening and activation.
 TEST(FiniteShapes, KeepTheirVolume) {
   for (const Muscle muscle : every_muscle()) {
     const HexahedralMesh mesh = finite_mesh(muscle, {2, 2, 8});
@@ -62,7 +61,7 @@ TEST(FiniteShapes, KeepTheirVolume) {
   }
 }
 
-/// Where strain is even, a section grows by 1 / (1 − e).
+/// With uniform strain, a section grows by 1 / (1 − e).
 TEST(FiniteShapes, SectionsGrowAsBelliesShorten) {
   for (const Muscle muscle : every_muscle()) {
     const HexahedralMesh mesh = finite_mesh(muscle, {2, 2, 8});
@@ -78,7 +77,7 @@ TEST(FiniteShapes, SectionsGrowAsBelliesShorten) {
   }
 }
 
-TEST(FiniteShapes, RestIsRestAndEndsAreWhereTheyAreHeld) {
+TEST(FiniteShapes, RestIsUndeformedAndEndsFollowTheirDrive) {
   for (const Muscle muscle : every_muscle()) {
     const HexahedralMesh mesh = finite_mesh(muscle, {2, 2, 8});
     for (const double x : tabled(muscle, 1.1, 0, 0)) EXPECT_EQ(x, 0);
@@ -90,8 +89,8 @@ TEST(FiniteShapes, RestIsRestAndEndsAreWhereTheyAreHeld) {
   }
 }
 
-/// Solved anew, at places that tables were not made from.
-TEST(FiniteShapes, TablesAreWhatTheSolverSays) {
+/// Compares with new solutions between the samples of the tables.
+TEST(FiniteShapes, TablesMatchTheSolver) {
   MOBIL_SLOW();
   for (const char* const name : {"tibialis_anterior", "gastrocnemius_medial", "vastus_lateralis"}) {
     const Muscle muscle = *find_muscle(name);
@@ -105,7 +104,7 @@ TEST(FiniteShapes, TablesAreWhatTheSolverSays) {
   }
 }
 
-TEST(FiniteShapes, OfFinerControlPointsGoThroughTheTables) {
+TEST(FiniteShapes, FinerControlPointsInterpolateTheTables) {
   for (const char* const name : {"soleus", "rectus_femoris"}) {
     const Muscle muscle = *find_muscle(name);
     const Cells fine{4, 4, 16};
@@ -138,8 +137,8 @@ TEST(FiniteShapes, OfFinerControlPointsGoThroughTheTables) {
   }
 }
 
-/// Forces are the derivative of nothing but what the tangent says, at a shape far from rest.
-TEST(FiniteBelly, TangentIsTheForcesDerivative) {
+/// The tangent is the derivative of the forces, at a shape far from rest.
+TEST(FiniteBelly, TangentIsTheDerivativeOfForces) {
   const Muscle muscle = *find_muscle("gastrocnemius_medial");
   const auto belly = make_finite_belly(finite_mesh(muscle, {2, 2, 4}), {}, 50);
   ASSERT_TRUE(belly) << belly.error().message;
@@ -149,7 +148,7 @@ TEST(FiniteBelly, TangentIsTheForcesDerivative) {
   ASSERT_TRUE(there) << there.error().message;
   EXPECT_LT(worst_dilatation(*belly, state), 0.05);
   EXPECT_NEAR(volume_ratio(*belly, state), 1, 0.01);
-  // Back again is back: one shape belongs to one load.
+  // The belly returns to the same shape: one load has one shape.
   const auto there_and_back = [&](double e, double a) {
     ASSERT_TRUE(settle(*belly, scratch, state, e, a));
     ASSERT_TRUE(settle(*belly, scratch, state, 0, 0));
@@ -157,7 +156,7 @@ TEST(FiniteBelly, TangentIsTheForcesDerivative) {
   };
   there_and_back(0.2, 1);
   there_and_back(-0.2, 0);
-  // Quadratic convergence takes few steps: a wrong tangent takes many.
+  // Quadratic convergence needs few steps; a wrong tangent needs many.
   scratch.iterations = scratch.halvings = 0;
   ASSERT_TRUE(settle(*belly, scratch, state, 0.05, 0.3));
   EXPECT_LE(scratch.iterations, 20U);

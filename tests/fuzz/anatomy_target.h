@@ -1,5 +1,6 @@
 #pragma once
-// The two tables of an anatomy folder, manifest and landmarks with a line `@` between them, beside a few small meshes.
+// The two tables of an anatomy folder, manifest and landmarks, separated by a line `@`; the folder has a few small
+// meshes.
 
 #include <unistd.h>
 
@@ -13,7 +14,7 @@
 
 namespace mobil::fuzz {
 
-/// A folder with a tetrahedron for each of some bones and a muscle, in millimetres.
+/// A folder with a tetrahedron for each of some bones and for a muscle, in millimetres.
 class SmallAnatomy {
  public:
   SmallAnatomy() : folder_(std::filesystem::temp_directory_path() / ("mobil_fuzz_" + std::to_string(::getpid()))) {

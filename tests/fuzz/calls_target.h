@@ -1,5 +1,5 @@
 #pragma once
-// A host of the C interface that calls whatever comes, with whatever arguments; pointers alone are good, or null.
+// A host of the C interface that makes arbitrary calls with arbitrary arguments. Only pointers are valid, or null.
 
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace mobil::fuzz {
 
-/// Some people, and what the calls between two of them answer.
+/// Some people, and the properties that calls must preserve.
 class WildHost {
  public:
   explicit WildHost(Numbers numbers) : numbers_(numbers) {
@@ -39,8 +39,8 @@ class WildHost {
   }
 
  private:
-  /// Meshes and bases, so that not every input waits for them. With sanitizers they take minutes: a file named in
-  /// MOBIL_FUZZ_BAKED has them, or gets them.
+  /// Meshes and bases, made once for all inputs. With sanitizers they take minutes, so a file named in MOBIL_FUZZ_BAKED
+  /// stores them.
   std::vector<unsigned char> kept_or_baked() const {
     const char* const file = std::getenv("MOBIL_FUZZ_BAKED");
     if (file == nullptr) return bake();
@@ -65,7 +65,7 @@ class WildHost {
     return baked;
   }
 
-  /// A person, mostly one who is there.
+  /// Returns a person's handle, mostly of an existing person.
   mobil_id id() {
     const std::uint8_t which = numbers_.byte();
     if (which >= 250 || people_.empty()) {
@@ -235,7 +235,7 @@ class WildHost {
     }
   }
 
-  /// Now and then something else than what was asked for.
+  /// Sometimes returns a different number of heights than requested.
   void answer_ground() {
     size_t places = 0;
     promise(mobil_terrain_query(sim_, nullptr, 0, nullptr, 0, &places) == MOBIL_OK, "the ground is asked for");
@@ -245,14 +245,14 @@ class WildHost {
     mobil_terrain_resolve(sim_, ground.data(), 0, numbers_.byte() < 250 ? places : places - 1, nullptr);
   }
 
-  /// Whatever was called, everybody who is there is somewhere.
+  /// Checks that every existing person has a state, a finite pose and finite control points.
   void look() {
     for (const mobil_id& who : people_) {
       std::array<float, std::size_t{7} * MOBIL_SEGMENTS> pose;
       int bits = 0, state = 0;
       promise(mobil_has(sim_, who, &bits) == MOBIL_OK, "who was made is there");
       promise(mobil_get_state(sim_, who, &state) == MOBIL_OK, "who was made has a state");
-      if (state == MOBIL_ASLEEP) continue;  // has no pose to be placed
+      if (state == MOBIL_ASLEEP) continue;  // has no pose
       const int code = mobil_poses(sim_, &who, 1, nullptr, pose.data(), 0);
       promise(code == MOBIL_OK, code == MOBIL_OK ? "" : mobil_message(sim_));
       for (const float number : pose) promise(std::isfinite(number), "poses are finite");

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as people write them on the command line: first byte the quantity.
+// Numbers as written on the command line. The first byte selects the quantity.
 
 #include <cmath>
 

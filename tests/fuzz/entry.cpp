@@ -1,4 +1,4 @@
-// What libFuzzer calls, for the target that tests/fuzz/targets.cmake names.
+// libFuzzer's entry point for the target that tests/fuzz/targets.cmake names.
 #include FUZZ_HEADER
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {

@@ -1,10 +1,10 @@
 #pragma once
-// What a fuzz target is, and how it takes numbers from the bytes that it is given.
+// Definition of a fuzz target, and a reader of numbers from the bytes that it is given.
 //
 // A target is one header, NAME_target.h, with `void fuzz_NAME(std::span<const std::uint8_t>)`, a name in
-// CMakeLists.txt's list, and a folder of first inputs, corpus/NAME. It ends the program (`promise`) where something
-// does not hold that must hold for any bytes. tests/fuzz/run builds the targets with libFuzzer and looks for inputs;
-// fuzz_test runs the first inputs, those that once failed, and random changes of them, in every run of the tests.
+// CMakeLists.txt's list, and a folder of seed inputs, corpus/NAME. It ends the program (`promise`) if a property fails
+// that must hold for any bytes. tests/fuzz/run builds the targets with libFuzzer and searches for failing inputs.
+// fuzz_test runs the seed inputs, inputs that once failed, and random mutations of them, in every run of the tests.
 
 #include <cstdint>
 #include <cstdio>
@@ -26,7 +26,7 @@ inline void promise(bool held, const char* what) {
   std::abort();
 }
 
-/// A refusal is one line that says something.
+/// Checks that a refusal is one non-empty line.
 inline void promise_line(const std::string& message) {
   promise(!message.empty(), "an error has a message");
   promise(message.find('\n') == std::string::npos, "an error's message is one line");
@@ -42,7 +42,7 @@ inline std::string_view text_of(Input input) {
   return {reinterpret_cast<const char*>(input.data()), input.size()};
 }
 
-/// Takes small numbers from the front of the input; zeros once there is nothing left.
+/// Takes small numbers from the front of the input, and zeros at its end.
 class Numbers {
  public:
   explicit Numbers(Input input) : left_(input) {}
@@ -58,7 +58,7 @@ class Numbers {
     for (unsigned i = 0; i < 4; ++i) made |= static_cast<std::uint32_t>(byte()) << 8 * i;
     return made;
   }
-  /// Any float at all, or mostly one that is near.
+  /// Returns any float; mostly a small one.
   float number() {
     const std::uint8_t kind = byte();
     if (kind >= 200) {
@@ -70,7 +70,7 @@ class Numbers {
     return (static_cast<float>(kind) - 100) / 32;
   }
   int choice(int count) { return byte() % count; }
-  /// Mostly one of an enumeration's values, now and then none.
+  /// Returns mostly a value of an enumeration, sometimes an invalid one.
   int wild(int count) {
     const int value = byte();
     return value < 240 ? value % count : value - 250;

@@ -1,5 +1,5 @@
-// All fuzz targets over their first inputs, over inputs that once broke something, and over random changes of both, in
-// every build of the tests. What breaks ends the process, and with it the test.
+// Runs all fuzz targets on their seed inputs, on inputs that once failed, and on random mutations of both, in every
+// build of the tests. A failure ends the process.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ std::vector<Bytes> first_inputs(const std::string& target) {
   return inputs;
 }
 
-/// Bytes become others, go, come twice or are cut off, in a few places; now and then two inputs are joined.
+/// Returns a mutated input: bytes are changed, removed, repeated or cut off in a few places; sometimes two are joined.
 Bytes changed(const std::vector<Bytes>& inputs, std::mt19937_64& random) {
   Bytes made = inputs[random() % inputs.size()];
   for (std::uint64_t edits = 1 + random() % 6; edits > 0; --edits) {
@@ -82,7 +82,7 @@ Bytes changed(const std::vector<Bytes>& inputs, std::mt19937_64& random) {
   return made;
 }
 
-/// How long one target is shaken beyond its inputs, s.
+/// Time for random mutations of each target, s.
 constexpr double shaken_s = sanitized ? 5 : 2;
 
 void shake(const std::string& target, void (*run)(Input)) {

@@ -1,5 +1,5 @@
 #pragma once
-// A file of a mesh: first byte its format, the rest its bytes.
+// A mesh file. The first byte selects the format; the rest are its bytes.
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-// A walk's script, and what it asks of an average body.
+// A walk's script, and its requests to an average body.
 
 #include <mobil/anthropometry.h>
 #include "demo/walk/walk_script.h"

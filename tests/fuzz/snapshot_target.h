@@ -1,5 +1,5 @@
 #pragma once
-// Changes of a snapshot, sealed anew as an adversary would: which four bytes become what.
+// Changes of a snapshot, resealed as an adversary would: positions of four bytes, and their new values.
 
 #include <cmath>
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace mobil::fuzz {
 
-/// Three people whose rows have most kinds of parts, and their snapshot.
+/// Three people whose rows have most kinds of components, and their snapshot.
 class SmallWorld {
  public:
   SmallWorld() {
@@ -45,7 +45,7 @@ inline void fuzz_snapshot(Input input) {
   std::vector<std::byte> bytes = world.bytes;
   Numbers numbers(input);
   while (!numbers.empty()) {
-    // Half of the changes in the lists, which are short and say what the rows are.
+    // Half of the changes are in the lists, which are short and describe the rows.
     const std::size_t reach = numbers.byte() % 2 == 0 ? std::min<std::size_t>(bytes.size(), 4096) : bytes.size();
     const std::size_t at = 32 + (numbers.word() % (reach - 36)) / 4 * 4;
     std::uint32_t value;

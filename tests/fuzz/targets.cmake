@@ -1,4 +1,4 @@
-# Fuzz targets, each a program of its own: what they are is in tests/fuzz/fuzz_input.h.
+# Fuzz targets, each a separate program: see tests/fuzz/fuzz_input.h.
 set(demo ${PROJECT_SOURCE_DIR}/demo)
 add_library(fuzz_parts STATIC EXCLUDE_FROM_ALL ${demo}/walk/walk_script.cpp ${demo}/walk/gait_parameters.cpp
   ${demo}/program/nearest_name.cpp ${demo}/program/units.cpp)

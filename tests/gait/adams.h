@@ -1,11 +1,10 @@
 #pragma once
 // Solves y′ = f(t, y) for few unknowns and smooth forces: Adams–Bashforth predictor and Adams–Moulton corrector of
-// fourth order (PECE, two evaluations a step) with adaptive step, begun by Runge–Kutta steps of fourth order (paper,
+// fourth order (PECE, two evaluations a step) with adaptive step, started by Runge–Kutta steps of fourth order (paper,
 // section 4.1; Burden and Faires, Numerical Analysis, section 5.7).
 //
-// The step is not doubled and halved: the coefficients follow the steps as they come. Hence a changed step costs
-// neither a restart nor interpolated derivatives, steps meet the end exactly, and the step follows the tolerance
-// smoothly.
+// The step is not doubled and halved: the coefficients depend on the actual steps. A changed step needs neither a
+// restart nor interpolated derivatives, steps meet the end exactly, and the step follows the tolerance smoothly.
 
 #include <cmath>
 #include <cstddef>
@@ -23,16 +22,16 @@ constexpr Unknowns<N> alike(double value) {
   return all;
 }
 
-/// How exactly to integrate. Component i may err by absolute[i] + relative[i]·|y_i| over the whole interval: each step
-/// may make the local error that is its share of the interval in time, so the local errors sum to at most that, and
-/// the error at the end follows the tolerance in proportion as far as the equations themselves do not amplify it.
-/// No share is smaller than a thousandth: below 1e-3 of the interval each step may make a thousandth of the tolerance,
-/// which carries it over a jump of the derivative that nobody named.
+/// Accuracy of the integration. Component i can err by absolute[i] + relative[i]·|y_i| over the whole interval. Each
+/// step can make the local error that is its share of the interval in time, so the local errors sum to at most that
+/// value. The error at the end is proportional to the tolerance, as far as the equations themselves do not amplify it.
+/// No share is below a thousandth: steps shorter than 1e-3 of the interval can each make a thousandth of the tolerance,
+/// which carries the integration over a jump of the derivative that the caller did not announce.
 template <std::size_t N>
 struct AdamsOptions {
   Unknowns<N> absolute = alike<N>(1e-9);  // in the component's unit, above 0
-  Unknowns<N> relative = alike<N>(1e-9);  // 0 or more; tolerances below 1e-13·|y_i| ask more than double precision has
-  double fixed_step_s = 0.0;              // above 0: no adaption, the greatest even steps not above this
+  Unknowns<N> relative = alike<N>(1e-9);  // 0 or more; tolerances below 1e-13·|y_i| exceed double precision
+  double fixed_step_s = 0.0;              // above 0: no adaption, largest equal steps up to this value
 };
 
 struct AdamsCounts {
@@ -62,14 +61,15 @@ bool finite(const Unknowns<N>& v) {
   return true;
 }
 
-/// By how much the step may change when its error is `ratio` of what it may be; the ratio goes with the fourth power.
+/// Returns the factor by which a step changes if its error is `ratio` of its limit; the ratio has order four in the
+/// step.
 inline double step_factor(double ratio) {
   if (!(ratio < 1e12)) return max_shrinking;
   const double factor = ratio > 1e-12 ? safety / std::sqrt(std::sqrt(ratio)) : max_growth;
   return std::fmin(std::fmax(factor, max_shrinking), max_growth);
 }
 
-/// One integration under way.
+/// State of one integration.
 template <std::size_t N, class Derivative, class Visit>
 struct Run {
   const AdamsOptions<N>& options;
@@ -78,7 +78,7 @@ struct Run {
   double span, grain;  // of the whole interval; `grain`: 16 units in the last place of its times
   Unknowns<N> y, error{};
   AdamsCounts counts{};
-  double time, end_s, wish = 0.0;  // `wish`: the step that accuracy alone would take
+  double time, end_s, wish = 0.0;  // `wish`: the step that accuracy alone allows
   AdamsHistory<N> past{};
 
   bool evaluate(double t, const Unknowns<N>& at, Unknowns<N>& f) {
@@ -92,7 +92,7 @@ struct Run {
     visit(step);
   }
 
-  /// The worst component's error over what a step of h may make.
+  /// Returns the worst component's error relative to the limit for a step of h.
   double ratio(const Unknowns<N>& local, const Unknowns<N>& there, double h) const {
     const double share = std::fmax(h / span, min_share);
     double worst = 0.0;
@@ -105,8 +105,8 @@ struct Run {
     return worst;
   }
 
-  /// The step at which the corrector's error 19/720 h⁵ λ⁴|f| would be a tenth of its share; λ, the pace of change, is
-  /// taken from the derivative a thousandth of the interval on.
+  /// Returns the step for which the corrector's error 19/720 h⁵ λ⁴|f| is a tenth of its share. The rate of change λ is
+  /// taken from the derivative a thousandth of the interval later.
   double guess(const Unknowns<N>& f) {
     double size = 0.0, change = 0.0;
     for (std::size_t i = 0; i < N; ++i)
@@ -141,7 +141,7 @@ struct Run {
     time = end;
   }
 
-  /// A step of the Adams methods to `end`: on success the error ratio, else infinity and whether f was finite.
+  /// Makes an Adams step to `end`. Returns the error ratio, or infinity on failure; sets whether f was finite.
   double advance(double h, double end, bool keep_all, bool& was_finite) {
     constexpr double no = std::numeric_limits<double>::infinity();
     const AdamsStep<N> step = predict(y, past, h);
@@ -163,7 +163,7 @@ struct Run {
     return r;
   }
 
-  /// What went wrong, or nothing.
+  /// Integrates with equal steps. Returns the error, or null.
   const char* fixed_steps() {
     const double begin = time, length = end_s - begin;
     const double count = std::ceil(length / options.fixed_step_s * (1.0 - 1e-12)), h = length / count;
@@ -217,7 +217,7 @@ struct Run {
         r = advance(h, h == left ? end_s : time + h, false, was_finite);
       }
       if (r <= 1.0) {
-        // A step cut short by the end says little about a longer one.
+        // A step shortened by the end of the interval gives little information about a longer one.
         const double next = h * std::fmin(step_factor(r), failures > 0 ? 1.0 : max_growth);
         wish = h < wish ? std::fmax(wish, next) : next;
         failures = 0;
@@ -228,7 +228,7 @@ struct Run {
       if (h <= grain) return was_finite ? "the step fell to nothing" : "not finite";
       wish = std::fmax(h * std::fmin(step_factor(r), safety), grain);
       if (++failures >= failures_before_restart && started) {
-        // The past does not foretell what comes: a kink or jump that nobody named.
+        // The history does not predict the next step: an unannounced kink or jump.
         newest = past.rate[0];
         started = false;
       }
@@ -258,8 +258,8 @@ Result<AdamsResult<N>> integrate_adams(Derivative&& derivative, const Unknowns<N
   return integrate_adams<N>(derivative, state, begin_s, end_s, options, [](const DenseStep<N>&) {});
 }
 
-/// A visitor that calls take(i, t, y) at `count` ≥ 2 equal times t from begin_s to end_s, both included. For one
-/// integration from begin_s to end_s; hand it over by reference or value alike.
+/// Returns a visitor that calls take(i, t, y) at `count` ≥ 2 equally spaced times t from begin_s to end_s, both
+/// included. It serves one integration from begin_s to end_s, passed by reference or by value.
 template <std::size_t N, class Take>
 auto at_equal_times(double begin_s, double end_s, int count, Take take) {
   return [begin_s, end_s, count, take, i = 0](const DenseStep<N>& step) mutable {

@@ -1,8 +1,8 @@
 #pragma once
-// One step of the Adams methods of fourth order on a grid whose steps may all differ, and the three Runge–Kutta steps
-// that begin it. Formulas: the polynomial through the last derivatives, in Newton's form, integrated (Hairer, Nørsett,
-// Wanner, Solving Ordinary Differential Equations I, section III.5). On an even grid they are the classical
-// Adams–Bashforth 55/24, −59/24, 37/24, −9/24 and Adams–Moulton 9/24, 19/24, −5/24, 1/24.
+// One step of the Adams methods of fourth order on a grid of unequal steps, and the three Runge–Kutta steps before it.
+// The formulas integrate the polynomial through the last derivatives in Newton's form (Hairer, Nørsett, Wanner, Solving
+// Ordinary Differential Equations I, section III.5). On an even grid they are the classical Adams–Bashforth 55/24,
+// −59/24, 37/24, −9/24 and Adams–Moulton 9/24, 19/24, −5/24, 1/24.
 
 #include <array>
 #include <cmath>
@@ -14,16 +14,16 @@ namespace mobil::step {
 template <std::size_t N>
 using Unknowns = std::array<double, N>;
 
-/// One accepted step as a polynomial of degree four: it meets state and derivative at both ends and the derivative at
-/// one neighbouring point, so that the pieces join with continuous derivative and lie within O(h⁵) of the solution.
+/// One accepted step as a polynomial of degree four. It meets state and derivative at both ends and the derivative at
+/// one neighbouring point, so pieces join with continuous derivative and are within O(h⁵) of the solution.
 template <std::size_t N>
 struct DenseStep {
   double begin_s, end_s;
   Unknowns<N> first, last;            // states
   Unknowns<N> first_rate, last_rate;  // derivatives there
-  Unknowns<N> bow;                    // of the quartic over the cubic
+  Unknowns<N> bow;                    // quartic minus cubic
 
-  /// The state at a time within the step.
+  /// Returns the state at a time within the step.
   Unknowns<N> state(double time_s) const {
     const double h = end_s - begin_s, u = (time_s - begin_s) / h, w = 1.0 - u;
     Unknowns<N> y;
@@ -40,7 +40,7 @@ DenseStep<N> dense_step(double begin, double end, const Unknowns<N>& y0, const U
   return {begin, end, y0, y1, f0, f1, {}};
 }
 
-/// Bends a dense step to the derivative `f` at `u` step lengths from its beginning, u < 0 or u > 1.
+/// Adjusts a dense step to the derivative `f` at `u` step lengths from its start, u < 0 or u > 1.
 template <std::size_t N>
 void bend(DenseStep<N>& d, const Unknowns<N>& f, double u) {
   const double h = d.end_s - d.begin_s;
@@ -52,7 +52,7 @@ void bend(DenseStep<N>& d, const Unknowns<N>& f, double u) {
   }
 }
 
-/// The derivatives at the last four points, the newest first, and the steps between them.
+/// Derivatives at the last four points, newest first, and the steps between them.
 template <std::size_t N>
 struct AdamsHistory {
   std::array<Unknowns<N>, 4> rate;
@@ -64,8 +64,8 @@ struct AdamsHistory {
   }
 };
 
-/// What a step of h is made of before its derivative is known: the integrals over it of the Newton polynomials
-/// s, s(s + a₁), s(s + a₁)(s + a₂), with a_k the distance to the k-th last point, and the divided differences.
+/// Quantities of a step of h before its derivative is known: integrals of the Newton polynomials s, s(s + a₁), s(s +
+/// a₁)(s + a₂), with a_k the distance to the k-th last point, and the divided differences.
 template <std::size_t N>
 struct AdamsStep {
   double h, a1, a2, a3, g3, corrector;  // corrector: ∫ s(s + a₁)(s + a₂)(h − s) ds, 19/720 · 24 h⁵ on an even grid
@@ -73,7 +73,7 @@ struct AdamsStep {
   Unknowns<N> predicted;
 };
 
-/// Adams–Bashforth of four points.
+/// Predicts with the Adams–Bashforth formula of four points.
 template <std::size_t N>
 AdamsStep<N> predict(const Unknowns<N>& y, const AdamsHistory<N>& past, double h) {
   const double h1 = past.step[0], h2 = past.step[1], h3 = past.step[2];
@@ -96,8 +96,9 @@ AdamsStep<N> predict(const Unknowns<N>& y, const AdamsHistory<N>& past, double h
   return s;
 }
 
-/// Adams–Moulton of three points and the new one, with the derivative of the predicted state. `error` is Milne's
-/// estimate of what it lacks, signed, from the difference to the predictor: 19/270 of it on an even grid.
+/// Corrects with the Adams–Moulton formula of three points and the new one, using the derivative of the predicted
+/// state. `error` is Milne's signed estimate of the remaining error: on an even grid 19/270 of the difference to the
+/// predictor.
 template <std::size_t N>
 Unknowns<N> correct(const Unknowns<N>& y, const AdamsHistory<N>& past, const AdamsStep<N>& s,
                     const Unknowns<N>& rate_predicted, Unknowns<N>& error) {
@@ -118,8 +119,8 @@ struct RungeKuttaStart {
   std::array<Unknowns<N>, 3> increment;
 };
 
-/// Takes `count` steps of h from state[0], rate[0] at `time`. `evaluate(t, y, f)` gives false where f is not finite,
-/// and so does this.
+/// Makes `count` steps of h from state[0], rate[0] at `time`. Returns false if f is not finite, as `evaluate(t, y, f)`
+/// does.
 template <std::size_t N, class Evaluate>
 bool runge_kutta_start(RungeKuttaStart<N>& s, double time, double h, std::size_t count, Evaluate&& evaluate) {
   for (std::size_t k = 0; k < count; ++k) {
@@ -141,9 +142,9 @@ bool runge_kutta_start(RungeKuttaStart<N>& s, double time, double h, std::size_t
   return true;
 }
 
-/// What the three steps miss, as the local error that the corrector would make of one such step. Simpson's rule over
-/// two and the three-eighths rule over three steps integrate the derivatives that are there anyway; their differences
-/// to the Runge–Kutta states are 1/90 and 3/80 h⁵y⁽⁵⁾ plus Runge–Kutta's own errors, the corrector's error 19/720.
+/// Returns the error of the three steps, as the local error of the corrector for one such step. Simpson's rule over two
+/// steps and the three-eighths rule over three integrate derivatives that are available anyway. Their differences to
+/// the Runge–Kutta states are 1/90 and 3/80 h⁵y⁽⁵⁾ plus Runge–Kutta's own errors; the corrector's error is 19/720.
 template <std::size_t N>
 Unknowns<N> start_error(const RungeKuttaStart<N>& s, double h) {
   Unknowns<N> error;

@@ -1,5 +1,5 @@
 #pragma once
-// The systems that the integrator is tried on, and their independent solution by Boost.Odeint.
+// Test systems for the integrator, and their independent solution by Boost.Odeint.
 
 #include <array>
 #include <boost/numeric/odeint.hpp>
@@ -15,7 +15,7 @@ namespace mobil::step {
 
 inline constexpr double g = 9.81;
 
-/// The systems under test: a derivative, a start, an end.
+/// Test systems: a derivative, a start, an end.
 struct Oscillator {
   static constexpr std::size_t size = 2;
   Unknowns<2> start{1.0, 0.5};
@@ -30,8 +30,8 @@ struct Pendulum {
   Unknowns<2> operator()(double, const Unknowns<2>& y) const { return {y[1], -g * std::sin(y[0])}; }
 };
 
-/// The support leg and trunk of 80 kg, y = [ω, θ₁, θ₂ and their rates], under a spring and damper along the leg, a
-/// smooth push that turns it, and a spring and damper that hold the trunk; or, at strength 0, under no force.
+/// The support leg and trunk of 80 kg, y = [ω, θ₁, θ₂ and their rates], with a spring and damper along the leg, a
+/// smooth torque that turns it, and a spring and damper on the trunk. At strength 0 no force acts.
 struct Support {
   static constexpr std::size_t size = 6;
   Unknowns<6> start{0.95, -0.35, 0.05, -0.3, 1.5, -0.2};
@@ -57,7 +57,7 @@ struct Support {
   }
 };
 
-/// The swing leg on a moving hip, y = [θ₃, θ₄ and their rates]; without force and with a still hip at strength 0.
+/// The swing leg on a moving hip, y = [θ₃, θ₄ and their rates]. At strength 0 no force acts and the hip is fixed.
 struct Swing {
   static constexpr std::size_t size = 4;
   Unknowns<4> start{-0.3, -0.9, 2.0, -3.0};
@@ -87,7 +87,7 @@ inline constexpr int samples = 9;
 template <std::size_t N>
 using Path = std::array<Unknowns<N>, samples>;
 
-/// The independent answer at equal times: Dormand and Prince's fifth order to 1e-13.
+/// Returns an independent solution at equal times: Dormand and Prince's fifth order to 1e-13.
 template <class System, std::size_t N = System::size>
 Path<N> reference(const System& system) {
   namespace odeint = boost::numeric::odeint;

@@ -1,4 +1,4 @@
-// The integrator of a step's equations against exact solutions, Boost.Odeint and the energy of the models.
+// The integrator of a step's equations, compared with exact solutions, Boost.Odeint and the energy of the models.
 #include "tests/gait/adams.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ Solution<N> solve(const System& system, const AdamsOptions<N>& options) {
   return {path, *result};
 }
 
-/// Slope of the straight line through (log x, log y).
+/// Returns the slope of the line fitted to (log x, log y).
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   const double n = static_cast<double>(x.size());
@@ -83,7 +83,7 @@ TYPED_TEST(Adams, IsOfFourthOrderWithFixedSteps) {
   EXPECT_NEAR(slope(step, error), 4.0, 0.2);
 }
 
-/// At times that are no multiples of the step, the states between the steps are as good as those at them.
+/// At times that are not multiples of the step, states are as accurate as at its ends.
 TYPED_TEST(Adams, IsOfFourthOrderBetweenItsSteps) {
   constexpr std::size_t n = TypeParam::size;
   const TypeParam system;
@@ -94,7 +94,7 @@ TYPED_TEST(Adams, IsOfFourthOrderBetweenItsSteps) {
   }
 }
 
-TYPED_TEST(Adams, ErrsInProportionToTheTolerance) {
+TYPED_TEST(Adams, ErrorIsProportionalToTheTolerance) {
   constexpr std::size_t n = TypeParam::size;
   const TypeParam system;
   const Path<n> truth = reference(system);
@@ -112,9 +112,9 @@ TYPED_TEST(Adams, ErrsInProportionToTheTolerance) {
   EXPECT_NEAR(slope(allowed, error), 1.0, 0.15);
 }
 
-// What follows holds for systems of their own.
+// The following tests have their own systems.
 
-/// ζ = 5, ω = 200/s: the fast mode dies within a millisecond and then only bounds the step.
+/// ζ = 5, ω = 200/s: the fast mode decays within a millisecond and then only limits the step.
 TEST(Adams, AStiffDampedSpringDoesNotBlowUp) {
   for (double tol : {1e-3, 1e-6, 1e-9}) {
     double largest = 0.0;

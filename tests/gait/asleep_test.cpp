@@ -1,4 +1,4 @@
-// Walkers whom nobody sees: a steady walk in closed form, and what becomes of a change by strikes alone.
+// Unseen walkers: a steady walk in closed form, and the effect of a change computed from strikes only.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Lanes<std::uint32_t> all_at(std::uint32_t tick) {
   return lanes;
 }
 
-/// Walkers who have been asked for anything, and what is asked of them next.
+/// Walkers after random requests, and their next requests.
 struct Scene {
   explicit Scene(unsigned seed) : w(random_walkers(seed)), dice{std::mt19937(seed + 500)} {
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -40,7 +40,7 @@ struct Scene {
       w->state.line_x_m[l] = w->state.anchor_x_m[l] = dice.single(-500, 500);
     }
   }
-  /// Uneven steps are never steady.
+  /// Makes steps even, because uneven steps are never steady.
   void even(std::size_t lane) {
     w->gait.style.step_asymmetry[lane] = w->gait.style.time_asymmetry[lane] = 0;
     ++w->gait.revision[lane];
@@ -52,7 +52,7 @@ struct Scene {
   void tick(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  /// Every third stops, every third turns, the others change speed, or all of it.
+  /// Makes every fourth walker turn, every fourth change speed, and the others turn and change speed or stop.
   void change() {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const auto what = static_cast<int>(dice(0, 4));
@@ -70,7 +70,7 @@ struct Scene {
   std::uint32_t now = 0;
 };
 
-TEST(Asleep, AStyleOnTheGridComesBackToTheBit) {
+TEST(Asleep, StyleOnTheGridRoundTripsBitExactly) {
   Dice dice{std::mt19937(3)};
   EXPECT_TRUE(packed_style(GaitStyle{}));
   for (int i = 0; i < 2000; ++i) {
@@ -88,7 +88,7 @@ TEST(Asleep, AStyleOnTheGridComesBackToTheBit) {
   }
 }
 
-TEST(Asleep, ASteadyWalkIsKnownAtAnyTick) {
+TEST(Asleep, SteadyWalkIsExactAtAnyTick) {
   std::size_t seen = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     Scene scene(seed);
@@ -118,10 +118,10 @@ TEST(Asleep, ASteadyWalkIsKnownAtAnyTick) {
       }
     }
   }
-  EXPECT_GT(seen, 12U * 4 * 5 * lane_count * 8 / 10);  // most are steady after eight seconds
+  EXPECT_GT(seen, 12U * 4 * 5 * lane_count * 8 / 10);  // more than 80 % are steady after eight seconds
 }
 
-TEST(Asleep, WhatAChangeLeadsToFollowsFromStrikesAlone) {
+TEST(Asleep, ChangesFollowFromStrikesOnly) {
   MOBIL_SLOW();
   std::size_t settled = 0, asked = 0;
   for (unsigned seed = 20; seed < 32; ++seed) {

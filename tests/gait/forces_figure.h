@@ -1,5 +1,5 @@
 #pragma once
-// A jointed figure in double precision that moves as it is told, as the forces' system sees it and as an oracle does.
+// A jointed figure in double precision with prescribed motion, for the forces' system and its reference.
 
 #include <array>
 #include <cmath>
@@ -31,13 +31,13 @@ inline Rotation turn(double angle, const Vector& axis) {
   return Rotation(Eigen::AngleAxisd(angle, axis));
 }
 
-/// World place of the pelvis and world rotation of every segment.
+/// World position of the pelvis and world rotation of every segment.
 struct Stance {
   Vector pelvis;
   std::array<Rotation, segment_count> rotation;
 };
 
-/// The anatomical position at the origin.
+/// Returns the anatomical position at the origin.
 inline Stance upright(double height) {
   Stance s;
   s.pelvis = {0, fraction::hip_height * height, 0};
@@ -45,7 +45,7 @@ inline Stance upright(double height) {
   return s;
 }
 
-/// Turned about the vertical through the origin, then moved.
+/// Returns the stance turned about the vertical through the origin, then moved.
 inline Stance moved(Stance s, double heading, const Vector& by) {
   const Rotation q = turn(heading, Vector::UnitY());
   s.pelvis = q * s.pelvis + by;
@@ -59,7 +59,7 @@ inline std::size_t mirrored_segment(std::size_t i) {
   return i < arms ? legs + (i - legs + 5) % 10 : arms + (i - arms + 6) % 12;
 }
 
-/// Its mirror image in the plane x = 0, right and left changed.
+/// Returns the mirror image in the plane x = 0, with right and left exchanged.
 inline Stance mirrored(const Stance& s) {
   Stance m;
   m.pelvis = {-s.pelvis.x(), s.pelvis.y(), s.pelvis.z()};
@@ -97,7 +97,7 @@ inline Vector body_centre(double height, const Stance& s) {
   return sum / mass;
 }
 
-/// Sixteen people in three poses and what `joint_forces` makes of them.
+/// Sixteen people in three poses and the results of `joint_forces`.
 struct Block {
   BodySize<Lanes<float>> size{};
   StepPlan<Lanes<float>> plan{};
@@ -132,7 +132,7 @@ struct Block {
   }
 };
 
-/// A crowd of random sizes, all standing on both feet.
+/// Returns people of random sizes, all standing on both feet.
 inline std::unique_ptr<Block> random_people(unsigned seed) {
   std::mt19937 engine(seed);
   auto dice = [&](double low, double high) {
@@ -149,7 +149,7 @@ inline std::unique_ptr<Block> random_people(unsigned seed) {
 
 using Motion = std::function<Stance(std::size_t lane, double time)>;
 
-/// Forces at time 0, from the poses then and `apart_s` before and after.
+/// Computes forces at time 0 from the poses then and `apart_s` before and after.
 inline void forces_of(Block& b, const Motion& motion, float apart_s) {
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t l = 0; l < lane_count; ++l)
@@ -159,7 +159,7 @@ inline void forces_of(Block& b, const Motion& motion, float apart_s) {
   joint_forces(b.size, b.motion, b.plan, b.state, nullptr, b.reaction, b.moments);
 }
 
-/// A body thrown about with every joint in motion.
+/// A body with every joint in random motion.
 struct Thrashing {
   struct Joint {
     Vector mean, swing;

@@ -1,5 +1,5 @@
-// The rules for load and centre of pressure on one man's measured walk: his angles and the height of his pelvis go in,
-// the ground reactions and moments that were measured and computed of him are to come out.
+// Rules for load and centre of pressure, checked on one man's measured walk. Inputs are his angles and pelvis height;
+// results are compared with his measured ground reactions and computed moments.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ constexpr double height = 1.803, mass = 72.6, speed = 1.14, stride_s = 1.235;
 constexpr double double_support = 0.155;  // of the stride, from the measured vertical forces
 constexpr int samples = 100;
 
-/// A measured curve over the stride, 101 points, the moments' last ones missing.
+/// A measured curve over the stride, 101 points. The last points of the moments are missing.
 using Measured = std::vector<std::optional<double>>;
 
 Measured measured(const CsvTable& table, const char* column_name) {
@@ -30,7 +30,7 @@ Measured measured(const CsvTable& table, const char* column_name) {
   return m;
 }
 
-/// The first harmonics of a curve over the stride: accelerations of raw angles are noise.
+/// The first harmonics of a curve over the stride, because second differences of raw angles are noise.
 struct Harmonics {
   static constexpr int count = 7;
   std::array<double, count + 1> cosine{}, sine{};
@@ -53,7 +53,7 @@ struct Harmonics {
     }
     return sum;
   }
-  /// Twice integrated over time, without mean and drift.
+  /// Returns the second integral over time, without mean and drift.
   double twice_integrated(double part) const {
     double sum = 0;
     for (int k = 1; k <= count; ++k) {
@@ -65,9 +65,9 @@ struct Harmonics {
   }
 };
 
-/// His pose at any time: angles as measured, hip adduction and rotation of the left leg as half a stride earlier of the
-/// right; trunk upright, arms hanging. Where his pelvis is along the way was not stored: his centre of mass moves as
-/// the measured fore-aft forces make it.
+/// His pose at any time: angles as measured; hip adduction and rotation of the left leg are those of the right leg half
+/// a stride earlier; trunk upright, arms hanging. His forward position was not stored, so the centre of mass follows
+/// the measured fore-aft forces.
 class Man {
  public:
   explicit Man(const CsvTable& table) {
@@ -86,7 +86,8 @@ class Man {
     const std::vector<double> other = curve("contra_foreaft_BW");
     for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] = gravity * (pushed[i] + other[i]);
     acceleration_.emplace_back(pushed);
-    // The pelvis' height is that of another point of it: in mid-stance the right foot is on the ground.
+    // The measured height is that of another point of the pelvis. It is shifted so that the right foot is on the ground
+    // in mid-stance.
     const Stance flat = posed(0.25);
     const auto at = places(height, flat);
     const std::size_t foot = index(Segment::foot_right);
@@ -120,7 +121,7 @@ class Man {
       s.rotation[thigh + 1] = s.rotation[thigh];
       s.rotation[thigh + 2] = s.rotation[thigh] * turn(joint(1), Vector::UnitX());
       s.rotation[thigh + 3] = s.rotation[thigh + 2] * turn(-joint(2), Vector::UnitX());
-      // Toes lie on the ground as the heel rises.
+      // Toes stay on the ground as the heel rises.
       const double pitch = std::asin((s.rotation[thigh + 3] * Vector::UnitZ()).y());
       s.rotation[thigh + 4] = s.rotation[thigh + 3] * turn(std::fmin(pitch, 0), Vector::UnitX());
     }
@@ -136,7 +137,7 @@ struct Row {
   Vector force[2], joints;
 };
 
-/// What `joint_forces` makes of his stride, sample by sample.
+/// Returns the results of `joint_forces` over his stride, sample by sample.
 std::vector<Row> computed(const Man& man) {
   auto b = std::make_unique<Block>();
   const double dt = stride_s / samples;
@@ -195,7 +196,7 @@ TEST(ForcesOfAMeasuredWalk, AgreeWithTheForcePlatesAndTheMoments) {
   EXPECT_GT(plate("foreaft_BW", Side::right, 2), 0.97);
   EXPECT_GT(plate("contra_foreaft_BW", Side::left, 2), 0.97);
   EXPECT_GT(joint("hip_extensor_Nm_kg", 0), 0.8);
-  EXPECT_GT(joint("knee_extensor_Nm_kg", 1), 0.75);  // the centre of pressure is that of his motion as filmed
+  EXPECT_GT(joint("knee_extensor_Nm_kg", 1), 0.75);  // the centre of pressure is from the filmed motion
   EXPECT_GT(joint("ankle_plantarflexor_Nm_kg", 2), 0.95);
 }
 

@@ -1,4 +1,4 @@
-// Ground reactions and joint moments of figures whose motion is known, against mechanics in double precision.
+// Ground reactions and joint moments of figures with known motion, compared with mechanics in double precision.
 #include "systems/forces/forces.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Vector total(const Block& b, std::size_t l) {
   return b.force(l, Side::right) + b.force(l, Side::left);
 }
 
-/// All weight on one foot, a part `at` of a step whose first fifth is on both.
+/// Puts all weight on one foot, at fraction `at` of a step whose first fifth is double support.
 void on_one_foot(Block& b, std::size_t l, std::uint32_t side, float at = 0.6F) {
   b.state.stance_side[l] = side;
   b.state.time_s[l] = at * b.plan.duration_s[l];
@@ -38,14 +38,14 @@ void on_one_foot(Block& b, std::size_t l, std::uint32_t side, float at = 0.6F) {
   b.plan.landing[l] = 1.0F;
 }
 
-/// Somewhere in a step.
+/// Sets random fractions of a step.
 void somewhere_in_a_step(Block& b) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     on_one_foot(b, l, l % 2, 0.024F * static_cast<float>(l));
   }
 }
 
-/// How fast the angular momentum about the centre of mass changes at time 0, N m.
+/// Returns the rate of change of the angular momentum about the centre of mass at time 0, N m.
 Vector angular_rate(double height, double mass, const std::function<Stance(double)>& motion, double dt) {
   const auto momentum = [&](double t) -> Vector {
     const double h = 0.5 * dt;
@@ -86,7 +86,8 @@ TEST(Forces, StandingIsBalancedByHalfTheWeightUnderEachFoot) {
       EXPECT_NEAR(b->force(l, side).y(), 0.5 * weight, 1e-3 * weight);
       EXPECT_NEAR(b->force(l, side).dot(forward), 0, 1e-3 * weight);
       EXPECT_NEAR((b->pressure(l, side) - Vector(0.1, 0, -0.2)).dot(forward), body.z(), 1e-4 * height);
-      // Ankle, knee and hip are over one another: the weight ahead of them, less what of the leg is ahead of them.
+      // Ankle, knee and hip are above one another. The moment is that of the body's centre in front of them, less the
+      // leg's.
       const double reaction = 0.5 * weight * body.z();
       auto hanging = [&](Segment first) {
         double sum = 0;
@@ -101,9 +102,9 @@ TEST(Forces, StandingIsBalancedByHalfTheWeightUnderEachFoot) {
   }
 }
 
-TEST(Forces, OnBothFeetNothingIsLeftUnbalanced) {
+TEST(Forces, DoubleSupportIsFullyBalanced) {
   const auto b = random_people(8);
-  // Somebody who walks is on both feet, to one side; then the trunk swings.
+  // A walker in double support with an offset to one side; then the trunk swings as well.
   bool swings = false;
   const auto motion = [&](std::size_t l, double t) {
     const double height = height_of(*b, l), angle = swings ? 0.02 * std::sin(5 * t + static_cast<double>(l)) : 0;
@@ -129,7 +130,7 @@ TEST(Forces, OnBothFeetNothingIsLeftUnbalanced) {
   }
 }
 
-/// Moments about a joint of all that hangs below it, one body after the other, three-dimensional.
+/// Returns the moment about a joint of all bodies distal of it, one after the other, in three dimensions.
 double oracle_moment(double height, double mass, const std::function<Stance(double)>& motion, double dt, Segment joint,
                      std::size_t side, const Vector& force, const Vector& pressure, const Vector& axis) {
   const Stance now = motion(0);
@@ -180,7 +181,7 @@ double oracle_moment(double height, double mass, const std::function<Stance(doub
 }
 
 TEST(Forces, AnyMotionAgreesWithThreeDimensionalFreeBodies) {
-  Vector worst = Vector::Zero();  // hip, knee, ankle, of weight times height
+  Vector worst = Vector::Zero();  // hip, knee, ankle, relative to weight times height
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const auto b = random_people(seed);
     somewhere_in_a_step(*b);
@@ -221,7 +222,7 @@ TEST(Forces, AnyMotionAgreesWithThreeDimensionalFreeBodies) {
   EXPECT_LT(worst(2), 1e-6);
 }
 
-TEST(Forces, TheMirrorImageChangesSides) {
+TEST(Forces, MirrorImageExchangesSides) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const auto b = random_people(seed), m = random_people(seed);
     somewhere_in_a_step(*b);

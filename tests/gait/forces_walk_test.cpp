@@ -1,4 +1,4 @@
-// Ground reactions and joint moments of people walking, against mechanics and against measured walks.
+// Ground reactions and joint moments of walking people, compared with mechanics and with measured walks.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace mobil::forces_walk_test {
 using namespace figure;
 
-/// All of one instant of one walker. Side 0 right, 1 left.
+/// Data of one walker at one instant. Side 0 right, 1 left.
 struct Instant {
   std::uint32_t steps = 0;
   double part_of_double_support = 0;
@@ -34,7 +34,7 @@ struct Walker {
   std::vector<Instant> instant;
 
   double weight() const { return mass * gravity; }
-  /// From the first to the last heel strike of the right foot.
+  /// Returns the range from the first to the last heel strike of the right foot.
   std::pair<std::size_t, std::size_t> whole_strides() const {
     std::size_t first = 0, last = 0;
     for (std::size_t i = 2; i + 1 < instant.size(); ++i) {
@@ -46,7 +46,7 @@ struct Walker {
   }
 };
 
-/// Walks a while at speed (m/s), then records some strides.
+/// Walks for a while at a speed (m/s), then records some strides.
 Walker walk(float height, float mass, float speed, double tick_s = 1.0 / 120) {
   Simulation simulation({.tick_s = tick_s});
   const Entity person = *simulation.spawn({.height_m = height, .mass_kg = mass}, {.speed_m_s = speed});
@@ -91,7 +91,7 @@ const std::vector<Walker>& walkers() {
   return all;
 }
 
-TEST(ForcesOfWalking, TheGroundCarriesTheWeightOverAStride) {
+TEST(ForcesOfWalking, GroundForcesCarryTheWeightOverAStride) {
   for (const Walker& w : walkers()) {
     const auto [first, last] = w.whole_strides();
     ASSERT_GT(last, first + 100);
@@ -111,12 +111,12 @@ TEST(ForcesOfWalking, BothFeetTogetherPushTheCentreOfMass) {
           (w.instant[i + 1].centre - 2 * w.instant[i].centre + w.instant[i - 1].centre) / (w.tick_s * w.tick_s);
       const Vector f = w.mass * (a + Vector(0, gravity, 0));
       EXPECT_LT((w.instant[i].force[Side::right] + w.instant[i].force[Side::left] - f).norm(),
-                0.10 * w.weight());  // at a strike, of 6 ms
+                0.10 * w.weight());  // at a strike, over 6 ms
     }
   }
 }
 
-TEST(ForcesOfWalking, AFootInTheAirBearsNothingAndOneOnTheGroundPressesWithinItsSole) {
+TEST(ForcesOfWalking, LoadIsOnlyOnGroundedFeetAndWithinTheSole) {
   for (const Walker& w : walkers()) {
     const double toes = fraction::toes_length * w.height;
     for (const Instant& now : w.instant) {
@@ -152,7 +152,7 @@ TEST(ForcesOfWalking, InDoubleSupportTheTrailingLegPushesAndTheLeadingLegBrakes)
   }
 }
 
-TEST(ForcesOfWalking, TheCentreOfPressureGoesForwardFromHeelToToes) {
+TEST(ForcesOfWalking, CentreOfPressureMovesForwardFromHeelToToes) {
   for (const Walker& w : walkers()) {
     for (std::size_t side = 0; side < 2; ++side) {
       double place = w.instant.front().pressure[side].z(), strike = 0;
@@ -161,7 +161,7 @@ TEST(ForcesOfWalking, TheCentreOfPressureGoesForwardFromHeelToToes) {
         const bool bears = now.force[side].y() > 0.1 * w.weight();
         const double here = now.pressure[side].z();
         if (bears && bearing) {
-          // From tick to tick, of 8 ms: the motion between fitted steps asks for some wandering.
+          // Bound on the change per tick of 8 ms. The motion between fitted steps causes some wandering.
           EXPECT_GT(here, place - 0.10);
           EXPECT_LT(here, place + 0.10);
         }
@@ -196,7 +196,7 @@ Percents measured(const std::string& file, std::string_view column_name, std::st
   return curve;
 }
 
-/// The walker's value at a percentage of the right foot's cycle, of the mean over the recorded strides.
+/// Returns the walker's mean value over the recorded strides at a percentage of the right foot's cycle.
 template <class Value>
 double at_percent(const Walker& w, double percent, Value value) {
   double sum = 0;
@@ -217,10 +217,10 @@ double at_percent(const Walker& w, double percent, Value value) {
 }
 
 struct Likeness {
-  double correlation, peak;  // of the highest points, ours over theirs
+  double correlation, peak;  // ratio of the highest points, simulated to measured
 };
 
-/// Prints and returns how alike the curves are; extremes are ours / theirs.
+/// Prints and returns the similarity of the curves. Extremes are simulated / measured.
 template <class Value>
 Likeness compare(const Walker& w, const Percents& curve, const char* what, Value value) {
   double sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0, n = 0;
@@ -237,7 +237,7 @@ Likeness compare(const Walker& w, const Percents& curve, const char* what, Value
   return {r, high_x / high_y};
 }
 
-/// A measured walk, and of each curve the least correlation with ours of that speed: what we reach, less 0.01.
+/// A measured walk, and for each curve the minimum correlation at that speed: the value reached, less 0.01.
 struct Walk {
   const char *name, *ground, *moments, *key, *value;
   float height, mass, speed;
@@ -247,7 +247,7 @@ struct Walk {
 void expect_to_resemble(const Walk& m) {
   struct Curve {
     const char* column;
-    double highest;  // our peak over theirs: moments are known to be too large
+    double highest;  // ratio of peaks, simulated to measured: moments are known to be too large
     double (*value)(const Walker&, const Instant&);
   };
   constexpr std::array<Curve, 5> curves = {

@@ -1,4 +1,4 @@
-// The swing that is integrated forward: against double precision, an independent integrator, and the step it belongs
+// The forward-integrated swing, compared with double precision, an independent integrator, and the step that it belongs
 // to.
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -33,7 +33,7 @@ step::SwingState state_of(const SwingState& y, std::size_t l) {
   return {{lane_of(y.thigh, l), lane_of(y.shank, l)}, {lane_of(y.thigh_rate, l), lane_of(y.shank_rate, l)}};
 }
 
-/// A thigh and a shank with the foot's mass at its end, per kg, in body heights.
+/// Returns a thigh, and a shank with the foot's mass at its end, per kg, in body heights.
 step::SwingModel model() {
   using namespace forces;
   const double a = fraction::thigh, b = fraction::shank, below = double{shank.mass} + foot.mass;
@@ -62,10 +62,10 @@ struct Swing {
       wide_step::swing_forward(wide_step::unit_swing_leg, to_meet, first, number, way);
     }
   }
-  Wide used[torque_count];  // the numbers of that way
+  Wide used[torque_count];  // the parameters of that path
 };
 
-/// Torques at hip and knee as forward_swing-inl.h has them, in double precision and by other means.
+/// Torques at hip and knee as in forward_swing-inl.h, computed independently in double precision.
 struct Torques {
   const Swing& swing;
   std::size_t lane;
@@ -105,8 +105,8 @@ std::unique_ptr<Walkers> walkers(unsigned seed, double style_part, bool unlike) 
   return w;
 }
 
-/// Eight steps of Runge and Kutta in single precision, against Adams' method in double precision to 1e-9.
-TEST(ForwardSwing, GoesWhereItsTorquesDriveIt) {
+/// Eight Runge–Kutta steps in single precision, compared with Adams' method in double precision to 1e-9.
+TEST(ForwardSwing, FollowsItsTorques) {
   const step::SwingModel leg = model();
   double sum = 0, count = 0;
   for (const bool unlike : {false, true}) {
@@ -148,8 +148,8 @@ TEST(ForwardSwing, GoesWhereItsTorquesDriveIt) {
   EXPECT_LT(sum / count, 0.1 * degree);
 }
 
-/// At toe-off and at heel strike the torques are those of the step, whatever the numbers.
-TEST(ForwardSwing, TorquesGoOnAtBothEnds) {
+/// At toe-off and at heel strike the torques equal those of the step for any parameters.
+TEST(ForwardSwing, TorquesAreContinuousAtBothEnds) {
   const auto w = walkers(6, 0.3, true);
   const Swing swing(*w);
   for (const bool off : {true, false}) {
@@ -169,8 +169,8 @@ TEST(ForwardSwing, TorquesGoOnAtBothEnds) {
   }
 }
 
-/// Derivatives of a state's rates of change by the torques' numbers, against differences.
-TEST(ForwardSwing, DerivativesAreThoseOfItsRates) {
+/// Derivatives of the state's rates with respect to the torque parameters, compared with differences.
+TEST(ForwardSwing, DerivativesMatchDifferencesOfRates) {
   const auto w = walkers(7, 0, true);
   const Swing swing(*w);
   constexpr float by = 0.01F;
@@ -201,8 +201,8 @@ TEST(ForwardSwing, DerivativesAreThoseOfItsRates) {
   }
 }
 
-/// Any body, natural speeds, unlike steps.
-TEST(ForwardSwing, LandsAsTheStepDoesAndStaysNearIt) {
+/// Any body, natural speeds, uneven steps.
+TEST(ForwardSwing, LandsAsTheStepAndStaysNearIt) {
   double sum = 0, count = 0;
   for (unsigned seed = 20; seed < 40; ++seed) {
     const auto w = walkers(seed, 0, seed % 2 == 0);
@@ -223,15 +223,15 @@ TEST(ForwardSwing, LandsAsTheStepDoesAndStaysNearIt) {
         EXPECT_NEAR(lane_of(now.forward, l), lane_of(was.forward, l), 0.030) << i;
         EXPECT_NEAR(lane_of(now.up, l), lane_of(was.up, l), 0.015) << i;
       }
-      // A knee that is a spring and a damper.
+      // The knee acts as a spring and a damper.
       EXPECT_GT(lane_of(swing.used[2], l), 0.0);
     }
   }
   EXPECT_LT(sum / count, 0.2 * degree);
 }
 
-/// Who asks for it has it, the others beside them keep their bits.
-TEST(ForwardSwing, IsNobodysBusinessButTheAskers) {
+/// A walker with the option uses it. Others in the block keep their bits.
+TEST(ForwardSwing, AffectsOnlyWalkersThatEnableIt) {
   const auto all = walkers(8, 0, true), some = walkers(8, 0, true);
   for (std::size_t l = 0; l < lane_count; l += 2) some->gait.style.forward_swing[l] = 1;
   for (Walkers* w : {all.get(), some.get()}) {

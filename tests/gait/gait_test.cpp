@@ -1,4 +1,5 @@
-// Walking requests, the table of parameters, and the equations of a step against a Lagrangian differentiated here.
+// Gait requests, the table of parameters, and the equations of a step compared with a numerically differentiated
+// Lagrangian.
 #include "systems/gait/gait.h"
 #include "assets/gait/step_lookup.h"
 
@@ -52,7 +53,7 @@ TEST(StepDynamics, SupportObeysItsLagrangian) {
     const step::SupportModel m = {dice(5, 30),   dice(0.3, 0.7), dice(0.2, 2), dice(5, 30),
                                   dice(20, 130), dice(0.2, 0.4), dice(0.3, 4)};
     auto lagrangian = [&](double, const std::array<double, 3>& q, const std::array<double, 3>& v) {
-      // Places and velocities of the three masses, from the geometry alone.
+      // Positions and velocities of the three masses, from geometry only.
       const double s1 = std::sin(q[1]), c1 = std::cos(q[1]), s2 = std::sin(q[2]), c2 = std::cos(q[2]);
       const double hip_x = v[0] * s1 + q[0] * c1 * v[1], hip_y = v[0] * c1 - q[0] * s1 * v[1];
       const double trunk_x = hip_x + m.trunk_centre * c2 * v[2], trunk_y = hip_y - m.trunk_centre * s2 * v[2];
@@ -99,13 +100,13 @@ TEST(StepDynamics, SwingObeysItsLagrangianOnAMovingHip) {
   }
 }
 
-// Speeds as a part of the range, of which usual steps are within theirs too.
+// Returns a speed as a fraction of the range in which usual steps are also within their range.
 float some_speed(Dice& dice, const Body& body, double low, double high) {
   const double leg = body.thigh_length_m + body.shank_length_m;
   return static_cast<float>(dice(low, high) * std::sqrt(leg / 0.90));
 }
 
-TEST(GaitRequest, AnyTwoGiveTheThirdAndOneTheUsualStep) {
+TEST(GaitRequest, TwoValuesGiveTheThirdAndOneTheUsualStep) {
   Dice dice{std::mt19937(4)};
   for (int trial = 0; trial < 300; ++trial) {
     const double height = dice(1.2, 2.2);
@@ -131,7 +132,7 @@ TEST(GaitRequest, AnyTwoGiveTheThirdAndOneTheUsualStep) {
   }
 }
 
-TEST(GaitRequest, TwoThatAreAskedAreKeptWhateverTheLaw) {
+TEST(GaitRequest, TwoRequestedValuesOverrideTheUsualStep) {
   Dice dice{std::mt19937(5)};
   for (int trial = 0; trial < 300; ++trial) {
     const Body body = body_of(dice(1.2, 2.2), 70);
@@ -145,7 +146,7 @@ TEST(GaitRequest, TwoThatAreAskedAreKeptWhateverTheLaw) {
   }
 }
 
-TEST(GaitRequest, NothingAskedIsFiveKilometresAnHourAndSpeedZeroIsToStand) {
+TEST(GaitRequest, DefaultIsFiveKilometresAnHourAndZeroStands) {
   const Body body = body_of(1.8, 80);
   EXPECT_NEAR(resolve_gait(body, {})->speed_m_s, 5.0 / 3.6, 1e-6);
   GaitRequest request{.speed_m_s = 0.0F};
@@ -169,7 +170,7 @@ void expect_refused(const Body& body, const GaitRequest& request, const std::str
   EXPECT_NE(line.find(named), std::string::npos) << line;
 }
 
-TEST(GaitRequest, WhatIsOutOfRangeIsRefusedInOneLineThatNamesIt) {
+TEST(GaitRequest, ValuesOutOfRangeAreRefusedByName) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   for (const double height : {1.2, 1.8, 2.2}) {
     const Body body = body_of(height, 80);
@@ -196,7 +197,7 @@ TEST(GaitRequest, ThreeMustAgreeWithinOnePerCent) {
         resolve_gait(body, {.speed_m_s = 1.4F, .step_length_m = 0.7F, .step_frequency_hz = 2.0F * off}).has_value());
 }
 
-TEST(GaitRequest, EveryParameterIsHeldToItsRange) {
+TEST(GaitRequest, EveryParameterIsLimitedToItsRange) {
   const Body body = body_of(1.8, 80);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const GaitParameter& p : gait_parameters) {
@@ -216,7 +217,7 @@ TEST(GaitRequest, EveryParameterIsHeldToItsRange) {
   }
 }
 
-TEST(GaitParameters, DefaultsLieWithinTheirRangesAndEveryoneIsDescribed) {
+TEST(GaitParameters, DefaultsAreWithinRangeAndEveryParameterIsDescribed) {
   const GaitStyle style;
   std::set<std::string_view> names;
   for (const GaitParameter& p : gait_parameters) {
@@ -229,7 +230,7 @@ TEST(GaitParameters, DefaultsLieWithinTheirRangesAndEveryoneIsDescribed) {
   }
 }
 
-TEST(GaitParameters, TheTableListsEveryFieldOnceInTheOrderOfTheStruct) {
+TEST(GaitParameters, TableListsEveryFieldOnceInStructOrder) {
   const GaitStyle style;
   std::size_t next = 0;
   for (const GaitParameter& p : gait_parameters) {
@@ -240,7 +241,7 @@ TEST(GaitParameters, TheTableListsEveryFieldOnceInTheOrderOfTheStruct) {
   EXPECT_EQ(next, sizeof(GaitStyle));
 }
 
-TEST(GaitParameters, ABlocksDefaultsAreARowsInEveryLane) {
+TEST(GaitParameters, BlockDefaultsAreRowDefaultsInEveryLane) {
   const GaitStyleOf<Lanes<float>> block;
   const GaitStyle one;
   for (std::size_t l = 0; l < lane_count; ++l) {

@@ -1,4 +1,4 @@
-// Random walkers, sixteen at a time: feet that stand still, legs that keep their length, motion without jumps.
+// Random walkers, sixteen at a time: feet that stay in place, legs of constant length, motion without jumps.
 #include "systems/gait/kinematics.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace mobil::kinematics_test {
 constexpr float tick = 1.0F / 120.0F;
 
-/// Runs blocks of random walkers through several steps; check(walkers, tick number) after each.
+/// Runs blocks of random walkers through several steps. Calls check(walkers, tick number) after each tick.
 template <class Check>
 void over_walks(Check check) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
@@ -24,13 +24,13 @@ void over_walks(Check check) {
   }
 }
 
-/// The part of its own gait cycle at which a foot is, from its heel strike, in time.
+/// Returns the time since a foot's heel strike.
 float since_strike(const Walkers& w, std::size_t side, std::size_t l) {
   return w.state.time_s[l] + (w.state.stance_side[l] == side ? 0.0F : w.plan.duration_s[l]);
 }
 
-/// Whether heel (0) or toes (1) of a foot bear on the ground, in steps that are all alike: the heel when its pad has
-/// yielded and until heel rise, the tips of the toes from foot flat to toe-off.
+/// Returns true if heel (0) or toes (1) of a foot bear on the ground, in steps that are all equal: the heel from when
+/// its pad has yielded to heel rise, the tips of the toes from foot flat to toe-off.
 bool bears(const Walkers& w, std::size_t side, std::size_t toe, std::size_t l) {
   const float lag = since_strike(w, side, l), flat = flat_s(w.plan, l);
   const float rise = 2 * (0.30F + w.plan.from.shape[step_shape::times.first + 1][l]) * w.plan.duration_s[l];
@@ -41,7 +41,7 @@ const Vec3<Lanes<float>>& sole(const Walkers& w, std::size_t side, std::size_t t
   return toe == 0 ? w.feet.heel_m[side] : w.feet.tip_m[side];
 }
 
-/// How far points that bear on the ground move along it, and off it.
+/// Motion of points that bear on the ground, along it and off it.
 struct Planted {
   struct Point {
     bool down = false;
@@ -86,7 +86,7 @@ TEST(Kinematics, PlantedFeetDoNotMove) {
   EXPECT_LT(planted.off, 1e-4);
 }
 
-/// Where a segment hangs: its origin from its parent's joint, m.
+/// Returns the distance of a segment's origin from its parent's joint, m.
 double gap(const Walkers& w, std::size_t s, std::size_t l) {
   const std::size_t p = index(segment_parent[s]);
   const Vec3<float> o = rotated(at(w.pose.rotation[p], l), w.body[l].joint_offset_m[s]);
@@ -94,19 +94,19 @@ double gap(const Walkers& w, std::size_t s, std::size_t l) {
   return distance(at(w.pose.position_m[s], l), {from.x + o.x, from.y + o.y, from.z + o.z});
 }
 
-TEST(Kinematics, TheSkeletonHangsTogetherAndJointsKeepTheirRange) {
+TEST(Kinematics, SkeletonIsConnectedAndJointsKeepTheirRange) {
   double apart = 0, overreached = 0, unit = 0;
   over_walks([&](const Walkers& w, int) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       for (std::size_t s = 0; s < segment_count; ++s) {
         const Quat<float> q = at(w.pose.rotation[s], l);
         unit = std::fmax(unit, std::fabs(1.0 - (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)));
-        // The pelvis hangs on nothing, the column on a pelvis turned by its neutral tilt; the kneecap slides round the
-        // knee.
+        // Exceptions: the pelvis has no parent, the spine is on a pelvis turned by its neutral tilt, and the kneecap
+        // slides round the knee.
         if (s == 0 || s == index(Segment::L5) || s == index(Segment::patella_right) ||
             s == index(Segment::patella_left))
           continue;
-        // A leg that would have to be longer than straight leaves its foot where it is planted.
+        // If the leg cannot reach the planted foot even when straight, the foot stays and the ankle joint opens.
         const bool straight = (s == index(Segment::foot_right) && w.angles.knee_flexion[Side::right][l] < 0.01F) ||
                               (s == index(Segment::foot_left) && w.angles.knee_flexion[Side::left][l] < 0.01F);
         double& most = straight ? overreached : apart;
@@ -125,7 +125,7 @@ TEST(Kinematics, TheSkeletonHangsTogetherAndJointsKeepTheirRange) {
   EXPECT_LT(unit, 1e-5);
 }
 
-TEST(Kinematics, TheKneecapStaysAtItsDistanceFromTheKnee) {
+TEST(Kinematics, KneecapKeepsItsDistanceFromTheKnee) {
   over_walks([&](const Walkers& w, int) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       for (std::size_t side = 0; side < 2; ++side) {
@@ -138,14 +138,14 @@ TEST(Kinematics, TheKneecapStaysAtItsDistanceFromTheKnee) {
   });
 }
 
-TEST(Kinematics, NoFootIsEverInTheGround) {
+TEST(Kinematics, FeetAreNeverInTheGround) {
   double heel = 1, toe = 1, tip = 1;
   over_walks([&](const Walkers& w, int) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       for (std::size_t side = 0; side < 2; ++side) {
         heel = std::fmin(heel, static_cast<double>(w.feet.heel_m[side].y[l]));
         toe = std::fmin(toe, static_cast<double>(w.feet.toe_m[side].y[l]));
-        // The toes' tip: along the third axis of their rotation, from under their joint.
+        // The tip of the toes: along the third axis of their rotation, from below their joint.
         const std::size_t s = index(on_side(Segment::toes_right, side));
         const Quat<Lanes<float>>& q = w.pose.rotation[s];
         const float rise = 2.0F * (q.y[l] * q.z[l] - q.w[l] * q.x[l]);
@@ -178,7 +178,7 @@ Vec3<double> wide(const Vec3<float>& v) {
   return {v.x, v.y, v.z};
 }
 
-/// A walker's wish changes now and then.
+/// Changes the gait or heading of some walkers.
 void wish(Walkers& w, Dice& dice) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const double what = dice(0, 4);
@@ -188,7 +188,7 @@ void wish(Walkers& w, Dice& dice) {
   }
 }
 
-/// The rotation vector from one orientation to the next, rad, for small turns.
+/// Returns the rotation vector from one orientation to the next, rad, for small turns.
 Vec3<double> turn_between(const Quat<float>& a, const Quat<float>& b) {
   const auto wide = [](const Quat<float>& q) { return Quat<double>{q.x, q.y, q.z, q.w}; };
   const Quat<double> by = geometry::product(wide(b), geometry::conjugate(wide(a)));
@@ -196,14 +196,14 @@ Vec3<double> turn_between(const Quat<float>& a, const Quat<float>& b) {
   return (by.w < 0 ? -2.0 : 2.0) * Vec3<double>{by.x, by.y, by.z};
 }
 
-/// The greatest speeds of any segment, and the greatest changes of its velocity from one tick to the next.
+/// Maximum speeds of any segment, and maximum changes of its velocity from one tick to the next.
 struct Jumps {
-  double speed = 0, rate_rad_s = 0;                  // speed over that of the walk and 0.5 m/s
-  double acceleration_m_s2 = 0, turning_rad_s2 = 0;  // legs with nearly straight knees left out
-  double straight_m_s = 0, straight_rad_s = 0;       // the changes of those
+  double speed = 0, rate_rad_s = 0;                  // relative to the walk's speed plus 0.5 m/s
+  double acceleration_m_s2 = 0, turning_rad_s2 = 0;  // without legs whose knees are nearly straight
+  double straight_m_s = 0, straight_rad_s = 0;       // changes of those legs
 };
 
-/// A knee's angle is the root of a small length there, and its rate has no bound.
+/// A nearly straight knee's angle is the square root of a small length, so its rate is unbounded.
 bool nearly_straight(const Walkers& w, std::size_t segment, std::size_t lane) {
   const bool on_right = segment >= index(Segment::thigh_right) && segment < index(Segment::thigh_left);
   const bool on_left = segment >= index(Segment::thigh_left) && segment < index(Segment::clavicle_right);
@@ -211,7 +211,7 @@ bool nearly_straight(const Walkers& w, std::size_t segment, std::size_t lane) {
          (on_left && w.angles.knee_flexion[Side::left][lane] < 0.1F);
 }
 
-/// Walkers whose wishes change on the way, for six seconds.
+/// Returns the jumps of walkers whose requests change on the way, over six seconds.
 Jumps jumps(unsigned seed, int ticks_a_second, float forward_swing = 0) {
   using geometry::operator-, geometry::operator*;
   Dice dice{std::mt19937(seed)};
@@ -250,7 +250,7 @@ Jumps jumps(unsigned seed, int ticks_a_second, float forward_swing = 0) {
   return most;
 }
 
-TEST(Kinematics, NothingJumpsWhateverIsAskedOnTheWay) {
+TEST(Kinematics, NothingJumpsAfterAnyRequest) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Jumps at_1000 = jumps(seed, 1000), at_500 = jumps(seed, 500), at_2000 = jumps(seed, 2000);
     EXPECT_LT(at_1000.speed, 3.8);
@@ -258,15 +258,15 @@ TEST(Kinematics, NothingJumpsWhateverIsAskedOnTheWay) {
     // A jump of a millimetre in one of these ticks would be 1000 m/s².
     EXPECT_LT(at_1000.acceleration_m_s2, 1100);
     EXPECT_LT(at_1000.turning_rad_s2, 3800);
-    // A leg that is stretched past its length turns within half a millimetre: fast, but by no more than this.
+    // A leg stretched past its length turns within half a millimetre: fast, but at most by these amounts.
     EXPECT_LT(at_2000.straight_m_s, 4);
     EXPECT_LT(at_2000.straight_rad_s, 12);
     EXPECT_LT(at_500.straight_m_s, 4);
   }
 }
 
-/// The same of legs that follow from their torques.
-TEST(Kinematics, NothingJumpsWhereSwingsAreIntegratedForward) {
+/// Bounds are equal for legs that are integrated forward.
+TEST(Kinematics, NothingJumpsWithForwardSwings) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Jumps most = jumps(seed, 1000, 1);
     EXPECT_LT(most.speed, 3.8);
@@ -283,7 +283,7 @@ std::size_t mirrored(std::size_t s) {
   return s;
 }
 
-/// In a turn, any.
+/// Returns a random state in a turn.
 GaitState<float> bent(float time_s, std::uint32_t stance_side, Dice& dice) {
   GaitState<float> state{};
   state.time_s = time_s;
@@ -313,7 +313,7 @@ GaitState<float> at_place(GaitState<float> state, float x, float z, float headin
   return state;
 }
 
-TEST(Kinematics, TheLeftSideIsTheMirrorImageOfTheRight) {
+TEST(Kinematics, LeftSideIsTheMirrorImageOfTheRight) {
   const auto now = random_walkers(21, 0.5), then = random_walkers(21, 0.5);
   Dice dice{std::mt19937(21)};
   for (int t = 0; t < 40; ++t) {
@@ -344,7 +344,7 @@ TEST(Kinematics, TheLeftSideIsTheMirrorImageOfTheRight) {
   }
 }
 
-TEST(Kinematics, TheHeadingTurnsAllAboutThePlaceOnTheLine) {
+TEST(Kinematics, HeadingTurnsThePoseAboutTheLinePoint) {
   const auto ahead = random_walkers(22, 0.5), turned = random_walkers(22, 0.5);
   Dice dice{std::mt19937(22)};
   for (int t = 0; t < 20; ++t) {
@@ -370,12 +370,12 @@ TEST(Kinematics, TheHeadingTurnsAllAboutThePlaceOnTheLine) {
   }
 }
 
-TEST(Kinematics, AWalkBeginsWithTheRightHeelAndAdvancesAtItsSpeedAlongItsHeading) {
+TEST(Kinematics, WalkStartsOnTheRightHeelAndAdvancesAlongItsHeading) {
   const auto w = random_walkers(3);
   for (std::size_t l = 0; l < lane_count; ++l) {
     EXPECT_EQ(w->feet.phase[Side::right][l], 0.0F);
     EXPECT_NEAR(w->feet.phase[Side::left][l], 0.5F, 1e-6);
-    EXPECT_NEAR(w->feet.heel_m[Side::right].y[l], 0.0F, 0.02F);  // on its rim, over its pad
+    EXPECT_NEAR(w->feet.heel_m[Side::right].y[l], 0.0F, 0.02F);  // on its rim, above its pad
     EXPECT_GT(w->feet.toe_m[Side::right].y[l], 0.005F);
     EXPECT_LT(w->feet.heel_m[Side::right].x[l], 0.0F);  // +X is left
     EXPECT_GT(w->feet.heel_m[Side::right].z[l], w->feet.heel_m[Side::left].z[l]);
@@ -400,7 +400,7 @@ TEST(Kinematics, AWalkBeginsWithTheRightHeelAndAdvancesAtItsSpeedAlongItsHeading
   }
 }
 
-TEST(Kinematics, TheHeadStaysInTheWalkingPlaneWhileTheShouldersTurnAgainstThePelvis) {
+TEST(Kinematics, HeadStaysInPlaneWhileShouldersCounterRotate) {
   over_walks([](const Walkers& w, int) {
     const Quat<Lanes<float>>&head = w.pose.rotation[index(Segment::head)], &chest = w.pose.rotation[index(Segment::T1)];
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -411,8 +411,8 @@ TEST(Kinematics, TheHeadStaysInTheWalkingPlaneWhileTheShouldersTurnAgainstThePel
   });
 }
 
-TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
-  // Ranges of Winter's natural cadence and Schwartz's free speed with two standard deviations' room.
+TEST(Kinematics, NaturalWalkIsWithinMeasuredRanges) {
+  // Ranges of Winter's natural cadence and Schwartz's free speed, plus two standard deviations.
   const auto w = random_walkers(1);
   for (std::size_t l = 0; l < lane_count; ++l) {
     w->set_body(l, {.height_m = 1.8F, .mass_kg = 80.0F});
@@ -453,7 +453,7 @@ TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
   EXPECT_NEAR(ankle_high, 12, 7);
   EXPECT_NEAR(ankle_low, -20, 9);
   EXPECT_NEAR(high - low, 0.040, 0.012);
-  EXPECT_NEAR(aside_high - aside_low, 0.042, 0.020);  // what the soles ask; people sway by more
+  EXPECT_NEAR(aside_high - aside_low, 0.042, 0.020);  // as the soles require; people sway more
 }
 
 }  // namespace mobil::kinematics_test

@@ -1,6 +1,6 @@
 #pragma once
-// Walkers who are asked for one thing after another at random times, and an observer of each that keeps the worst of
-// what it does. Everything goes through the facade; a crowd follows from its seed alone.
+// Walkers that receive one request after another at random times, and an observer of each that keeps the largest
+// deviations. It uses only the facade; a crowd is determined by its seed.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 namespace mobil::steering {
 using geometry::to_double;
 
-/// Numbers that are the same with every library.
+/// Random numbers that are equal with every standard library.
 struct Source {
   std::mt19937_64 bits;
 
@@ -29,11 +29,11 @@ struct Source {
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
 };
 
-/// What may be asked of a crowd.
+/// Kinds of requests to a crowd.
 struct Asking {
   bool heading = true, stop = true;
   bool step_length = false, limp = false, style = false;
-  double slowest = 0.3, fastest = 2.3;  // m/s at a leg of 0.90 m, in proportion to its root
+  double slowest = 0.3, fastest = 2.3;  // m/s at a leg of 0.90 m, proportional to the root of its length
 };
 
 struct Walker {
@@ -41,7 +41,7 @@ struct Walker {
   BodyRequest body;
   double scale = 1;  // of speeds: √(leg / 0.90 m)
   GaitRequest gait;
-  double next_s = 0;  // when it is asked again
+  double next_s = 0;  // time of the next request
   std::string asked;  // the last two requests
 };
 
@@ -63,7 +63,7 @@ inline BodyRequest any_body(Source& random) {
   return body;
 }
 
-/// The last request of a walker, changed in one respect; not always within the range of what can be walked.
+/// Returns the last request of a walker with one change, which can be out of the walkable range.
 inline GaitRequest any_gait(Source& random, const Asking& asking, const Walker& walker) {
   enum Kind { speed, step_length, stop, limp, style };
   std::vector<Kind> kinds = {speed};
@@ -99,7 +99,7 @@ inline GaitRequest any_gait(Source& random, const Asking& asking, const Walker& 
   return gait;
 }
 
-/// The worst there was of something, and where.
+/// The largest value of a quantity, and where it occurred.
 struct Worst {
   double value = 0;
   std::string where;
@@ -109,7 +109,7 @@ struct Worst {
   }
 };
 
-/// One instant of one walker.
+/// One walker at one instant.
 struct Sample {
   double time_s;
   Pose<float> pose;
@@ -118,7 +118,7 @@ struct Sample {
   GaitState<float> state;
 };
 
-/// The legs' joints come first: hip right, hip left, knees, ankles.
+/// Joints of the legs come first: hip right, hip left, knees, ankles.
 inline constexpr std::array joint_names = {
     "hip right",     "hip left",    "knee right", "knee left",       "ankle right", "ankle left", "shoulder right",
     "shoulder left", "elbow right", "elbow left", "pelvis rotation", "pelvis list", "pelvis tilt"};
@@ -135,19 +135,19 @@ inline Joints joints(const JointAngles<float>& a) {
   return all;
 }
 
-/// Below this flexion (rad) a knee's angle is the root of a small length, and its rate is left out of the account.
+/// Below this flexion (rad) a knee's angle is the root of a small length, so its rate is not counted.
 inline constexpr double nearly_straight = 0.10;
 
-/// All that is kept of a walker, or of many.
+/// Results for one walker, or for many.
 struct Findings {
   Worst origin_speed;                          // of a segment's origin over the walk's speed, (m/s) / (m/s)
   std::array<Worst, 3> joint_rate;             // of hip, knee and ankle, rad/s at a leg of 0.90 m
   std::array<Worst, joint_names.size()> kink;  // change of a joint's rate from tick to tick, rad/s
-  Worst slide, turning_slide;                  // of what rests on the ground, m; and where the line turns
+  Worst slide, turning_slide;                  // of points on the ground, m; and where the line turns
   Worst sunk;                                  // below the ground, m
   Worst apart;                                 // a foot from its shank, m
   Worst not_finite;                            // 1
-  Worst speed_off;                             // mean over steady steps, as a part of the asked
+  Worst speed_off;                             // mean over steady steps, relative to the request
   int steady_steps = 0;
   int changes = 0;
 
@@ -164,7 +164,7 @@ struct Findings {
   }
 };
 
-/// Follows one walker from tick to tick.
+/// Observes one walker from tick to tick.
 class Watch : public Findings {
  public:
   void see(const Simulation& simulation, const Walker& walker) {
@@ -230,7 +230,7 @@ class Watch : public Findings {
     }
   }
 
-  /// What is within a millimetre of the ground while its foot stands may not move along it.
+  /// Points within a millimetre of the ground must not move along it while their foot stands.
   void ground(const Sample& now) {
     for (std::uint32_t side = 0; side < 2; ++side) {
       const bool stands = side == now.state.stance_side || now.state.time_s < plan_.double_support_s;
@@ -253,7 +253,7 @@ class Watch : public Findings {
     }
   }
 
-  /// Mean speed from foothold to foothold since the first step like the next.
+  /// Measures mean speed from foothold to foothold, starting at the first step that equals the next.
   void strike(const Sample& now) {
     if (now.state.steps == last_.state.steps) return;  // standing
     const Strike next{now.time_s - static_cast<double>(now.state.time_s), static_cast<double>(now.state.line_x_m),
@@ -290,8 +290,8 @@ class Watch : public Findings {
   int steady_ = 0;
 };
 
-/// Requests come between two ticks, at times that are multiples of 1/60 s, so that crowds of one seed are asked the
-/// same at any tick.
+/// Requests are made between ticks, at multiples of 1/60 s, so crowds of one seed get equal requests at any tick
+/// length.
 class Crowd {
  public:
   Crowd(double tick_s, std::uint64_t seed, const Asking& asking, std::size_t size = 16)
@@ -329,7 +329,7 @@ class Crowd {
   }
 
  private:
-  /// Often before the last request has been walked, sometimes long after.
+  /// Returns the time to the next request: often before the last one is completed, sometimes long after.
   double pause() { return static_cast<double>(20 + random_.below(180)) / 60; }
 
   void look() {
@@ -345,7 +345,7 @@ class Crowd {
     } else {
       const GaitRequest gait = any_gait(random_, asking_, walker);
       walker.next_s += 1.0 / 60;
-      if (!simulation_.set_gait(walker.entity, gait)) return;  // asks again at once
+      if (!simulation_.set_gait(walker.entity, gait)) return;  // requests again at once
       walker.gait = gait;
       text << describe(gait);
     }

@@ -1,4 +1,4 @@
-// Somebody who stands steps aside, ahead and back.
+// Standing people step aside, ahead and back.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace mobil::step_aside_test {
 
-/// In the frame of somebody at the origin who faces +Z.
+/// Compares in the frame of a person at the origin who faces +Z.
 void expect_moved(const Pose<float>& from, const Pose<float>& to, double left_m, double ahead_m) {
   for (const Segment s : {Segment::pelvis, Segment::head, Segment::foot_right, Segment::foot_left}) {
     EXPECT_NEAR(to.position_m[index(s)].x - from.position_m[index(s)].x, left_m, 1e-4) << segment_name[index(s)];
@@ -52,8 +52,8 @@ TEST(StepAside, TakesFeetAndBodyThereInTwoSteps) {
   }
 }
 
-/// The foot on that side first, and either foot only while it is in the air.
-TEST(StepAside, FeetThatStandDoNotSlide) {
+/// The foot on that side moves first, and each foot moves only while it is in the air.
+TEST(StepAside, PlantedFeetDoNotSlide) {
   for (const float left_m : {0.25F, -0.25F, 0.1F, 0.0F}) {
     Standing one;
     ASSERT_TRUE(one.simulation.step_aside(one.entity, left_m, left_m == 0.0F ? -0.20F : 0.0F));
@@ -98,8 +98,8 @@ TEST(StepAside, IsRefusedInOneLine) {
   EXPECT_NE(said(0.1F, 0).find("stale"), std::string::npos);
 }
 
-/// Asked while the last steps are still under way, it follows them.
-TEST(StepAside, FollowsAWalkOrAnotherStepThatIsUnderWay) {
+/// A step requested during the last steps of a walk follows them.
+TEST(StepAside, FollowsAWalkOrAnotherStepInProgress) {
   Simulation simulation;
   const Entity entity = simulation.spawn(BodyRequest{}, GaitRequest{}).value();
   const auto go_on = [&](double seconds) {
@@ -124,8 +124,8 @@ TEST(StepAside, FollowsAWalkOrAnotherStepThatIsUnderWay) {
   EXPECT_NEAR(pelvis.x, moved.position_m[0].x - 0.2F, 0.05);
 }
 
-/// A walk, a turn or another step asked for at any moment of it.
-TEST(StepAside, NothingJumpsWhateverIsAskedOnTheWay) {
+/// A walk, a turn or another step, requested at any moment of a step aside.
+TEST(StepAside, NothingJumpsAfterAnyRequest) {
   Dice dice{std::mt19937(72)};
   for (int trial = 0; trial < 60; ++trial) {
     Standing one;

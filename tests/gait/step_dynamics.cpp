@@ -12,7 +12,7 @@ std::array<double, 3> support_acceleration(const SupportModel& m, const SupportS
   const double mass = m.leg_mass * m.leg_centre * m.leg_centre + m.hip_mass + m.trunk_mass;
   const double weight = (m.leg_mass * m.leg_centre + m.hip_mass + m.trunk_mass) * gravity;
   const double coupling = m.trunk_mass * m.trunk_centre;
-  // The symmetric mass matrix is diagonal but for its last row and column: eliminate those.
+  // The symmetric mass matrix is diagonal except for its last row and column, which are eliminated.
   const double a1 = mass, a2 = mass * length * length + m.leg_inertia;
   const double a3 = coupling * m.trunk_centre + m.trunk_inertia;
   const double c1 = coupling * d.sine, c2 = coupling * length * d.cosine;

@@ -8,8 +8,8 @@
 
 namespace mobil::step {
 
-/// Masses (kg), lengths (m) and moments of inertia (kg m²) of the support model: a leg of changing length ω whose
-/// centre of mass lies at κω from the foot, the swing leg's mass at the hip, the trunk (head and arms included) on it.
+/// Masses (kg), lengths (m) and moments of inertia (kg m²) of the support model: a leg of variable length ω with its
+/// centre of mass at κω from the foot, the swing leg's mass at the hip, and the trunk (with head and arms) above it.
 struct SupportModel {
   double leg_mass, leg_centre, leg_inertia;        // m₁, κ, I₁
   double hip_mass;                                 // m_h
@@ -21,7 +21,7 @@ struct SupportState {
   std::array<double, 3> q, rate;
 };
 
-/// q̈ under the generalised forces F_ω (N), F_θ₁, F_θ₂ (N m).
+/// Returns q̈ under the generalised forces F_ω (N), F_θ₁, F_θ₂ (N m).
 std::array<double, 3> support_acceleration(const SupportModel& model, const SupportState& state,
                                            const std::array<double, 3>& force);
 
@@ -36,7 +36,7 @@ struct SwingState {
   std::array<double, 2> q, rate;
 };
 
-/// q̈ under F_θ₃ = τ_hip − τ_knee and F_θ₄ = τ_knee (N m) while the hip accelerates by (forward, up) in m/s².
+/// Returns q̈ under F_θ₃ = τ_hip − τ_knee and F_θ₄ = τ_knee (N m) while the hip accelerates by (forward, up) in m/s².
 std::array<double, 2> swing_acceleration(const SwingModel& model, const SwingState& state,
                                          const std::array<double, 2>& force, const std::array<double, 2>& hip);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Double-precision functions for set-up whose bits do not depend on the C library or the instruction set: only
-// additions, multiplications, divisions and square roots.
+// Double-precision functions for set-up whose bits are independent of the C library and the instruction set. They use
+// only additions, multiplications, divisions and square roots.
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ struct SinCos {
   double sine, cosine;
 };
 
-/// |x| < 1000 rad, error below 1e-13: reduction to ±π/4, Taylor series.
+/// Returns sine and cosine for |x| < 1000 rad, error below 1e-13: reduction to ±π/4, Taylor series.
 inline SinCos sin_cos(double x) {
   const double quadrant = std::floor(x * (2.0 / pi) + 0.5);
   const double r = (x - quadrant * 1.5707963267948966) - quadrant * 6.123233995736766e-17;

@@ -1,4 +1,4 @@
-// Solved steps of random walkers: each goes on from the last one smoothly, whatever was asked between.
+// Solved steps of random walkers: each continues the last one smoothly after any request.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,12 +14,12 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 
 void expect_finite(const StepPlan<float>& plan) {
   StepPlan<float> p = plan;
-  p.revision = p.settled = p.clamped = 0;  // whole numbers
+  p.revision = p.settled = p.clamped = 0;  // integers
   const auto* word = reinterpret_cast<const float*>(&p);
   for (std::size_t i = 0; i < sizeof(p) / sizeof(float); ++i) ASSERT_TRUE(std::isfinite(word[i])) << "word " << i;
 }
 
-/// Joint angles as numbers, those of the pelvis first.
+/// Joint angles as numbers, starting with the pelvis.
 constexpr std::size_t angle_count = sizeof(JointAngles<float>) / sizeof(float);
 using Angles = std::array<double, angle_count>;
 
@@ -30,7 +30,7 @@ Angles angles_of(const Walkers& w, std::size_t lane) {
   return a;
 }
 
-/// What the pose is at one end of a step.
+/// The pose at one end of a step.
 struct Instant {
   std::array<std::array<Vec3<float>, segment_count>, lane_count> place;
   std::array<std::array<Quat<float>, segment_count>, lane_count> turned;
@@ -38,7 +38,7 @@ struct Instant {
   std::array<double, lane_count> hip_rate, height_rate;
 };
 
-/// One-sided differences of second order over `moved` seconds, into the step from its start or from its end.
+/// Time of one-sided second-order differences, s, into the step from its start or from its end.
 constexpr float moved = 1e-3F;
 
 Instant instant(Walkers& w, bool at_end) {
@@ -70,13 +70,13 @@ Instant instant(Walkers& w, bool at_end) {
   return at_this;
 }
 
-/// Whether an angle is of a leg so nearly straight that a hair's breadth between hip and ankle is degrees of it.
+/// Returns true if an angle is of a leg so nearly straight that a tiny change of hip–ankle distance is degrees of it.
 bool of_straight_leg(const Instant& at_this, std::size_t l, std::size_t angle) {
   constexpr std::size_t hip = offsetof(JointAngles<float>, hip_flexion) / sizeof(float), knee = hip + 2;
   return angle >= hip && angle < hip + 6 && at_this.angle[l][knee + (angle - hip) % 2] < 3 * degree;
 }
 
-/// The greatest jumps through a strike.
+/// Maximum jumps at a strike.
 struct Jump {
   double place = 0, turn = 0, angle = 0, rate = 0, hip_rate = 0;
 
@@ -95,12 +95,12 @@ struct Jump {
   }
 };
 
-/// What one step ends with is what the next begins with.
+/// Expects the end of one step to equal the start of the next.
 void expect_joined(const StepPlan<float>& a, const StepPlan<float>& b) {
   EXPECT_EQ(a.step_length_m, b.length_before_m);
   EXPECT_EQ(std::memcmp(&a.to, &b.from, sizeof(a.to)), 0);
   EXPECT_NEAR(double{a.phase_rate_to} / double{a.duration_s}, double{b.phase_rate_from} / double{b.duration_s}, 1e-4);
-  const bool changes_sides = a.landing > 0;  // who goes on standing does not
+  const bool changes_sides = a.landing > 0;  // not for people who remain standing
   EXPECT_EQ(changes_sides ? a.from.half_width_m : a.trailing_half_width_m, b.trailing_half_width_m);
   EXPECT_EQ(changes_sides ? a.from.toe_out : a.trailing_toe_out, b.trailing_toe_out);
   if (changes_sides) return;
@@ -108,7 +108,7 @@ void expect_joined(const StepPlan<float>& a, const StepPlan<float>& b) {
   EXPECT_EQ(a.from.toe_out, b.from.toe_out);
 }
 
-/// Blocks of unlike walkers before their first step.
+/// Runs blocks of different walkers before their first step.
 template <class Check>
 void over_first_steps(unsigned seed, int blocks, double style_part, Check check) {
   Dice dice{std::mt19937(seed)};
@@ -137,7 +137,7 @@ TEST(FirstStep, IsSettledAndJoinsItsMirrorImage) {
   });
 }
 
-TEST(FirstStep, HasTheLengthAndTheTimeThatWereAsked) {
+TEST(FirstStep, HasTheRequestedLengthAndTime) {
   over_first_steps(2, 20, 1.0, [](const Walkers& w, int) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       EXPECT_EQ(w.plan.step_length_m[l], w.gait.step_length_m[l]);
@@ -151,7 +151,7 @@ TEST(FirstStep, HasTheLengthAndTheTimeThatWereAsked) {
   });
 }
 
-TEST(FirstStep, ASettledStepPlannedAgainIsTheSame) {
+TEST(FirstStep, SettledStepIsUnchangedWhenPlannedAgain) {
   over_first_steps(3, 10, 0.5, [](Walkers& w, int block) {
     const auto before = std::make_unique<StepPlan<Lanes<float>>>(w.plan);
     w.strike();
@@ -162,7 +162,7 @@ TEST(FirstStep, ASettledStepPlannedAgainIsTheSame) {
   });
 }
 
-/// Heavier people's feet are further apart, at one speed their steps are as long; light people's are as usual.
+/// Heavier people's feet are farther apart, with equal step length at one speed. Light people have usual steps.
 TEST(FirstStep, HeavyPeopleWalkWithWiderSteps) {
   Walkers w;
   for (std::size_t l = 0; l < lane_count; ++l) {
@@ -196,7 +196,8 @@ TEST(NextStep, UnevenStepsAlternateAndJoin) {
       const StepPlan<float> a = row(*before, l), b = row(w->plan, l);
       expect_joined(a, b);
       EXPECT_EQ(b.settled, 0U);
-      // After the first the pairs add up to two mean steps, the right one longer and slower by what was asked.
+      // After the first step, pairs add up to two mean steps; the right one is longer and slower by the requested
+      // asymmetry.
       if (step == 0) continue;
       const Gait<float> g = row(w->gait, l);
       const float right_step = w->state.stance_side[l] == Side::left ? b.step_length_m : a.step_length_m;
@@ -209,7 +210,7 @@ TEST(NextStep, UnevenStepsAlternateAndJoin) {
   }
 }
 
-/// A new wish for some of the walkers: another gait, to stop, or to go on as before.
+/// Changes the gait or heading of some walkers, or stops them; others continue.
 void change_some(Walkers& w, Dice& dice, double style_part) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const double what = dice(0, 10);
@@ -220,8 +221,8 @@ void change_some(Walkers& w, Dice& dice, double style_part) {
   }
 }
 
-/// Walks through `steps` strikes of sixteen with changes on the way; check(before, after, lane, plan at the end of the
-/// first, walkers at the start of the second).
+/// Runs sixteen walkers through `steps` strikes with changes on the way. Calls check(before, after, lane, plan at the
+/// end of the first step, walkers at the start of the second).
 template <class Check>
 void over_changes(unsigned seed, int steps, double style_part, Check check) {
   Dice dice{std::mt19937(seed)};
@@ -242,7 +243,7 @@ void over_changes(unsigned seed, int steps, double style_part, Check check) {
   }
 }
 
-/// The jumps of fifty changes; each step is finite and joins the one before.
+/// Returns the jumps of fifty changes. Each step is finite and joins the one before.
 Jump jump_through_changes(unsigned seed, double style_part) {
   Jump jump;
   over_changes(seed, 50, style_part, [&](const auto& before, const auto& after, std::size_t l, const auto& a, auto& w) {
@@ -254,10 +255,10 @@ Jump jump_through_changes(unsigned seed, double style_part) {
   return jump;
 }
 
-TEST(NextStep, PoseAndItsRatesGoOnThroughEveryChange) {
+TEST(NextStep, PoseAndRatesAreContinuousThroughEveryChange) {
   const Jump jump = jump_through_changes(5, 0.3);
   EXPECT_LT(jump.place, 1e-4);  // m
-  EXPECT_LT(jump.turn, 3e-3);   // as near as single precision tells two rotations apart
+  EXPECT_LT(jump.turn, 3e-3);   // the resolution of rotations in single precision
   EXPECT_LT(jump.angle, 0.05 * degree);
   EXPECT_LT(jump.rate, 1.5);       // rad/s, of rates up to 20: near a straight knee rates are steep
   EXPECT_LT(jump.hip_rate, 0.03);  // m/s
@@ -268,10 +269,10 @@ TEST(NextStep, StylesAtTheEndsOfTheirRangesStillJoin) {
   EXPECT_LT(jump.place, 1e-4);
   EXPECT_LT(jump.turn, 3e-3);
   EXPECT_LT(jump.angle, 0.05 * degree);
-  EXPECT_LT(jump.hip_rate, 0.8);  // where a leg is too short at a strike the pelvis sinks with it
+  EXPECT_LT(jump.hip_rate, 0.8);  // if a leg is too short at a strike the pelvis sinks with it
 }
 
-TEST(NextStep, WhatNoLegCanDoIsClampedAndStillGoesOnSmoothly) {
+TEST(NextStep, ImpossibleGaitsAreClampedAndStaySmooth) {
   Dice dice{std::mt19937(8)};
   auto w = random_walkers(8);
   auto last = std::make_unique<StepPlan<Lanes<float>>>();
@@ -280,7 +281,7 @@ TEST(NextStep, WhatNoLegCanDoIsClampedAndStillGoesOnSmoothly) {
   int clamped = 0;
   for (int step = 0; step < 30; ++step) {
     for (std::size_t l = 0; l < lane_count; ++l) {
-      // Far beyond what resolve_gait lets through: up to 12 m/s, steps of two leg lengths, six steps a second.
+      // Far beyond the limits of resolve_gait: up to 12 m/s, steps of two leg lengths, six steps a second.
       w->gait.speed_m_s[l] = step % 10 < 7 ? dice.single(4, 12) : 0.0F;
       w->gait.step_length_m[l] = step % 10 < 7 ? dice.single(0.3, 2.0) * w->size.height_m[l] * 0.49F : 0.0F;
       w->gait.step_frequency_hz[l] = step % 10 < 7 ? w->gait.speed_m_s[l] / w->gait.step_length_m[l] : 0.0F;
@@ -304,7 +305,7 @@ TEST(NextStep, WhatNoLegCanDoIsClampedAndStillGoesOnSmoothly) {
   EXPECT_LT(jump.angle, 0.05 * degree);
 }
 
-TEST(NextStep, SpeedsChangeByNoMoreThanALegCanDoAndArrive) {
+TEST(NextStep, SpeedChangesAreLimitedAndArrive) {
   constexpr double faster = 0.30, slower = 0.60, first = 0.60, last_speed = 1.35;  // m/s at a leg of 0.90 m
   for (unsigned seed = 11; seed <= 20; ++seed) {
     Dice dice{std::mt19937(seed)};
@@ -319,7 +320,7 @@ TEST(NextStep, SpeedsChangeByNoMoreThanALegCanDoAndArrive) {
           const double most = from == 0 ? first : faster, least = to == 0 ? last_speed : slower;
           EXPECT_LE(to - from, most * scale + 1e-6);
           EXPECT_LE(from - to, std::fmax(least, slower) * scale + 1e-6);
-          // Toward what is asked, never beyond.
+          // Speeds approach the requested one and never overshoot.
           EXPECT_LE(std::fabs(aim - to), std::fabs(aim - from) + 1e-6);
           EXPECT_GE((aim - from) * (to - from), 0.0);
         }
@@ -330,7 +331,7 @@ TEST(NextStep, SpeedsChangeByNoMoreThanALegCanDoAndArrive) {
   }
 }
 
-TEST(NextStep, WhoIsAskedToStopStandsStillWithBothFeetFlatSideBySide) {
+TEST(NextStep, StoppedWalkersStandWithBothFeetFlatSideBySide) {
   auto w = random_walkers(9, 0.3);
   for (int step = 0; step < 5; ++step) w->strike();
   for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = row(w->gait.style, l)});
@@ -362,8 +363,8 @@ TEST(NextStep, WhoIsAskedToStopStandsStillWithBothFeetFlatSideBySide) {
   }
 }
 
-/// Who stands and is given another style steps on the spot until both feet are as it has them; no foot slides.
-TEST(NextStep, AStandersStyleMayChangeButItsFeetDoNotSlide) {
+/// A standing walker with a new style steps in place until both feet match it; no foot slides.
+TEST(NextStep, StandingStyleChangesWithoutSlidingFeet) {
   Dice dice{std::mt19937(10)};
   auto w = random_walkers(10, 0.3);
   for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = random_style(dice, 0.5)});

@@ -1,4 +1,4 @@
-// What a walk's posture does, parameter by parameter, in walkers as they walk.
+// Effect of each posture parameter on steady walks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr float degree = 3.14159265F / 180;
 /// One cycle of a right leg in a steady walk, from its heel strike.
 struct Cycle {
   std::vector<float> knee, ankle, pitch, toe_up, hips_up, lean;
-  float off;  // toe-off, of the cycle
+  float off;  // toe-off, as a fraction of the cycle
 };
 
 Cycle walk(float speed_m_s, const GaitStyle& style) {
@@ -65,11 +65,11 @@ struct Aspect {
   const char* name;
   float GaitStyle::*parameter;
   float by;
-  std::function<float(const Cycle&, const Cycle&)> value;  // of a walk beside the usual one
+  std::function<float(const Cycle&, const Cycle&)> value;  // of a walk compared with the usual one
 };
 
-/// In the parameter's own unit, where it has one that can be seen.
-TEST(Style, ParametersChangeWhatTheyAreCalledBy) {
+/// Checks parameters with a visible effect in the parameter's own unit.
+TEST(Style, ParametersChangeTheQuantityTheyAreNamedAfter) {
   const std::vector<Aspect> aspects = {
       {"strike pitch", &GaitStyle::strike_pitch_deg, 4, [](const Cycle& c, const Cycle&) { return c.pitch[0]; }},
       {"strike knee", &GaitStyle::strike_knee_deg, 6, [](const Cycle& c, const Cycle&) { return c.knee[0]; }},
@@ -105,8 +105,8 @@ TEST(Style, ParametersChangeWhatTheyAreCalledBy) {
   }
 }
 
-/// Those of forces and times, by their direction.
-TEST(Style, ParametersChangeTheirCurvesTheRightWay) {
+/// Checks the direction of effect of parameters of forces and times.
+TEST(Style, ParametersChangeTheirCurvesInTheRightDirection) {
   const auto with = [](float GaitStyle::*parameter, float value) {
     GaitStyle style;
     style.*parameter = value;
@@ -120,7 +120,7 @@ TEST(Style, ParametersChangeTheirCurvesTheRightWay) {
   const auto sway = [](const Cycle& c) { return greatest(c.lean, 0, 1) - least(c.lean, 0, 1); };
   EXPECT_GT(sway(with(&GaitStyle::trunk_stiffness, 3.0F)), 1.5F * sway(usual));
   EXPECT_GT(with(&GaitStyle::knee_release_cycle, 0.433F).knee[at(0.53F)], usual.knee[at(0.53F)] + 1);
-  // The centre of pressure is where the hips want it: the further ahead, the further ahead they are.
+  // The centre of pressure is where the hips need it, so it moves ahead with them.
   EXPECT_NE(with(&GaitStyle::foot_pivot_h, 0.02F).knee[at(0.3F)], usual.knee[at(0.3F)]);
   EXPECT_NE(with(&GaitStyle::roll_over, 0.62F).knee[at(0.3F)], usual.knee[at(0.3F)]);
 }

@@ -1,4 +1,4 @@
-// Walkers that turn: feet that stay where they are planted, footholds where the line says, motion without jumps.
+// Turning walkers: planted feet stay in place, footholds follow the line, and motion has no jumps.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,7 +12,7 @@ namespace mobil::turning_test {
 constexpr double pi = 3.14159265358979323846, degree = pi / 180.0;
 constexpr double max_turn = 30.0 * degree;
 
-/// Natural walks toward random headings.
+/// Returns natural walks toward random headings.
 std::unique_ptr<Walkers> turning(unsigned seed) {
   auto w = random_walkers(seed);
   Dice dice{std::mt19937(seed + 100)};
@@ -29,8 +29,8 @@ double wrapped(double angle) {
   return angle - 2 * pi * std::round(angle / (2 * pi));
 }
 
-/// No faster than a step may turn, by as much as the feet are put outward for, and no further than asked.
-TEST(Turning, GoesTheShorterWayWithinItsLimitsAndArrives) {
+/// A turn is limited per step, by the lateral foot offset, and by the requested heading.
+TEST(Turning, TurnsTheShorterWayWithinItsLimits) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto w = turning(seed);
     for (int step = 0; step < 30; ++step) {
@@ -43,7 +43,7 @@ TEST(Turning, GoesTheShorterWayWithinItsLimitsAndArrives) {
         EXPECT_LE(std::fabs(turn), max_turn + 1e-6);
         EXPECT_LE(std::fabs(sideways), 1.1 + 1e-5);
         EXPECT_LE(std::fabs(0.56 * height / 9.81 * sideways + w->state.shift_next_m[l]), 0.012 * height + 1e-5);
-        EXPECT_LE(std::fabs(turn), std::fabs(off) + 0.07);  // a foot cannot be put anywhere: a little too far, and back
+        EXPECT_LE(std::fabs(turn), std::fabs(off) + 0.07);  // foot placement is limited: a slight overshoot, and back
         EXPECT_GE(turn * off, -2e-3);
         EXPECT_EQ(w->state.turn_before_rad[l], before.turn_rad[l]);
         EXPECT_EQ(w->state.bend_before_per_m[l], before.bend_per_m[l]);
@@ -56,8 +56,9 @@ TEST(Turning, GoesTheShorterWayWithinItsLimitsAndArrives) {
   }
 }
 
-/// Up to 30° a step of 0.4 s, in place; a foot moves only while it is in the air; both feet end up where they point.
-TEST(Turning, ThoseWhoStandTurnOnTheSpot) {
+/// Up to 30° a step of 0.4 s, in place. A foot moves only while it is in the air, and both feet end at the requested
+/// heading.
+TEST(Turning, StandingPeopleTurnInPlace) {
   const auto w = turning(30);
   for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F});
   plan_first_step(w->size, w->gait, w->plan);
@@ -98,8 +99,12 @@ TEST(Turning, ThoseWhoStandTurnOnTheSpot) {
   }
 }
 
-/// The line moves by the chord of each step; the foot that lands stands beside the point that it then has.
-TEST(Turning, TheNextFootholdIsWhereTheLineSays) {
+/// The line moves by the chord of each step. The foot that lands is next to the line's new point:
+///
+///                        o left foot: half_width + shift to the left of the point
+///      *---- chord ----->*---- chord ----->*
+///      o right foot                        o right foot
+TEST(Turning, NextFootholdFollowsTheLine) {
   const auto w = turning(31);
   w->strike();
   for (int step = 0; step < 12; ++step) {
@@ -120,7 +125,7 @@ TEST(Turning, TheNextFootholdIsWhereTheLineSays) {
       const Vec3<float> ankle = at(w->pose.position_m[index(on_side(Segment::foot_right, side))], l);
       EXPECT_NEAR(ankle.x, w->state.line_x_m[l] + left_of * std::cos(heading), 3e-5);
       EXPECT_NEAR(ankle.z, w->state.line_z_m[l] - left_of * std::sin(heading), 3e-5);
-      EXPECT_NEAR(ankle.y, fraction::ankle_height * w->size.height_m[l], 1e-3);  // the heel may rise already
+      EXPECT_NEAR(ankle.y, fraction::ankle_height * w->size.height_m[l], 1e-3);  // the heel can be rising already
     }
   }
 }
@@ -131,11 +136,12 @@ TEST(Turning, PlantedFeetDoNotMove) {
   for (unsigned seed = 41; seed <= 44; ++seed) {
     const auto w = turning(seed);
     for (int step = 0; step < 8; ++step) {
-      // The stance foot from foot flat to the end, and on as the other foot until it leaves the ground.
+      // Observes the stance foot from foot flat to the end of the step, then as the other foot until it leaves the
+      // ground.
       std::array<Vec3<float>, lane_count> ball, heading;
       std::array<std::size_t, lane_count> side;
       auto ahead = [&](std::size_t l, std::size_t s) {
-        // The toes' own direction, from their joint: along the third axis, level.
+        // The direction of the foot: along its third axis, projected to the ground.
         const Vec3<float> z = rotated(at(w->pose.rotation[index(on_side(Segment::foot_right, s))], l), {0, 0, 1});
         const float r = std::sqrt(z.x * z.x + z.z * z.z);
         return Vec3<float>{z.x / r, 0, z.z / r};
@@ -171,8 +177,8 @@ TEST(Turning, PlantedFeetDoNotMove) {
   EXPECT_LT(turned, 1e-4);
 }
 
-TEST(Turning, AtAStrikeTheWalkerIsToBePlannedWhenAnythingChangesAndOnlyThen) {
-  // However the ticks fall, also where a step ends within rounding of a tick.
+TEST(Turning, WalkersArePlannedExactlyAtStrikes) {
+  // For any tick, including steps that end within rounding of a tick.
   Dice dice{std::mt19937(61)};
   const auto w = random_walkers(61);
   for (int trial = 0; trial < 20000; ++trial) {

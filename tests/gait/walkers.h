@@ -1,5 +1,5 @@
 #pragma once
-// Sixteen walkers, each another, side by side in one block and moved on as a simulation moves them.
+// Sixteen different walkers in one block, advanced as a simulation advances them.
 
 #include <algorithm>
 #include <array>
@@ -32,13 +32,13 @@ inline double distance(const Vec3<float>& a, const Vec3<float>& b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   return std::sqrt(x * x + y * y + z * z);
 }
-/// Angle between two rotations, rad.
+/// Returns the angle between two rotations, rad.
 inline double angle_between(const Quat<float>& a, const Quat<float>& b) {
   const double same = std::fabs(double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z + double{a.w} * b.w);
   return 2.0 * std::sqrt(std::fmax(2.0 - 2.0 * same, 0.0));
 }
-/// Every parameter somewhere in the given part of the way from its default to the ends of its range. The two that make
-/// right and left steps unlike stay as they are, and so does the swing, whose tests ask for it.
+/// Returns a style with every parameter at a random place within the fraction `part` of the way from its default to the
+/// ends of its range. The two asymmetries and the forward swing keep their defaults; tests set them separately.
 inline GaitStyle random_style(Dice& dice, double part) {
   GaitStyle style;
   for (const GaitParameter& p : gait_parameters) {
@@ -67,7 +67,7 @@ struct Walkers {
     const auto extra_fat = static_cast<float>(extra_fat_of(body[lane].composition));
     put(BodySize<float>{request.height_m, request.mass_kg, extra_fat}, size, lane);
   }
-  /// False where the gait is out of range; it is unchanged then.
+  /// Returns false if the gait is out of range; it is then unchanged.
   bool ask(std::size_t lane, const GaitRequest& request) {
     auto wanted = resolve_gait(body[lane], request);
     if (!wanted) return false;
@@ -90,7 +90,7 @@ struct Walkers {
     for (float& t : state.time_s.lane) t = time_s;
     place();
   }
-  /// To a part of the step.
+  /// Sets the time to a fraction of the step.
   void place_at(float part) {
     for (std::size_t l = 0; l < lane_count; ++l) state.time_s[l] = part * plan.duration_s[l];
     place();
@@ -107,7 +107,7 @@ struct Walkers {
     turn_gait(size, plan, gait, state, tick_s);
     place();
   }
-  /// From the end of this step to the start of the next, all at once.
+  /// Advances from the end of this step to the start of the next at once.
   void strike() {
     state.time_s = plan.duration_s;
     advance_gait(plan, state, 0.0F);
@@ -116,13 +116,13 @@ struct Walkers {
   }
 };
 
-/// Of any height, from very thin to very heavy.
+/// Returns a body of any height, from very thin to very heavy.
 inline BodyRequest random_body(Dice& dice) {
   const double height = dice(1.2, 2.2), mass = dice(15, 42) * height * height;
   return {.height_m = static_cast<float>(height), .mass_kg = static_cast<float>(std::clamp(mass, 30.0, 200.0))};
 }
 
-/// A speed alone, or with a step length or a step frequency, any that the body may be asked.
+/// Requests a speed alone, or with a step length or frequency, in the body's allowed range.
 inline void ask_anything(Walkers& w, std::size_t lane, Dice& dice, double style_part) {
   for (;;) {
     GaitRequest request;
@@ -136,7 +136,7 @@ inline void ask_anything(Walkers& w, std::size_t lane, Dice& dice, double style_
   }
 }
 
-/// A walk of a natural cadence, speeds as a part of the range.
+/// Requests a walk of natural cadence, with speeds as a fraction of the range.
 inline void ask_natural(Walkers& w, std::size_t lane, Dice& dice, double style_part) {
   GaitRequest request;
   request.style = random_style(dice, style_part);
@@ -145,7 +145,7 @@ inline void ask_natural(Walkers& w, std::size_t lane, Dice& dice, double style_p
   if (!w.ask(lane, request)) throw std::runtime_error("a natural walk was refused");
 }
 
-/// When the stance foot of a step that is like the one before has come down flat, s.
+/// Returns the time, s, at which the stance foot becomes flat in a step that equals the one before.
 inline float flat_s(const StepPlan<Lanes<float>>& plan, std::size_t l) {
   return 2 * (0.09F + plan.from.shape[step_shape::times.first][l]) * plan.duration_s[l];
 }

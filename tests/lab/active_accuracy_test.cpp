@@ -1,5 +1,5 @@
-// What level of detail promises of muscles that pull, beside nonlinear tissue: bodies that the accuracy table was not
-// measured on.
+// Predicted errors of level of detail for active muscles, compared with nonlinear tissue on bodies that the accuracy
+// table was not measured on.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ AccuracyPlan other_bodies() {
   return plan;
 }
 
-TEST(ActiveAccuracy, OtherBodiesErrAsTheTableSays) {
+TEST(ActiveAccuracy, OtherBodiesMatchTheTable) {
   if (std::getenv("MOBIL_LONG") == nullptr) GTEST_SKIP() << "takes minutes: tests/run --long, or MOBIL_LONG=1";
   const auto rows = measure_active_errors(other_bodies());
   std::vector<float> over;

@@ -1,5 +1,5 @@
-// `mobil bench`: figures under their promised names, positive and finite; bad input refused before anything is
-// measured. How long things take is not tested.
+// `mobil bench`: figures have their documented names and are positive and finite; bad input is refused before
+// measuring. Run times are not tested.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Figure {
   std::string unit;
 };
 
-/// Runs the named benches over 64 people. By name; every name once.
+/// Runs the named benchmarks with 64 people. Figures are stored by name; each name occurs once.
 struct Bench {
   explicit Bench(const std::string& names) {
     ran = run_mobil("bench " + names + " --people 64 --quiet --json bench.json", folder.path);
@@ -64,7 +64,7 @@ TEST(Bench, PromisedNamesArePositiveAndFinite) {
   for (const auto& [name, figure] : bench.figures) {
     EXPECT_TRUE(std::isfinite(figure.value) && figure.value > 0) << name << " is " << figure.value;
   }
-  // solved steps are counted where a walk can change, and else it is said that they are not
+  // solved steps are counted where a walk can change; elsewhere the output states that they are not
   EXPECT_NE(bench.ran.out.find("gait.us_per_resolve"), std::string::npos);
 
   const auto& machine = bench.json.at("machine");
@@ -76,7 +76,7 @@ TEST(Bench, PromisedNamesArePositiveAndFinite) {
   EXPECT_EQ(std::distance(fs::directory_iterator(bench.folder.path), fs::directory_iterator()), 1);
 }
 
-TEST(Bench, MeasuresWhatIsAskedAndTheMachine) {
+TEST(Bench, MeasuresNamedBenchmarksAndTheMachine) {
   if (sanitized) GTEST_SKIP() << measures_for_long;
   const Bench bench("skinning");
   ASSERT_EQ(bench.ran.status, 0) << bench.ran.err;
@@ -85,7 +85,7 @@ TEST(Bench, MeasuresWhatIsAskedAndTheMachine) {
   for (const auto& [name, figure] : bench.figures) {
     EXPECT_TRUE(name.starts_with("machine.") || name.starts_with("skinning.")) << name;
   }
-  // a share of a limit is the figure over that limit: bytes and operations a vertex are whole numbers
+  // a fraction of a limit is the figure divided by that limit; bytes and operations a vertex are integers
   const double ns = bench.figures.at("skinning.ns_per_vertex").value;
   const double bytes =
       bench.figures.at("skinning.bandwidth_fraction").value * ns * bench.figures.at("machine.bandwidth_gbps").value;
@@ -95,7 +95,7 @@ TEST(Bench, MeasuresWhatIsAskedAndTheMachine) {
   EXPECT_NEAR(operations, std::round(operations), 1e-6);
 }
 
-TEST(Bench, FiniteElementFiguresAreAllThereAndBelongTogether) {
+TEST(Bench, FiniteElementFiguresAreCompleteAndConsistent) {
   const Bench bench("fem --quick");
   ASSERT_EQ(bench.ran.status, 0) << bench.ran.err;
   EXPECT_EQ(bench.ran.err, "");
@@ -128,16 +128,16 @@ TEST(Bench, FiniteElementFiguresAreAllThereAndBelongTogether) {
     EXPECT_EQ(bench.figures.at(name).unit, name.find(".us_per_") != std::string::npos ? "us" : "1") << name;
   }
   EXPECT_NE(bench.ran.out.find("fem.threads2_speedup"), std::string::npos);
-  EXPECT_NE(bench.ran.out.find("fem.explicit81.ratio_to_"), std::string::npos);  // measured, or why not
+  EXPECT_NE(bench.ran.out.find("fem.explicit81.ratio_to_"), std::string::npos);  // measured, or the reason why not
 
-  // useful work over the time it took, over the peak
+  // useful work divided by its time and by the peak
   const double us = bench.figures.at("fem.explicit81.shared.us_per_step").value;
   const double flops = bench.figures.at("fem.explicit81.shared.peak_fraction").value * us * 1e3 *
                        bench.figures.at("machine.fma_peak_gflops").value;
   EXPECT_NEAR(flops, 2 * 9702, 1e-6 * flops);
 }
 
-TEST(Bench, PaperFiguresAreTablesThatRefuseWhatIsUnstable) {
+TEST(Bench, PaperFiguresRefuseUnstableSteps) {
   const Bench bench("paper_figures --quick");
   ASSERT_EQ(bench.ran.status, 0) << bench.ran.err;
   for (const std::string name : {"figure18.explicit81.2.0ms", "figure18.explicit81.3.0ms", "figure18.newmark81.4.0ms",
@@ -151,7 +151,7 @@ TEST(Bench, PaperFiguresAreTablesThatRefuseWhatIsUnstable) {
   }
   EXPECT_TRUE(bench.figures.contains("figure20.four_groups_at_3ms_over_three_at_2ms"));
   EXPECT_NE(bench.ran.out.find("above the limit 3.48 ms"), std::string::npos);
-  // a coarse mesh is further from the truth than a fine one
+  // a coarse mesh is less accurate than a fine one
   EXPECT_LT(bench.figures.at("figure19.newmark525_to_converged").value,
             bench.figures.at("figure19.explicit81_2ms_to_converged").value);
   EXPECT_NEAR(bench.figures.at("figure19.explicit81_to_newmark525").value, 0.0107, 0.0003);

@@ -1,6 +1,6 @@
 #pragma once
-// Blocks of muscle as CalculiX sees them: decks of C3D8 elements, its runs, the histories that it prints. Two of its
-// habits: numbers longer than twenty characters are refused, and ALPHA, its own damping, is −0.05 unless it is 0.
+// Blocks of muscle in CalculiX: input decks of C3D8 elements, runs, and printed histories. CalculiX refuses numbers
+// longer than twenty characters, and ALPHA, its numerical damping, is −0.05 unless it is set to 0.
 
 #include <fmt/format.h>
 
@@ -36,8 +36,8 @@ inline bool available() {
   return std::system("command -v ccx >/dev/null 2>&1") == 0;
 }
 
-/// The step's procedure card. An explicit run may not be DIRECT: its increment is the largest allowed, as long as that
-/// stays below CalculiX's own estimate of the stable one.
+/// Returns the step's procedure card. An explicit run must not be DIRECT: its increment is the largest allowed, as long
+/// as that is below CalculiX's own estimate of the stable one.
 inline std::string procedure_card(Procedure procedure, double dt_s, double seconds) {
   switch (procedure) {
     case Procedure::statics:
@@ -50,7 +50,7 @@ inline std::string procedure_card(Procedure procedure, double dt_s, double secon
   throw std::runtime_error("no such procedure");
 }
 
-/// The block with its face z = 0 fixed and the history's force spread evenly over the far face, at rest at t = 0.
+/// Returns the block with its face z = 0 fixed and the force spread evenly over the far face, at rest at t = 0.
 inline std::string deck(const Block& block, const ForceHistory& load, Procedure procedure, double dt_s,
                         double seconds) {
   const auto mesh = make_block(block.cells, block.cell_size_m).value();
@@ -97,7 +97,7 @@ inline std::string deck(const Block& block, const ForceHistory& load, Procedure 
   return text + "*NODE PRINT,NSET=CENTRE,FREQUENCY=1\nU\n*END STEP\n";
 }
 
-/// Reads the table that *NODE PRINT wrote.
+/// Reads a table written by *NODE PRINT.
 inline History read_history(const std::filesystem::path& file, std::size_t nodes) {
   std::istringstream lines(read_bytes(file));
   History history;
@@ -113,7 +113,7 @@ inline History read_history(const std::filesystem::path& file, std::size_t nodes
   return history;
 }
 
-/// Runs a deck in a folder of its own; throws with the end of what CalculiX said where it printed no history.
+/// Runs a deck in a temporary folder. Throws with the end of CalculiX's output if it printed no history.
 inline History run(const Block& block, const ForceHistory& load, Procedure procedure, double dt_s, double seconds) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "block.inp") << deck(block, load, procedure, dt_s, seconds);

@@ -1,5 +1,5 @@
-// Histories of `mobil muscle` against CalculiX, an independent finite-element code (package calculix-ccx): same mesh,
-// mass matrix and step.
+// Histories of `mobil muscle` compared with CalculiX, an independent finite-element code (package calculix-ccx), with
+// the same mesh, mass matrix and step.
 #include "tests/lab/calculix.h"
 
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ using calculix::Procedure;
   if (!calculix::available()) GTEST_SKIP() << "CalculiX is missing: apt-get install calculix-ccx"
 
 const Block coarse{{2, 2, 8}, 0.015, {}}, fine{{4, 4, 16}, 0.0075, {}};
-const Block stubby{{3, 2, 6}, 0.012, {1060, 2.5e4, 0.45}};  // odd across: its centre is a mean of nodes
+const Block stubby{{3, 2, 6}, 0.012, {1060, 2.5e4, 0.45}};  // odd number across: its centre is a mean of nodes
 
-/// Along (x, 0, z), N: growing slowly from rest, and a short push that leaves the block ringing.
+/// Forces along (x, 0, z), N: slow growth from rest, and a short push after which the block rings.
 ForceHistory slow(double x, double z) {
   return {{{0, {0, 0, 0}}, {10, {10 * x, 0, 10 * z}}}};
 }
@@ -28,7 +28,7 @@ ForceHistory ringing(double x, double z) {
   return {{{0, {0, 0, 0}}, {0.02, {x, 0, z}}, {0.04, {x, 0, z}}, {0.06, {0, 0, 0}}, {10, {0, 0, 0}}}};
 }
 
-/// What `mobil muscle` writes for the same, without its row of t = 0.
+/// Returns the history that `mobil muscle` writes, without its row of t = 0.
 History mobil_history(const Block& block, const ForceHistory& load, double dt_s, double seconds,
                       const std::string& options) {
   const TemporaryFolder folder;
@@ -54,7 +54,7 @@ History mobil_history(const Block& block, const ForceHistory& load, double dt_s,
   return history;
 }
 
-/// Norm of the difference over that of the other code's history.
+/// Returns the norm of the difference, relative to that of CalculiX's history.
 double distance(const History& ours, const History& theirs) {
   EXPECT_EQ(ours.size(), theirs.size());
   double error = 0, norm = 0;
@@ -80,8 +80,8 @@ Block damped(Block block, double alpha, double beta) {
   return block;
 }
 
-/// What differs with CalculiX' explicit variant, of first order in the step: see the mean of three below, and its
-/// damping, which is half a step late. The others solve the same equations.
+/// Bounds. CalculiX's explicit variant differs to first order in the step (see the mean of three steps below), and its
+/// damping is half a step late. The other methods solve the same equations.
 constexpr double explicit_criterion = 5e-3, implicit_criterion = 1e-4;
 
 void expect_agreement(const Case& c, Procedure procedure, const std::string& options) {
@@ -95,7 +95,7 @@ void expect_agreement(const Case& c, Procedure procedure, const std::string& opt
   }
 }
 
-TEST(Calculix, StaticAnswers) {
+TEST(Calculix, StaticSolutions) {
   NEED_CALCULIX();
   for (const Block& block : {coarse, fine, stubby}) {
     for (const auto& load : {slow(0.002, 0), slow(0, 0.02)}) {
@@ -122,8 +122,9 @@ TEST(Calculix, ExplicitCentralDifferences) {
 
 TEST(Calculix, ItsExplicitVariantPrintsAMeanOfThreeOfOurSteps) {
   NEED_CALCULIX();
-  // The explicit form of Newmark's method with β = 1/4 tests its forces at a predicted ũ, which is what central
-  // differences give, and prints u = ũ + ¼Δt²·a = (ũ₋₁ + 2ũ + ũ₊₁)/4: near the critical step no small matter.
+  // The explicit form of Newmark's method with β = 1/4 evaluates its forces at a predicted ũ, which is the result of
+  // central differences, and prints u = ũ + ¼Δt²·a = (ũ₋₁ + 2ũ + ũ₊₁)/4. Near the critical step the difference is
+  // large.
   const double dt = 2.8e-3;
   const auto load = ringing(0.001, 0.02);
   const auto theirs = calculix::run(coarse, load, Procedure::explicit_dynamics, dt, 200 * dt);

@@ -1,5 +1,4 @@
-// How walks are held against measured ones: the judging functions on made-up curves, the tables, the plots, the
-// command.
+// Comparison of walks with measurements: judging functions on synthetic curves, tables, plots, and the command.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -30,7 +29,7 @@ double between(double low, double high) {
   return low + (high - low) * *rc::gen::inRange(0, 10001) / 10000.0;
 }
 
-/// Smooth, periodic, of random amplitudes and phases.
+/// Returns a smooth periodic curve with random amplitudes and phases.
 CycleCurve random_curve(double amplitude = 30) {
   const double a = between(0.2, 1) * amplitude, b = between(-0.4, 0.4) * amplitude, mean = between(-20, 20);
   const double phase_a = between(0, 6.28), phase_b = between(0, 6.28);
@@ -54,7 +53,7 @@ MeasuredCurve with_sd(const CycleCurve& mean, double sd) {
   return curve;
 }
 
-RC_GTEST_PROP(Judge, AShiftedCurveIsInsideAsLongAsTheShiftIsWithinTheDeviation, ()) {
+RC_GTEST_PROP(Judge, ShiftedCurveIsInsideIfTheShiftIsWithinTheDeviation, ()) {
   const double sd = between(1, 10), shift = between(-20, 20);
   RC_PRE(std::abs(std::abs(shift) - sd) > 1e-6);
   const auto measured = with_sd(random_curve(), sd);
@@ -64,7 +63,7 @@ RC_GTEST_PROP(Judge, AShiftedCurveIsInsideAsLongAsTheShiftIsWithinTheDeviation, 
   RC_ASSERT(std::abs(rms_distance(ours, measured.mean) - std::abs(shift)) < 1e-9);
 }
 
-RC_GTEST_PROP(Judge, TwoSetsForgiveNoLessThanEachAloneAndNoMoreThanBoth, ()) {
+RC_GTEST_PROP(Judge, TwoSetsAllowAtLeastEachAndAtMostBoth, ()) {
   const auto first = with_sd(random_curve(), between(1, 15)), second = with_sd(random_curve(), between(1, 15));
   const auto ours = random_curve(), other = mapped(ours, 1, between(-10, 10));  // each in its own convention
   const CurvePair pairs[] = {{&ours, &first}, {&other, &second}};
@@ -75,7 +74,7 @@ RC_GTEST_PROP(Judge, TwoSetsForgiveNoLessThanEachAloneAndNoMoreThanBoth, ()) {
   RC_ASSERT(std::abs(rms_to_nearer_mean({&pairs[0], 1}) - rms_distance(ours, first.mean)) < 1e-12);
 }
 
-RC_GTEST_PROP(Judge, CorrelationKnowsNeitherScaleNorShift, ()) {
+RC_GTEST_PROP(Judge, CorrelationIgnoresScaleAndShift, ()) {
   const auto a = random_curve(), b = random_curve();
   const double r = correlation(a, b), scale = between(0.1, 5), shift = between(-50, 50);
   RC_ASSERT(r >= -1 - 1e-12 && r <= 1 + 1e-12);
@@ -86,7 +85,7 @@ RC_GTEST_PROP(Judge, CorrelationKnowsNeitherScaleNorShift, ()) {
   RC_ASSERT(correlation(flat, a) == 0);
 }
 
-RC_GTEST_PROP(Judge, APeakIsFoundBetweenTheSamples, ()) {
+RC_GTEST_PROP(Judge, PeakIsFoundBetweenSamples, ()) {
   const double at = between(10, 90), height = between(5, 60), width = between(8, 20);
   const bool maximum = *rc::gen::arbitrary<bool>();
   CycleCurve curve{};
@@ -100,7 +99,7 @@ RC_GTEST_PROP(Judge, APeakIsFoundBetweenTheSamples, ()) {
   RC_ASSERT(std::abs(std::abs(peak.value) - height) < 0.002 * height);
 }
 
-RC_GTEST_PROP(Judge, BetweenTheReferencesNothingIsOff, ()) {
+RC_GTEST_PROP(Judge, ValuesBetweenReferencesHaveNoError, ()) {
   const double low = between(1, 50), high = low + between(0.1, 50), ours = between(0.5, 120);
   const double references[] = {high, low}, negative[] = {-high, -low};
   const double errors[] = {ours - low, ours - high};
@@ -115,7 +114,7 @@ RC_GTEST_PROP(Judge, BetweenTheReferencesNothingIsOff, ()) {
   }
 }
 
-RC_GTEST_PROP(Judge, SamplingReadsALineOffUnevenRows, ()) {
+RC_GTEST_PROP(Judge, SamplingReadsALineFromUnevenRows, ()) {
   std::vector<double> phase = {-0.05};
   while (phase.back() < 1.02) phase.push_back(phase.back() + between(0.001, 0.03));
   const double slope = between(-50, 50), start = between(-50, 50);
@@ -133,7 +132,7 @@ GaitReference built_in() {
   return *reference;
 }
 
-/// Someone who walks exactly as the mean of a set's class, and whose feet bear his weight.
+/// Returns a walker with exactly the mean curves of a set's speed class, whose feet carry the weight.
 Comparison mean_walker(const GaitReference& reference, std::size_t speed_class) {
   WalkedStride stride{};
   const auto& curve = reference.sets[0].curve[speed_class];
@@ -160,7 +159,7 @@ std::vector<std::string> failed(const Comparison& comparison) {
   return names;
 }
 
-TEST(Verdicts, WhoWalksAsTheMeanKeepsEveryBound) {
+TEST(Verdicts, MeanWalkerKeepsEveryBound) {
   const auto reference = built_in();
   for (std::size_t c = 0; c < speed_class_count; ++c) {
     ASSERT_TRUE(reference.sets[0].measured[c]);
@@ -200,7 +199,7 @@ TEST(Verdicts, OneHumpIsNotTwo) {
   EXPECT_TRUE(std::ranges::any_of(names, [](const auto& n) { return n.find("humps of the") != std::string::npos; }));
 }
 
-TEST(Reference, StepsAreReadBetweenTheNormsAndNotBeyond) {
+TEST(Reference, StepsAreInterpolatedAndNotExtrapolated) {
   const auto reference = built_in();
   ASSERT_EQ(reference.steps.size(), 3U);
   for (const auto& band : reference.steps) {
@@ -210,7 +209,7 @@ TEST(Reference, StepsAreReadBetweenTheNormsAndNotBeyond) {
     for (std::size_t i = 0; i < band.norm.size(); ++i) {
       const auto& norm = band.norm[i];
       EXPECT_NEAR(band.at(norm.speed)->length, norm.length, 1e-12);
-      // measured on their own, but the speed is their product
+      // measured separately, but the speed is their product
       EXPECT_NEAR(norm.length * norm.cadence / norm.speed, 1, 0.03) << band.name << " " << norm.speed;
       EXPECT_EQ(outside_step_bands(reference, norm, false), 0.0);
       EXPECT_EQ(outside_step_bands(reference, norm, true), 0.0);
@@ -218,7 +217,7 @@ TEST(Reference, StepsAreReadBetweenTheNormsAndNotBeyond) {
   }
 }
 
-TEST(Reference, SpeedFollowsTheLegWhereItIsDimensionless) {
+TEST(Reference, DimensionlessSpeedScalesWithTheLeg) {
   const auto set = built_in().sets[0];
   EXPECT_NEAR(set.speed_m_s(compared_class::free, 0.9), 0.4294 * std::sqrt(9.81 * 0.9), 1e-9);
   EXPECT_NEAR(set.speed_m_s(compared_class::fast, 1.2) / set.speed_m_s(compared_class::fast, 0.3), 2, 1e-9);
@@ -236,8 +235,8 @@ TEST(Reference, MomentsGrowWithTheLegAndForcesDoNot) {
   }
 }
 
-/// A figure stiff as a board that turns about an axis through its centre of mass, faster and faster.
-TEST(Balance, AMomentThatTheMotionAsksForIsNotMissed) {
+/// A rigid figure that turns about an axis through its centre of mass with increasing speed.
+TEST(Balance, MomentOfTheMotionIsIncluded) {
   const Body body = make_body({.height_m = 1.8F, .mass_kg = 80}).value();
   const figure::Stance upright = figure::upright(1.8);
   const auto place = figure::places(1.8, upright);
@@ -259,7 +258,7 @@ TEST(Balance, AMomentThatTheMotionAsksForIsNotMissed) {
       const Vec3<double> own = segment_inertia_kg_m2(body, static_cast<Segment>(s));
       inertia += m * arm.cross(axis).squaredNorm() + (pitch ? own.x : own.z);
     }
-    for (const double borne : {0.0, 0.5, 1.0}) {  // of the moment, by a force under the centre of mass and beside it
+    for (const double borne : {0.0, 0.5, 1.0}) {  // fraction of the moment carried by an offset force
       BalanceMeter meter(body);
       const double lever = borne * inertia * spin_up / weight;
       GroundReaction<float> ground{};
@@ -286,7 +285,7 @@ TEST(Balance, AMomentThatTheMotionAsksForIsNotMissed) {
   }
 }
 
-/// What the ground's moment lacks of the motion's, N m/kg: rms in pitch, and in roll.
+/// Difference of the ground's moment from the motion's, N m/kg: rms in pitch and in roll.
 TEST(Balance, WalksTurnStopLimpAndStepAsideWithinTheirSoles) {
   const struct {
     std::string_view scene;
@@ -312,7 +311,7 @@ TEST(Balance, WalksTurnStopLimpAndStepAsideWithinTheirSoles) {
   }
 }
 
-TEST(Reference, AFolderIsReadWholeOrRefused) {
+TEST(Reference, FolderIsReadCompletelyOrRefused) {
   const TemporaryFolder folder;
   const auto complaint = [&] { return read_gait_reference(folder.path).error().message; };
   EXPECT_NE(complaint().find("holds none of the tables"), std::string::npos);
@@ -331,7 +330,7 @@ TEST(Reference, AFolderIsReadWholeOrRefused) {
   EXPECT_NE(complaint().find("needs the 51 rows"), std::string::npos);
 }
 
-TEST(Reference, ASecondSetInTheSameFormatJoinsTheBands) {
+TEST(Reference, SecondSetInTheSameFormatJoinsTheBands) {
   const TemporaryFolder folder;
   const auto first = built_in();
   const auto write = [&](const char* file, const std::string& header, std::initializer_list<GaitQuantity> quantities) {
@@ -373,7 +372,7 @@ std::size_t count(const std::string& text, std::string_view what) {
   return n;
 }
 
-TEST(Plot, WhatCannotBeShownBreaksTheLineAndNothingElse) {
+TEST(Plot, UndrawableValuesOnlyBreakTheLine) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   PlotPanel panel{"<&>", {"cost \"µs\"", {}, {}, true}, {"error", {}, {}, true}, {}, {}, {}, false};
   panel.lines.push_back({{1, 10, 100, 1000, 1e4}, {1, 0.1, nan, 0.01, 0.02}, "#000", "ours", 1, false});
@@ -389,7 +388,7 @@ TEST(Plot, WhatCannotBeShownBreaksTheLineAndNothingElse) {
   EXPECT_EQ(count(path, "M"), 2U) << path;
 }
 
-TEST(Plot, EveryPanelIsDrawnAndAFigureOfNothingIsStillAPicture) {
+TEST(Plot, EveryPanelIsDrawnAndEmptyFiguresAreValid) {
   for (const std::size_t panels : {std::size_t{0}, std::size_t{1}, std::size_t{5}}) {
     PlotFigure figure{"title", "note", 2, 240, 150, true, std::vector<PlotPanel>(panels)};
     const std::string text = svg(figure);
@@ -401,7 +400,7 @@ TEST(Plot, EveryPanelIsDrawnAndAFigureOfNothingIsStillAPicture) {
   }
 }
 
-TEST(Command, WritesNumbersAndPlotsAndSaysWhatDoesNotHold) {
+TEST(Command, WritesNumbersAndPlotsAndReportsFailures) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("compare --height 1.80 --mass 70 --out out", folder.path);
   ASSERT_EQ(ran.status, 0) << ran.err;

@@ -1,4 +1,4 @@
-// A real belly at finite strain as CalculiX sees it: neo-Hookean quadratic elements (C3D20R) on the same geometry,
+// A real belly at finite strain compared with CalculiX: neo-Hookean quadratic elements (C3D20R) on the same geometry,
 // without fibres or fascia. Eight-node elements lock at this bulk modulus.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -24,9 +24,9 @@ namespace mobil::finite_calculix_test {
 namespace {
 
 constexpr Cells cells = {2, 2, 8};
-constexpr std::uint32_t cuts = 3;  // of our elements, each way, within one of CalculiX's
+constexpr std::uint32_t cuts = 3;  // elements along each edge of a CalculiX element
 
-/// A place in the mesh's trilinear cells, in cells.
+/// Returns a point in the mesh's trilinear cells, given in cells.
 Vec3<double> place(const HexahedralMesh& mesh, double x, double y, double z) {
   const auto cell = [](double at, std::uint32_t count) { return std::min(static_cast<std::uint32_t>(at), count - 1); };
   const std::uint32_t i = cell(x, cells[0]), j = cell(y, cells[1]), k = cell(z, cells[2]);
@@ -51,7 +51,7 @@ double area(const Outline& outline) {
   return sum;
 }
 
-/// Half steps of cells round a section.
+/// Returns the outline of a section in half cells.
 std::vector<std::array<std::uint32_t, 2>> round_section() {
   std::vector<std::array<std::uint32_t, 2>> way;
   for (std::uint32_t i = 0; i < 4; ++i) way.push_back({i, 0});
@@ -61,7 +61,7 @@ std::vector<std::array<std::uint32_t, 2>> round_section() {
   return way;
 }
 
-/// The middle section's outline as CalculiX has it.
+/// Returns the middle section's outline from CalculiX.
 Outline calculix(const HexahedralMesh& mesh, const FiniteTissue& tissue, double shortening) {
   std::map<std::array<std::uint32_t, 3>, int> number;  // by half cells
   const auto at = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
@@ -125,7 +125,7 @@ Outline calculix(const HexahedralMesh& mesh, const FiniteTissue& tissue, double 
   return outline;
 }
 
-/// Our mesh, each of CalculiX's elements cut so many times each way.
+/// Returns the mesh with each of CalculiX's elements divided `times` times along each edge.
 HexahedralMesh cut_mesh(const HexahedralMesh& mesh, std::uint32_t times) {
   HexahedralMesh cut;
   cut.cells = {times * cells[0], times * cells[1], times * cells[2]};
@@ -146,7 +146,7 @@ Outline ours(const HexahedralMesh& mesh, const FiniteTissue& tissue, double shor
   FiniteScratch scratch = make_scratch(*belly);
   FiniteState state = state_at_rest(*belly);
   if (!settle(*belly, scratch, state, shortening, 0)) return outline;
-  // At half cells there are no nodes of ours where cuts are odd: corners of cells alone.
+  // Odd cuts have no nodes at half cells, so only corners of cells are compared.
   for (const auto& [i, j] : round_section()) {
     if (i % 2 + j % 2 != 0) continue;
     const std::uint32_t n = node_index(cut.cells, cuts * i / 2, cuts * j / 2, cuts * cells[2] / 2);
@@ -155,7 +155,7 @@ Outline ours(const HexahedralMesh& mesh, const FiniteTissue& tissue, double shor
   return outline;
 }
 
-/// What Method::finite steps to, damped: the nodes round the middle section.
+/// Returns the nodes round the middle section from damped steps of Method::finite.
 Outline stepped(const HexahedralMesh& mesh, double shortening) {
   constexpr float tick_s = 1.0F / 60;
   MuscleOptions options{FarEnd::held, 60, 1, 1};
@@ -186,7 +186,7 @@ Outline stepped(const HexahedralMesh& mesh, double shortening) {
 }
 
 /// 425 nodes, one point an element, in single precision.
-TEST(FiniteMethod, StepsToWhatCalculixSays) {
+TEST(FiniteMethod, SettlesToTheCalculixSolution) {
   if (std::system("command -v ccx >/dev/null 2>&1") != 0) GTEST_SKIP() << "ccx is not installed";
   FiniteTissue tissue = stepped_tissue(Material{});
   tissue.passive_pa = tissue.active_pa = 0;
@@ -198,7 +198,7 @@ TEST(FiniteMethod, StepsToWhatCalculixSays) {
   }
 }
 
-TEST(FiniteBelly, IsWhatCalculixSays) {
+TEST(FiniteBelly, MatchesCalculix) {
   if (std::system("command -v ccx >/dev/null 2>&1") != 0) GTEST_SKIP() << "ccx is not installed";
   FiniteTissue tissue;
   tissue.passive_pa = tissue.active_pa = tissue.slack_tone = 0;

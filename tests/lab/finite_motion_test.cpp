@@ -1,4 +1,5 @@
-// Motion at finite strain in double: it comes to rest where statics are, and its error is of second order in the step.
+// Motion at finite strain in double precision: it comes to rest in the static solution, and its error is of second
+// order in the step.
 #include "assets/finite/finite_motion.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
   return most;
 }
 
-TEST(FiniteMotion, ComesToRestWhereStaticsAre) {
+TEST(FiniteMotion, ComesToRestInTheStaticSolution) {
   const FiniteBelly belly = spindle();
   FiniteScratch scratch = make_scratch(belly);
   FiniteMotion motion = motion_at_rest(belly);
@@ -40,7 +41,7 @@ TEST(FiniteMotion, ComesToRestWhereStaticsAre) {
   EXPECT_LT(apart(motion.displacement_m, still.displacement_m), 2e-6);
 }
 
-/// A kick while the end moves and fibres begin to pull, then free: twice as many steps, a quarter of the error.
+/// A kick while the end moves and fibres become active, then free motion: half the step gives a quarter of the error.
 TEST(FiniteMotion, IsOfSecondOrder) {
   const FiniteBelly belly = spindle();
   FiniteScratch scratch = make_scratch(belly);
@@ -61,7 +62,7 @@ TEST(FiniteMotion, IsOfSecondOrder) {
   EXPECT_LT(fine, 1e-4);
 }
 
-TEST(FiniteMotion, AStepThatIsTooLongChangesNothing) {
+TEST(FiniteMotion, FailedStepChangesNothing) {
   const FiniteBelly belly = spindle();
   FiniteScratch scratch = make_scratch(belly);
   FiniteMotion motion = motion_at_rest(belly);
@@ -70,8 +71,8 @@ TEST(FiniteMotion, AStepThatIsTooLongChangesNothing) {
   EXPECT_EQ(apart(motion.displacement_m, motion_at_rest(belly).displacement_m), 0);
 }
 
-/// What shape and tension change of a shaken muscle that pulls is most of what a linear one gets wrong.
-TEST(FiniteMotion, TunedBelliesAreShakenAsTissueIs) {
+/// Changes of shape and tension in shaken, active muscles are most of the error of linear bellies.
+TEST(FiniteMotion, TunedBelliesMoveLikeTissue) {
   const Muscle row[] = {*find_muscle("rectus_femoris")};
   const auto found = measure_active(row, [](std::string_view, double) {});
   const auto way = [&](std::string_view name) {

@@ -1,6 +1,6 @@
-// `mobil frontier`: what is on the frontier really is; errors fall where they must; what is written has the promised
-// columns; bad usage is refused before anything is made. How long things take is not tested.
-// One process for all tests of a suite: the small frontier is measured once.
+// `mobil frontier`: rows on the frontier are not dominated; errors fall as expected; files have the documented columns;
+// bad usage is refused before measuring. Run times are not tested.
+// The tests share the small frontier, so they run in one process.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -33,7 +33,7 @@ FrontierLevel modal(std::uint32_t modes, bool moving = true) {
   return level;
 }
 
-/// One muscle of one walker for a second, and few ways.
+/// Returns a request for one muscle of one walker for a second, with few methods.
 FrontierRequest tiny_request() {
   FrontierRequest request;
   request.muscles = {Muscle::triceps_surae};
@@ -72,7 +72,7 @@ TEST(Frontier, ErrorsFallWithTheMeshAndTheVectors) {
   EXPECT_LT(row("explicit-central", "4x4x16").error, row("explicit-central", "2x2x8").error);
   EXPECT_LT(row("modal", "4x4x16", 12).error, row("modal", "4x4x16", 4).error);
   EXPECT_LT(row("modal", "4x4x16", 12).error, row("explicit-central", "2x2x8").error);
-  // walks excite waves, which static answers have not
+  // walks excite waves, which static solutions lack
   EXPECT_GT(row("static", "2x2x8").error, 2 * row("explicit-central", "2x2x8").error);
   EXPECT_GT(row("modal-static", "4x4x16", 12).error, 2 * row("modal", "4x4x16", 12).error);
   for (const FrontierRow& r : tiny().rows) {
@@ -85,14 +85,14 @@ TEST(Frontier, ErrorsFallWithTheMeshAndTheVectors) {
   }
 }
 
-TEST(Frontier, WhatCannotBeSteppedIsLeftOutWithAReason) {
+TEST(Frontier, UnstableLevelsAreLeftOutWithAReason) {
   EXPECT_EQ(tiny().rows.size(), tiny_request().levels.size() - 1);
   ASSERT_EQ(tiny().notes.size(), 1U);
   EXPECT_NE(tiny().notes[0].find("10 ms"), std::string::npos) << tiny().notes[0];
   EXPECT_NE(tiny().notes[0].find("critical step"), std::string::npos) << tiny().notes[0];
 }
 
-TEST(Frontier, RatiosAreToTheFirstLevelAndStepsAreAsAsked) {
+TEST(Frontier, RatiosReferToTheFirstLevelAndStepsAreAsRequested) {
   const FrontierRow& paper = tiny().rows.front();
   EXPECT_EQ(paper.ratio, 1);
   EXPECT_DOUBLE_EQ(paper.dt_s, 0.002);
@@ -104,7 +104,7 @@ TEST(Frontier, RatiosAreToTheFirstLevelAndStepsAreAsAsked) {
   EXPECT_DOUBLE_EQ(row("newmark", "2x2x8").dt_s, frontier_tick_s);
 }
 
-/// Mark of each row by asking of every other whether it is better.
+/// Compares the mark of each row with a pairwise check.
 RC_GTEST_PROP(Frontier, IsTheNonDominatedSet, ()) {
   std::vector<FrontierRow> rows(*rc::gen::inRange<std::size_t>(1, 40));
   for (FrontierRow& r : rows) {

@@ -1,4 +1,4 @@
-// The fitted steps: the least-squares method, the model of a step, and the table as it was written.
+// Fitted steps: the least-squares method, the model of a step, and the committed table.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ const GaitReference& reference() {
   return read;
 }
 
-/// A node with the shape that the table has.
+/// Returns a node with the table's shape.
 StepNode node(std::size_t s, std::size_t l) {
   StepNode made = step_node({&reference()}, s, l);
   made.shape = fitted(step_shapes[s][l]);
@@ -38,11 +38,11 @@ TEST(StepLookup, GivesTheTableAtItsNodes) {
   }
 }
 
-TEST(StepLookup, StandsAtZeroAndNeverJumps) {
+TEST(StepLookup, IsZeroAtStandingAndContinuous) {
   for (const float number : tabled_step(0, 0.5F).shape) EXPECT_EQ(number, 0);
   const StepShape scale = shape_scales();
   TabledStep before = tabled_step(0, 0.2F);
-  for (float at = 0.001F; at < 0.9F; at += 0.001F) {  // slower and faster than the table, shorter and longer
+  for (float at = 0.001F; at < 0.9F; at += 0.001F) {  // slower, faster, shorter and longer than the table
     const TabledStep now = tabled_step(at, 0.2F + at);
     for (std::size_t i = 0; i < step_shape::size; ++i)
       EXPECT_NEAR(now.shape[i], before.shape[i], 0.5 * scale[i]) << at << ' ' << i;
@@ -65,7 +65,7 @@ TEST(StepTable, EveryStepKeepsItsFeetAndKnees) {
   }
 }
 
-TEST(StepTable, UsualStepsAreNearWhatWasMeasured) {
+TEST(StepTable, UsualStepsAreNearMeasurements) {
   for (std::size_t s = 0; s < speed_count; ++s) {
     const StepNode n = node(s, usual);
     const StepQuality q = step_quality(n.task, n.targets, n.shape);
@@ -79,7 +79,7 @@ TEST(StepTable, UsualStepsAreNearWhatWasMeasured) {
   }
 }
 
-TEST(StepTable, AStepIsMadeAgainFromItsNeighbours) {
+TEST(StepTable, StepIsReproducedFromItsNeighbours) {
   const StepNode written = node(4, usual);
   StepNode again = written;
   again.cost = INFINITY;
@@ -101,8 +101,8 @@ double max_lacking_m(const StepNode& node, const StepShape& shape) {
   return most;
 }
 
-/// One step of another posture each, by as much as people differ: what was asked for changes, balance does not.
-TEST(StepStyles, ChangeWhatTheyAreCalledByAndKeepBalance) {
+/// One step of each posture, changed within the human range: the named quantity changes, balance does not.
+TEST(StepStyles, ChangeTheirQuantityAndKeepBalance) {
   constexpr std::array<double, style_effects.size()> by = {3, 5, 5, -4, 0.01, 8, 4, 0.01, 0.008, 0.05, -0.3, 0.1, 4, 1};
   for (std::size_t s = 0; s < speed_count; ++s) {
     const StepNode n = node(s, usual);
@@ -118,8 +118,8 @@ TEST(StepStyles, ChangeWhatTheyAreCalledByAndKeepBalance) {
   }
 }
 
-/// Where a fit ends depends on how the mathematical library rounds on a processor: by up to 7 % on those tried.
-TEST(StepStyles, AreMadeAgain) {
+/// The end of a fit depends on the processor's rounding in the mathematical library: by up to 7 % on those tried.
+TEST(StepStyles, AreReproducible) {
   const StyleChanges again = style_changes(node(3, usual));
   static constexpr StepShape scale = shape_scales();
   for (std::size_t e = 0; e < style_effects.size(); ++e) {

@@ -1,5 +1,5 @@
-// What level of detail promises, kept: bodies and speeds that the accuracy table was not measured on walk with the
-// methods that are chosen for them, beside converged references of their very own.
+// Tolerances of level of detail: bodies and speeds that the accuracy table was not measured on walk with the chosen
+// methods, compared with converged references of their own.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -31,12 +31,13 @@ struct Plan {
   std::vector<float> speeds_m_s;
   std::vector<float> tolerances_m;  // the first one finest
   bool inertia = false;
-  /// A muscle that is taken up begins at rest; what that excites falls by e^-4 a second.
+  /// A muscle that is added starts at rest; the resulting vibration decays by e^-4 a second.
   double settle_s = 2, seconds = 2;
 };
 
-/// One muscle's ticks under one tolerance. `promised_m`: errors where it was said that it is kept, `stretched` the
-/// same over what the table alone (a margin of 1) predicts; `best_m`: where it said that no method keeps it.
+/// One muscle's ticks under one tolerance. `promised_m`: errors while the tolerance was reported as kept; `stretched`:
+/// the same relative to the table's prediction (a margin of 1); `best_m`: errors while no method was reported to keep
+/// it.
 struct Tally {
   std::vector<float> promised_m, stretched, best_m;
 };
@@ -141,8 +142,8 @@ void append(std::vector<float>& to, const std::vector<float>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// Tells what came out, mm (the last two columns: of what was promised, over what the table predicts, 99 % and all);
-/// and holds it to what was promised, tolerance by tolerance.
+/// Prints results, mm (the last two columns: promised errors relative to the table's prediction, 99 % and all), and
+/// checks them against each tolerance.
 void show(const Plan& plan, Tallies tallies) {
   fmt::print("{:>9}  {:<18}{:>8}{:>8}{:>8}{:>8}{:>10}{:>8}{:>9}\n", "allowed", "muscle", "median", "99 %", "99.9 %",
              "all", "promised", "best", "of table");
@@ -185,7 +186,7 @@ void show(const Plan& plan, Tallies tallies) {
 LodOptions options_of(bool inertia) {
   LodOptions options;
   options.machine_factor = 1;
-  options.stagger = 1;  // everybody begins as their references do
+  options.stagger = 1;  // all people start as their references
   options.switches = 100000;
   options.switching_s = 1;
   options.leg_muscles.inertia = inertia;
@@ -201,7 +202,7 @@ void expect_kept(const Plan& plan) {
 constexpr std::array groups = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
                                Muscle::tibialis_anterior};
 
-TEST(LodShow, TolerancesAreKeptByBodiesAndSpeedsThatWereNotMeasured) {
+TEST(LodShow, TolerancesHoldForUnmeasuredBodiesAndSpeeds) {
   expect_kept({.walkers = {{body_of(1.72F, 68, Constitution::average), {groups.begin(), groups.end()}},
                            {body_of(1.88F, 95, Constitution::heavy), {Muscle::tibialis_anterior}},
                            {body_of(1.63F, 58, Constitution::thin), {Muscle::hamstrings}}},
@@ -209,14 +210,14 @@ TEST(LodShow, TolerancesAreKeptByBodiesAndSpeedsThatWereNotMeasured) {
                .tolerances_m = {0.001F, 0.002F, 0.005F}});
 }
 
-TEST(LodShow, TolerancesAreKeptWhereMusclesFeelGravityAndTheirFramesMotion) {
+TEST(LodShow, TolerancesHoldWithGravityAndFrameMotion) {
   expect_kept({.walkers = {{body_of(1.72F, 68, Constitution::average), {Muscle::quadriceps}}},
                .speeds_m_s = {1.1F, 1.7F},
                .tolerances_m = {0.0015F, 0.002F, 0.005F},
                .inertia = true});
 }
 
-/// What LodOptions::margin was set by.
+/// The measurement that LodOptions::margin was set by.
 TEST(LodShow, TolerancesAreKeptByManyBodiesAtManySpeedsAndTolerances) {
   if (std::getenv("MOBIL_LONG") == nullptr) GTEST_SKIP() << "takes minutes: tests/run --long, or MOBIL_LONG=1";
   for (const bool inertia : {false, true}) {

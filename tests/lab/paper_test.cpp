@@ -1,4 +1,4 @@
-// `mobil paper`: what it writes and says, what it refuses.
+// `mobil paper`: its output and refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace mobil::paper_test {
 namespace fs = std::filesystem;
 
-/// Every element that is opened is closed, in order, and nothing is left over.
+/// Returns true if every opened element is closed, in order, and nothing remains.
 bool well_formed(const std::string& xml) {
   std::vector<std::string> open;
   for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
@@ -39,7 +39,7 @@ void expect_plot(const fs::path& file) {
   EXPECT_EQ(svg.find("inf"), std::string::npos) << file;
 }
 
-/// As machines without a graphics device have it; skips where the driver cannot be hidden.
+/// Runs without a graphics device; skips if the driver cannot be hidden.
 Ran run_blind(const std::string& arguments, const fs::path& in) {
   return run_shell("__EGL_VENDOR_LIBRARY_DIRS=/nowhere '" MOBIL_PROGRAM "' paper " + arguments, in);
 }
@@ -64,7 +64,7 @@ void expect_longer_steps_to_lower_the_centre_of_mass(const fs::path& made, const
     EXPECT_LT(table.number(r, "com_mean_height_mm"), table.number(r - 1, "com_mean_height_mm"));
     EXPECT_GT(table.number(r, "com_excursion_mm"), table.number(r - 1, "com_excursion_mm"));
   }
-  // The sentence tells the table's numbers.
+  // The sentence contains the table's numbers.
   EXPECT_NE(told.find(fmt::format("{:.0f} mm,", table.number(2, "com_excursion_mm"))), std::string::npos) << told;
 }
 
@@ -103,7 +103,7 @@ void expect_every_length_beside_the_published_one(const fs::path& made, const st
   EXPECT_NE(told.find(fmt::format("{:.2f}", 100 * std::sqrt(square))), std::string::npos) << told;
 }
 
-TEST(Paper, AllEntriesWriteTablesAndPlotsAndSayWithoutADeviceWhyThereAreNoPictures) {
+TEST(Paper, AllEntriesWriteTablesAndPlotsAndExplainMissingPictures) {
   const TemporaryFolder folder;
   const Ran ran = run_blind("--out all", folder.path);
   ASSERT_EQ(ran.status, 0) << ran.err;
@@ -120,7 +120,7 @@ TEST(Paper, AllEntriesWriteTablesAndPlotsAndSayWithoutADeviceWhyThereAreNoPictur
   expect_the_far_end_to_follow_its_pull(made);
   expect_every_length_beside_the_published_one(made, ran.out);
   EXPECT_EQ(ran.out.find("anatomy"), std::string::npos);
-  EXPECT_EQ(ran.err.find("mobil"), std::string::npos) << ran.err;  // of more than ten seconds progress is told
+  EXPECT_EQ(ran.err.find("mobil"), std::string::npos) << ran.err;  // progress is printed only after ten seconds
   const auto pictures = [&] {
     std::size_t count = 0;
     for (const auto& file : fs::directory_iterator(folder.path / "all")) count += file.path().extension() == ".png";
@@ -138,7 +138,7 @@ TEST(Paper, PublishedLengthsOfAnUnknownWalkAreAnError) {
   EXPECT_THROW(read_published_lengths("nobody"), Stopped);
 }
 
-TEST(Paper, RefusalsSayWhatIsKnownAndLeaveNothing) {
+TEST(Paper, RefusalsListValidNamesAndLeaveNothing) {
   const TemporaryFolder folder;
   expect_refused("paper",
                  {{"figure13", {"there is no entry 'figure13'", "figure14", "stature"}},
@@ -150,7 +150,7 @@ TEST(Paper, RefusalsSayWhatIsKnownAndLeaveNothing) {
                  folder.path);
 }
 
-TEST(PaperTable, CellsStandUnderTheirHeadsAndTurnedTablesHoldTheSame) {
+TEST(PaperTable, CellsAlignWithHeadsAndTransposedTablesAreEqual) {
   const PaperTable table{
       "who", {{"a_mm", "first\nmm", 1}, {"b", "b", 2}}, {{"naïve", {1.25, 2}}, {"x\ny", {-30, NAN}}}};
   EXPECT_EQ(table_text(table),

@@ -1,5 +1,4 @@
-// `mobil robustness`: every hard case holds, each row says by which figures, and bad input is refused before anything
-// is tried.
+// `mobil robustness`: every hard case holds, each row shows its figures, and bad input is refused before anything runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +17,7 @@
 namespace mobil::robustness_test {
 namespace fs = std::filesystem;
 
-/// First word of every line of `mobil robustness --list`.
+/// Returns the first word of every line of `mobil robustness --list`.
 std::vector<std::string> listed() {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("robustness --list", folder.path);
@@ -29,7 +28,7 @@ std::vector<std::string> listed() {
   return names;
 }
 
-TEST(Robustness, EveryRowHoldsAndSaysSo) {
+TEST(Robustness, EveryRowHoldsAndIsReported) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("robustness --quick --quiet --json robustness.json", folder.path);
   EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
@@ -61,7 +60,7 @@ TEST(Robustness, EveryRowHoldsAndSaysSo) {
   EXPECT_EQ(lines, json.at("rows").size() + 1) << "a line each and the count";
 }
 
-TEST(Robustness, TriesWhatIsNamed) {
+TEST(Robustness, RunsNamedCases) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("robustness --quick nan inverted", folder.path);
   EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
@@ -72,13 +71,13 @@ TEST(Robustness, TriesWhatIsNamed) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 0);
 }
 
-TEST(Robustness, ListTriesNothing) {
+TEST(Robustness, ListRunsNothing) {
   const auto names = listed();
   EXPECT_GE(names.size(), 20U);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
 }
 
-TEST(Robustness, WhatIsNoNumberNeverHolds) {
+TEST(Robustness, NanNeverHolds) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (const Promise promise : {Promise::at_most, Promise::at_least}) {
     EXPECT_FALSE((RobustnessRow{"", "", promise, 1, "", none}.held()));
@@ -88,7 +87,7 @@ TEST(Robustness, WhatIsNoNumberNeverHolds) {
   EXPECT_FALSE((RobustnessRow{"", "", Promise::at_least, 1, "", 0.999}.held()));
 }
 
-TEST(Robustness, BadInputIsOneLineAndNothingIsTried) {
+TEST(Robustness, BadInputIsOneLineAndNothingRuns) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path / "taken");
   const std::map<std::string, std::vector<std::string>> refused = {

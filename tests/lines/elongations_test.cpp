@@ -1,4 +1,4 @@
-// Lengths of lines as knees see them: against the paths in double, of random legs in any pose.
+// Line lengths from knee frames, compared with the paths in double precision, for random legs in any pose.
 #include "systems/lines/elongations.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace geometry;
 
-/// A leg in the frame of its knee, in double.
+/// Returns a leg in the frame of its knee, computed in double precision.
 KneeFrame<float> knee_frame(const LegFrames<double>& leg, double flexion_rad) {
   const Quat<double> back = {-leg.thigh.x, -leg.thigh.y, -leg.thigh.z, leg.thigh.w};
   const auto place = [&](const Vec& world) { return to_float(rotated(back, world - leg.knee_m)); };
@@ -33,7 +33,7 @@ KneeFrame<float> knee_frame(const LegFrames<double>& leg, double flexion_rad) {
   return knee;
 }
 
-TEST(Elongations, AreThoseOfThePathsInAnyPose) {
+TEST(Elongations, MatchThePathsInAnyPose) {
   Random random;
   double worst = 0, most = 0, constant = 0;
   for (int round = 0; round < 40; ++round) {
@@ -69,7 +69,7 @@ TEST(Elongations, AreThoseOfThePathsInAnyPose) {
   }
   EXPECT_LT(worst, 2e-6);
   EXPECT_GT(most, 0.4);
-  EXPECT_GT(constant, 0.05);  // some ways are within one bone
+  EXPECT_GT(constant, 0.05);  // some paths are within one bone
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What a muscle feels of its frame's motion: against the motion's own formulas, and a belly in it against a model that
-// knows of no frame.
+// Inertial loads of a muscle's moving frame, compared with exact formulas; and a belly in the frame, compared with a
+// model in space that has no frame.
 #include "systems/lines/frame_motion.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using namespace geometry;
 constexpr double g = static_cast<double>(gravity_m_s2);
 constexpr Vec down{0, -g, 0};
 
-/// A frame's origin and rotation at a time.
+/// Origin and rotation of a frame at a time.
 struct Frame {
   Vec origin;
   Quat<double> rotation;
@@ -35,7 +35,7 @@ Quat<double> about(const Vec& unit_axis, double rad) {
   return {s * unit_axis.x, s * unit_axis.y, s * unit_axis.z, std::cos(rad / 2)};
 }
 
-/// The matrix of a load's gradient, or its constant part, of a lane.
+/// Returns one lane of a load's constant part, or of a row of its gradient.
 Vec of(const Vec3<Lanes<float>>& v, std::size_t l) {
   return to_double(Vec3<float>{v.x[l], v.y[l], v.z[l]});
 }
@@ -43,7 +43,7 @@ std::array<Vec, 3> of(const Mat3<Lanes<float>>& m, std::size_t l) {
   return {of(m.x, l), of(m.y, l), of(m.z, l)};
 }
 
-/// Sixteen frames, fed to the system tick by tick.
+/// Sixteen frames, passed to the system tick by tick.
 struct Frames {
   LineOfAction<Lanes<float>> line{};
   FrameHistory<Lanes<float>> history{};
@@ -61,7 +61,7 @@ struct Frames {
   }
 };
 
-/// constant + gradient·x of a motion by differences of its own exact formula, in the frame of that moment.
+/// Returns constant + gradient·x of a motion from differences of its exact formula, in the frame at that time.
 Vec exact_load(const Motion& motion, double t, const Vec& x) {
   const double h = 1e-4;
   const auto place = [&](double at) {
@@ -76,7 +76,7 @@ Vec felt(const Vec& constant, const std::array<Vec, 3>& rows, const Vec& x) {
   return constant + Vec{dot(rows[0], x), dot(rows[1], x), dot(rows[2], x)};
 }
 
-/// Largest difference (m/s²) between the load felt at points of a muscle and the exact one a tick before.
+/// Returns the largest difference (m/s²) between the load at points of a muscle and the exact one a tick before.
 double worst_error(const Motion& motion, double dt) {
   Frames frames;
   double worst = 0;
@@ -95,7 +95,7 @@ double worst_error(const Motion& motion, double dt) {
 
 const Vec slanted = normalised(Vec{0.5, -0.3, 0.8});
 
-/// Turns evenly about an axis through a point that stands still.
+/// Returns uniform rotation about an axis through a fixed point.
 Motion turning(double rate) {
   return [rate](double t) {
     const Quat<double> q = product(about(slanted, rate * t), about({1, 0, 0}, 0.7));
@@ -103,7 +103,7 @@ Motion turning(double rate) {
   };
 }
 
-/// Swings about a wandering axis, as a shank does, going along.
+/// Returns a swing about a wandering axis with forward motion, as of a shank.
 Motion swinging() {
   return [](double t) {
     const Quat<double> q = product(about(slanted, 0.8 * std::sin(6 * t)), about({0, 1, 0}, 0.5 * std::cos(4 * t)));
@@ -111,7 +111,7 @@ Motion swinging() {
   };
 }
 
-TEST(FrameMotion, AFrameThatFallsFreelyFeelsNothing) {
+TEST(FrameMotion, FreelyFallingFrameHasNoLoad) {
   const Motion falling = [](double t) { return Frame{{0.3 * t, 2 - g / 2 * t * t, 1.2 * t}, about(slanted, 0.4)}; };
   Frames frames;
   for (int k = 0; k < 40; ++k) {
@@ -122,7 +122,7 @@ TEST(FrameMotion, AFrameThatFallsFreelyFeelsNothing) {
   }
 }
 
-TEST(FrameMotion, AFrameAtRestFeelsGravityAloneFromTheFirstTickOn) {
+TEST(FrameMotion, FrameAtRestHasOnlyGravityFromTheFirstTick) {
   const Quat<double> q = about(slanted, 2.1);
   const Vec gravity = rotated(conjugate(q), down);
   Frames frames;
@@ -134,7 +134,7 @@ TEST(FrameMotion, AFrameAtRestFeelsGravityAloneFromTheFirstTickOn) {
   }
 }
 
-TEST(FrameMotion, AWalkThatIsUnderWayAlreadyBeginsWithoutAKick) {
+TEST(FrameMotion, WalkInProgressStartsWithoutAKick) {
   const Motion even = [](double t) { return Frame{{0, 1, 1.4 * t}, about(slanted, 0.4)}; };
   Frames frames;
   for (int k = 0; k < 5; ++k) {
@@ -143,7 +143,7 @@ TEST(FrameMotion, AWalkThatIsUnderWayAlreadyBeginsWithoutAKick) {
   }
 }
 
-TEST(FrameMotion, EvenTurningGivesTheCentrifugalField) {
+TEST(FrameMotion, UniformRotationGivesTheCentrifugalField) {
   Frames frames;
   const double rate = 5;
   const auto motion = turning(rate);
@@ -164,7 +164,7 @@ TEST(FrameMotion, IsOfSecondOrderInTheTick) {
     const double coarse = worst_error(motion, 1 / 25.0), fine = worst_error(motion, 1 / 50.0);
     EXPECT_GT(coarse, 0.01);
     EXPECT_LT(coarse, 2);
-    EXPECT_GT(coarse / fine, 3.4);  // 4, but for rounding
+    EXPECT_GT(coarse / fine, 3.4);  // 4, except for rounding
     EXPECT_LT(coarse / fine, 4.6);
   }
 }
@@ -178,7 +178,7 @@ TEST(FrameMotion, FarFromTheOriginRoundingStaysSmall) {
   }
 }
 
-TEST(FrameMotion, TheMirrorImageFeelsTheMirrorImage) {
+TEST(FrameMotion, MirrorImageHasTheMirroredLoad) {
   const auto motion = swinging();
   const Motion image = [&](double t) { return Frame{mirrored(motion(t).origin), mirrored(motion(t).rotation)}; };
   Frames a, b;
@@ -221,7 +221,7 @@ struct Bellies {
   }
 };
 
-TEST(FrameMotion, UnderOneGravitySidewaysABellySagsFiveMillimetres) {
+TEST(FrameMotion, BellySagsFiveMillimetresUnderSidewaysGravity) {
   const auto muscle = belly(7, 8);
   const auto solver = make_belly_solver(muscle, Method::statics, Mass::lumped, 0);
   ASSERT_TRUE(solver) << solver.error().message;
@@ -237,13 +237,13 @@ TEST(FrameMotion, UnderOneGravitySidewaysABellySagsFiveMillimetres) {
   for (std::size_t n = 0; n < muscle.mesh.node.size(); ++n) {
     lowest = std::min(lowest, static_cast<double>(bellies.u[3 * n + 1][0]));
   }
-  const double loose = g / std::pow(2 * std::numbers::pi * 7, 2);  // of a mass on the foundation alone: 5.07 mm
+  const double loose = g / std::pow(2 * std::numbers::pi * 7, 2);  // a free mass on the foundation: 5.07 mm
   EXPECT_LT(lowest, -0.7 * loose);
   EXPECT_GT(lowest, -1.05 * loose);
 }
 
-/// Nodes as points in space: springs of the stiffness between them turned with the frame, gravity, faces carried along.
-/// It knows no force that comes of the frame's acceleration.
+/// Nodes as points in space, connected by springs whose stiffness turns with the frame, under gravity, with both faces
+/// carried along. The model has no inertial forces of the frame.
 class InSpace {
  public:
   InSpace(const MuscleTemplate& muscle, const Motion& motion)
@@ -303,7 +303,7 @@ class InSpace {
   std::vector<Vec> rest_, place_, speed_;
 };
 
-/// Largest displacement (m) of a belly held still at first, then shaken and turned, and the kernel's largest error.
+/// Largest displacement (m) of a belly that is first at rest, then shaken and turned, and the kernel's largest error.
 struct Outcome {
   double largest = 0, worst = 0;
 };
@@ -327,7 +327,7 @@ Outcome shake(double metres, double radians) {
     frames.tick(motion, t, tick);
     deform_explicit(bellies.block(frames.load), {FarEnd::held, bellies.end}, substeps, static_cast<float>(tick));
     space.run(t - 2 * tick, t - tick, tick / 20);
-    if (t < 0) continue;  // both sag
+    if (t < 0) continue;  // until then both sag
     for (std::size_t n = 0; n < muscle.mesh.node.size(); ++n) {
       const Vec there = space.displacement(t - tick, n);
       const Vec here{bellies.u[3 * n][0], bellies.u[3 * n + 1][0], bellies.u[3 * n + 2][0]};
@@ -338,8 +338,8 @@ Outcome shake(double metres, double radians) {
   return outcome;
 }
 
-TEST(FrameMotion, ABellyInAMovingFrameMovesAsInSpace) {
-  // What a linear belly leaves out stays small: loads at displaced places, Coriolis.
+TEST(FrameMotion, BellyInAMovingFrameMovesAsInSpace) {
+  // Effects that a linear belly neglects stay small: loads at displaced positions, Coriolis forces.
   const Outcome shaken = shake(0.03, 0), turned = shake(0, 0.3);
   EXPECT_GT(shaken.largest, 0.01);
   EXPECT_LT(shaken.worst, 0.01 * shaken.largest);

@@ -1,5 +1,5 @@
 #pragma once
-// Blocks of sixteen legs and lines for the tests of paths and lines of action, set from legs in double.
+// Blocks of sixteen legs and lines for tests of paths and lines of action, set from legs in double precision.
 
 #include <random>
 #include <vector>
@@ -58,13 +58,14 @@ struct Random {
     const auto height = static_cast<float>(between(1.2, 2.2));
     return make_body({height, living_mass(height, between(0, 1))}).value();
   }
-  /// All that joints can do, in any combination (assets/body/joint_limits.h), and the knee a little overstretched.
+  /// Returns random angles over the full range of the joints (assets/body/joint_limits.h), plus slight overextension of
+  /// the knee.
   LegAngles angles() { return {between(-30, 120), between(-5, 144), between(-50, 30)}; }
   Quat<double> turn(double max_deg) {
     return about({between(-1, 1), between(-1, 1), between(-1, 1)}, between(-max_deg, max_deg));
   }
   Vec place(double far) { return {between(-far, far), between(0, 2), between(-far, far)}; }
-  /// A leg whose pelvis and foot also turn out of the sagittal plane.
+  /// Returns a leg whose pelvis and foot also turn out of the sagittal plane.
   LegFrames<double> leg(const Body& own) {
     LegFrames<double> leg = posed(own, angles(), product(about({0, 1, 0}, between(-180, 180)), turn(10)), place(3));
     leg.pelvis = product(leg.pelvis, turn(10));
@@ -75,7 +76,7 @@ struct Random {
 
 enum class Joint { hip, knee, ankle };
 
-/// The leg with all that is distal of a joint turned about its flexion axis: flexion or dorsiflexion by that much more.
+/// Returns the leg with flexion or dorsiflexion of one joint increased: everything distal of it turns about its axis.
 inline LegFrames<double> flexed(LegFrames<double> leg, Joint joint, double by_deg) {
   using namespace geometry;
   const Quat<double>& proximal = joint == Joint::hip ? leg.pelvis : joint == Joint::knee ? leg.thigh : leg.shank;

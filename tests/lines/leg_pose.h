@@ -1,5 +1,5 @@
 #pragma once
-// A right leg posed by its joint angles, in double, for the tests of paths and lines of action.
+// A right leg posed by its joint angles, in double precision, for tests of paths and lines of action.
 
 #include <cmath>
 #include <numbers>
@@ -27,7 +27,14 @@ inline Quat<double> about(const Vec3<double>& axis, double deg) {
   return {s * n.x, s * n.y, s * n.z, std::cos(deg * degree / 2)};
 }
 
-/// The leg of a body at those angles under a pelvis turned by `pelvis`, its hip centre at `hip_m`.
+/// Returns the leg of a body at those angles under a pelvis turned by `pelvis`, with its hip centre at `hip_m`:
+///
+///      y ^   hip o
+///        |        `. thigh     hip_deg: flexion moves the knee forward (+z)
+///        |     knee o
+///        |        .' shank     knee_deg: flexion moves the ankle backward
+///        | ankle o___ foot     ankle_deg: dorsiflexion lifts the toes
+///        +------------------> z
 inline LegFrames<double> posed(const Body& body, const LegAngles& angles, const Quat<double>& pelvis = {0, 0, 0, 1},
                                const Vec3<double>& hip_m = {0, 0, 0}) {
   using namespace geometry;

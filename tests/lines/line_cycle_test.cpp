@@ -1,4 +1,4 @@
-// Muscles' lengths over the walking cycle: our paths on published joint angles, and in our own walk.
+// Muscle lengths over the walking cycle: computed paths on published joint angles, and in simulated walks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using test::posed;
 using test::read_table;
 using test::TableRow;
 
-/// A curve's name there, and whose mean it is.
+/// A curve's published name, and the muscles that it averages.
 struct Curve {
   std::string name;
   std::vector<std::string_view> members;
@@ -38,7 +38,7 @@ const std::vector<Curve> group_curves = {
     {"soleus", {"soleus"}},
     {"tibialis_anterior", {"tibialis_anterior"}}};
 
-/// Mean of the members' lengths, each over that in the anatomical position.
+/// Returns the mean of the members' lengths, each relative to that in the anatomical position.
 double normalised_length(const Curve& curve, const LegAngles& angles) {
   static const Body body = make_body({1.80F, 80}).value();
   double sum = 0;
@@ -53,7 +53,7 @@ LegAngles angles_of(const TableRow& row) {
   return {row("hip_flexion_deg"), row("knee_flexion_deg"), row("ankle_dorsiflexion_deg")};
 }
 
-/// Rows of a table that are of one walk.
+/// Returns the rows of a table that belong to one walk.
 std::vector<TableRow> rows_of(const std::vector<TableRow>& table, std::string_view column, std::string_view name) {
   std::vector<TableRow> rows;
   for (const TableRow& row : table) {
@@ -77,7 +77,7 @@ void expect_to_fit(const std::vector<Curve>& curves, const std::vector<TableRow>
   }
 }
 
-TEST(LineCycle, OnPublishedAnglesLengthsAreThePublishedOnes) {
+TEST(LineCycle, LengthsOnPublishedAnglesMatch) {
   const auto lengths = read_table(test::reference_table("muscle_lengths.csv").value()),
              angles = read_table(test::reference_table("schwartz2008_angles.csv").value());
   for (const std::string speed : {"slow", "free", "fast"}) {
@@ -86,7 +86,7 @@ TEST(LineCycle, OnPublishedAnglesLengthsAreThePublishedOnes) {
   }
 }
 
-TEST(LineCycle, OnEveryPublishedWalkEveryMuscleIsAsLong) {
+TEST(LineCycle, LengthsMatchOnEveryPublishedWalk) {
   const auto published = test::reference_table("mt_length_curves.csv");
   if (!published) GTEST_SKIP() << test::no_table;
   std::vector<Curve> curves;
@@ -153,10 +153,10 @@ LegMuscles only(const std::vector<std::string_view>& names) {
   return choice;
 }
 
-// Adults of several sizes against children, at equal speed over √(g·leg). What is missed is the ankle's (soleus,
-// gastrocnemius, tibialis anterior) and, at the highest speed, the hip's (hamstrings, rectus femoris): with the
-// measured angle of that one joint the lengths agree as well as the paths do.
-TEST(LineCycle, OurWalkLengthensMusclesAsMeasuredOnesDo) {
+// Compares adults of several sizes with children at equal speed over √(g·leg). The remaining errors are the ankle's
+// (soleus, gastrocnemius, tibialis anterior) and, at the highest speed, the hip's (hamstrings, rectus femoris). With
+// the measured angle of that one joint the lengths agree as well as the paths do.
+TEST(LineCycle, SimulatedWalkLengthensMusclesAsMeasured) {
   const auto lengths = read_table(test::reference_table("muscle_lengths.csv").value());
   const std::map<std::string, double> speeds = {{"slow", 0.2902}, {"free", 0.4294}, {"fast", 0.5599}};
   std::vector<std::string_view> members;
@@ -190,7 +190,7 @@ TEST(LineCycle, OurWalkLengthensMusclesAsMeasuredOnesDo) {
       const std::string whose = name + ' ' + walker.speed + ' ' + std::to_string(walker.body.height_m);
       EXPECT_LT(fit.rms(), 0.016) << whose;
       EXPECT_GT(fit.correlation(), 0.85) << whose;
-      EXPECT_GE(inside, 36) << whose;  // of 51
+      EXPECT_GE(inside, 36) << whose;  // of 51 samples
     }
   }
 }

@@ -1,4 +1,4 @@
-// The check that the paper makes after the finite elements: the deformed mesh's end against the line of action.
+// The paper's check after the finite elements: the deformed mesh's end, compared with the line of action.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,10 +16,11 @@ constexpr double rounding_m = 2e-6;
 
 struct EndError {
   double worst_m = 0, largest_change_m = 0;
-  double worst_part = 0;  // of the change, rounding (m) left out
+  double worst_part = 0;  // relative to the change, without rounding (m)
 };
 
-/// Of one person's muscles over a second of walking, by muscle: how far the mesh's end is from the line's.
+/// Returns the distance of the mesh's end from the line's, for one person's muscles over a second of walking, by
+/// muscle.
 std::vector<EndError> end_errors(const SamplePerson& who, const LegMuscles& choice) {
   Simulation simulation(sharing());
   const Entity person = simulation.spawn(who.body, who.gait).value();
@@ -46,8 +47,8 @@ std::vector<EndError> end_errors(const SamplePerson& who, const LegMuscles& choi
 
 class LineEnd : public testing::TestWithParam<int> {};
 
-// Drawn by displacement the end is the line's, whatever the method.
-TEST_P(LineEnd, FollowsTheLineExactlyWhereItIsDriven) {
+// With a displacement drive the mesh's end is the line's for any method.
+TEST_P(LineEnd, DrivenEndFollowsTheLineExactly) {
   for (const Method method : {Method::explicit_central, Method::statics}) {
     LegMuscles choice;
     choice.muscles = muscle_groups() | muscle_members();
@@ -59,8 +60,8 @@ TEST_P(LineEnd, FollowsTheLineExactlyWhereItIsDriven) {
   }
 }
 
-// The paper's force, +k(L − L₀) spread over the face, moves its mean as far as the line went, the rest being statics.
-TEST_P(LineEnd, IsWithinThreeThousandthsOfTheLengtheningUnderThePapersForce) {
+// The paper's force, +k(L − L₀) spread over the face, moves the face's mean as far as the line in the static solution.
+TEST_P(LineEnd, PaperForceEndIsWithinThreeThousandths) {
   LegMuscles choice;
   choice.muscles = muscle_groups() | muscle_members();
   choice.drive = Drive::force;

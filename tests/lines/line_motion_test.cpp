@@ -1,4 +1,4 @@
-// How lines lengthen and turn joints, in lanes: against differences of the lengths in double.
+// Line speeds and moment arms in lanes, compared with differences of the lengths in double precision.
 #include "systems/lines/line_motion.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ double arm_at(const Motion& motion, Joint joint, std::size_t l) {
                                                     : motion.ankle_dorsiflexion_arm_m[l]);
 }
 
-TEST(LineMotion, ArmsAreTheLengthsDerivatives) {
+TEST(LineMotion, ArmsAreDerivativesOfLengths) {
   Random random;
   for (const Muscle muscle : every_muscle()) {
     const MuscleLines lines = make_muscle_lines(muscle);
@@ -54,7 +54,7 @@ TEST(LineMotion, ArmsAreTheLengthsDerivatives) {
   }
 }
 
-TEST(LineMotion, SpeedIsWhatTheLengthGrewByInATick) {
+TEST(LineMotion, SpeedIsTheLengthChangePerTick) {
   Random random;
   constexpr float tick_s = 1.0F / 60;
   for (const Muscle muscle : every_muscle()) {

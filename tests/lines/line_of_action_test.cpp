@@ -1,4 +1,4 @@
-// Lines of action in lanes against the same paths in double, and what must hold for any pose.
+// Lines of action in lanes, compared with the same paths in double precision, and properties that hold for any pose.
 #include "systems/lines/line_of_action.h"
 #include "systems/lines/leg_path-inl.h"
 
@@ -62,7 +62,7 @@ TEST(LineOfAction, LanesAgreeWithDouble) {
   }
 }
 
-TEST(LineOfAction, StandingStillNothingIsStretchedAndTheFrameIsThePlans) {
+TEST(LineOfAction, StandingLinesAreUnstretchedInThePlannedFrame) {
   Random random;
   for (const Muscle muscle : every_muscle()) {
     const MuscleLines lines = make_muscle_lines(muscle);
@@ -75,7 +75,7 @@ TEST(LineOfAction, StandingStillNothingIsStretchedAndTheFrameIsThePlans) {
     }
     lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
     for (std::size_t l = 0; l < lane_count; ++l) {
-      EXPECT_NEAR(block.end.to[l], 0, 3e-7);  // the rounding of joint centres a metre off the ground
+      EXPECT_NEAR(block.end.to[l], 0, 3e-7);  // rounding of joint centres a metre above the ground
       EXPECT_EQ(block.end.from[l], block.end.to[l]);
       EXPECT_LT(length(at(block.line.start_m, l) - plan[l].start_m), 1e-6);
       const Quat<double> q = at(block.line.rotation, l), r = plan[l].rotation;
@@ -84,7 +84,7 @@ TEST(LineOfAction, StandingStillNothingIsStretchedAndTheFrameIsThePlans) {
   }
 }
 
-TEST(LineOfAction, TheFrameIsOrthonormalAndLiesAlongTheDrawnLine) {
+TEST(LineOfAction, FrameIsOrthonormalAndAlignedWithTheLine) {
   Random random;
   for (const Muscle muscle : every_muscle()) {
     const MuscleLines lines = make_muscle_lines(muscle);
@@ -107,7 +107,7 @@ TEST(LineOfAction, TheFrameIsOrthonormalAndLiesAlongTheDrawnLine) {
       for (std::size_t l = 0; l < lane_count; ++l) {
         const Quat<double> q = at(block.line.rotation, l);
         EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1, 2e-6);
-        // The start lies start_m along z from the anchor.
+        // The start is start_m along z from the anchor.
         const Vec z = rotated(q, {0, 0, 1}), from = at(block.line.start_m, l) - anchor[l];
         EXPECT_NEAR(length(z), 1, 2e-6);
         EXPECT_NEAR(dot(from, z), length(from), 2e-6);
@@ -147,7 +147,7 @@ TEST(LineOfAction, LengthAndFrameAreContinuousInTheJoints) {
           const Quat<double> q = at(block.line.rotation, l), p = frame_before;
           if (i > 0 || l > 0) {
             EXPECT_LE(std::abs(now - before), longest_arm_m * most / steps * degree + 2e-6);
-            // A frame turns with its bones, and by no more than three times as much.
+            // A frame turns with its bones, by at most three times their angle.
             const double turn = 2 * std::acos(std::min(1.0, std::abs(q.x * p.x + q.y * p.y + q.z * p.z + q.w * p.w)));
             EXPECT_LT(turn, 3 * most / steps * degree + 2e-3);
           }
@@ -179,7 +179,7 @@ LegFrames<double> mirror_image(LegFrames<double> leg) {
   return leg;
 }
 
-TEST(LineOfAction, ALeftLegIsTheRightOnesMirrorImage) {
+TEST(LineOfAction, LeftLegIsTheMirrorImageOfTheRight) {
   Random random;
   for (const Muscle muscle : every_muscle()) {
     const MuscleLines lines = make_muscle_lines(muscle);
@@ -197,7 +197,7 @@ TEST(LineOfAction, ALeftLegIsTheRightOnesMirrorImage) {
   }
 }
 
-TEST(LineOfAction, GatheringFromABlockAndFromARowIsTheSame) {
+TEST(LineOfAction, GatheringFromABlockAndFromARowAreEqual) {
   Random random;
   std::vector<Lanes<float>> words(7 * segment_count);
   for (auto& word : words) {
@@ -222,7 +222,7 @@ TEST(LineOfAction, GatheringFromABlockAndFromARowIsTheSame) {
   }
 }
 
-TEST(LineOfAction, WalkingFarAwayOrAnotherWayChangesNoLength) {
+TEST(LineOfAction, LengthIsIndependentOfPositionAndHeading) {
   Random random;
   const Body body = make_body({1.7F, 65}).value();
   for (const Muscle muscle : every_muscle()) {
@@ -239,7 +239,7 @@ TEST(LineOfAction, WalkingFarAwayOrAnotherWayChangesNoLength) {
   }
 }
 
-TEST(LineOfAction, ATickBeginsWhereTheLastOneEnded) {
+TEST(LineOfAction, TickStartsWhereTheLastOneEnded) {
   Random random;
   const Body body = make_body({1.9F, 90}).value();
   const MuscleLines lines = make_muscle_lines(Muscle::quadriceps);

@@ -1,4 +1,4 @@
-// Moment arms of muscles: against the published model's, of the right sign, without a jump anywhere.
+// Moment arms of muscles: close to the published model, of the right sign, and continuous.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ using test::posed;
 using test::Random;
 using test::set;
 
-/// A body whose legs are those that the paths were published for.
+/// Returns a body with the leg dimensions that the paths were published for.
 Body published_body() {
   Body body = make_body({1.80F, 80}).value();
   body.thigh_length_m = static_cast<float>(published_leg::thigh_m);
@@ -38,7 +38,7 @@ LegAngles with(LegAngles angles, Joint joint, double deg) {
   return angles;
 }
 
-/// −ΔL/Δθ, mm, from one angle of a joint to another.
+/// Returns −ΔL/Δθ, mm, from one angle of a joint to another.
 double mean_arm_mm(const MemberMuscle& muscle, const LegAngles& at, Joint joint, double from_deg, double to_deg) {
   static const Body body = published_body();
   const auto length_at = [&](double deg) {
@@ -47,14 +47,14 @@ double mean_arm_mm(const MemberMuscle& muscle, const LegAngles& at, Joint joint,
   return -1e3 * (length_at(to_deg) - length_at(from_deg)) / ((to_deg - from_deg) * degree);
 }
 
-/// The published ankle's axis is oblique, ours is not: a ninth of tibialis anterior's arm.
+/// The published ankle's axis is oblique, the model's is not: a ninth of tibialis anterior's arm.
 double allowed_mm(double published) {
   return std::max(0.12 * std::abs(published), 2.5);
 }
 
-// Arms of the published model (gait2392 of OpenSim, CC BY 3.0, Delp et al. 1990), mm: −ΔL/Δθ from each ten degrees to
-// the next, the other joints at zero.
-TEST(MomentArms, AreThoseOfThePublishedModel) {
+// Arms of the published model (gait2392 of OpenSim, CC BY 3.0, Delp et al. 1990), mm: −ΔL/Δθ over intervals of ten
+// degrees, with the other joints at zero.
+TEST(MomentArms, MatchThePublishedModel) {
   struct Row {
     std::string_view muscle;
     Joint joint;
@@ -89,7 +89,7 @@ TEST(MomentArms, AreThoseOfThePublishedModel) {
   }
 }
 
-TEST(MomentArms, AreThoseOfThePublishedModelOverItsWholeMap) {
+TEST(MomentArms, MatchThePublishedModelOverItsWholeMap) {
   const auto of_thigh = test::reference_table("mt_length_map_hip_knee.csv"),
              of_shank = test::reference_table("mt_length_map_knee_ankle.csv");
   if (!of_thigh || !of_shank) GTEST_SKIP() << test::no_table;
@@ -132,7 +132,7 @@ TEST(MomentArms, AreThoseOfThePublishedModelOverItsWholeMap) {
   EXPECT_LT(worst, 1) << of;
 }
 
-/// Arms in lanes of sixteen poses of one body.
+/// Returns arms in lanes for sixteen poses of one body.
 LineMotion<Lanes<float>> motion_of(const MuscleLines& lines, Block& block) {
   lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
   LineMotion<Lanes<float>> motion{};
@@ -140,8 +140,8 @@ LineMotion<Lanes<float>> motion_of(const MuscleLines& lines, Block& block) {
   return motion;
 }
 
-// Hip from −30° to 120°, knee to 115°, ankle from −50° to 30°, all combinations. Beyond 115° of knee flexion published
-// lines of the hamstrings pass in front of the knee's axis.
+// Hip from −30° to 120°, knee to 115°, ankle from −50° to 30°, all combinations. Beyond 115° of knee flexion the
+// published lines of the hamstrings pass in front of the knee's axis.
 TEST(MomentArms, FlexorsFlexAndExtensorsExtend) {
   const auto sign = [](std::string_view name, Joint joint) {
     const bool ham =
@@ -185,7 +185,7 @@ TEST(MomentArms, FlexorsFlexAndExtensorsExtend) {
   }
 }
 
-// Any body, any pose, any small turn of any joints: the length changes as its arms say, to second order.
+// Any body, any pose, any small turn of any joints: the length changes as the arms predict, to second order.
 TEST(MomentArms, LengthIsDifferentiableEverywhere) {
   constexpr double bend_m = 0.25;     // no arm changes by more per radian
   constexpr double longest_m = 0.13;  // nor is any longer, in a body of 2.2 m
@@ -227,7 +227,7 @@ TEST(MomentArms, LengthIsDifferentiableEverywhere) {
   }
 }
 
-// A fine sweep of each joint through all of its range: second differences see a jump of a micrometre.
+// A fine sweep of each joint over its full range: second differences detect a jump of a micrometre.
 TEST(MomentArms, NoJumpAnywhereInTheRangeOfAnyJoint) {
   constexpr double step_deg = 0.05, bend_m = 0.25;
   constexpr double most = bend_m * step_deg * degree * step_deg * degree;

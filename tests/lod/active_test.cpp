@@ -1,4 +1,4 @@
-// Level of detail where muscles pull: finite shape and tension come and go as tolerances ask, without a jump.
+// Level of detail with active muscles: finite shape and tension are switched as tolerances require, without a jump.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ bool has_finite_shape(const Simulation& simulation, Entity muscle) {
   return simulation.world().shared<FiniteShape>(muscle) != nullptr;
 }
 
-TEST(LodActive, EachLevelIsWhatItsNameSays) {
+TEST(LodActive, EachLevelHasTheMethodItIsNamedAfter) {
   Scene scene(1);
   scene.ask(1);
   scene.manage();
@@ -86,7 +86,7 @@ TEST(LodActive, EachLevelIsWhatItsNameSays) {
   }
 }
 
-TEST(LodActive, TheNearerTheMoreEffectsAndNoneOutOfSight) {
+TEST(LodActive, EffectsGrowWithNearnessAndEndOutOfSight) {
   Scene scene(1);
   scene.ask(0.001F);
   scene.manage();
@@ -108,9 +108,8 @@ TEST(LodActive, TheNearerTheMoreEffectsAndNoneOutOfSight) {
   EXPECT_NE(scene.simulation.get<Activation>(scene.calf())->activation, before) << "fibres go on pulling unseen";
 }
 
-/// The largest step of a control point between ticks; of two runs alike up to `change`, when another lod_table's level
-/// is asked for, that after it.
-TEST(LodActive, EffectsComeAndGoWithoutAJump) {
+/// Two runs are equal until one of them requests another level. Their distance then grows by less than 2.5 mm a tick.
+TEST(LodActive, EffectsAreSwitchedWithoutAJump) {
   MOBIL_SLOW();
   constexpr int before = 100, after = 40;
   for (const auto& [from_m, to_m] : {std::pair(0.02F, 0.001F), std::pair(0.001F, 0.02F)}) {
@@ -138,7 +137,7 @@ TEST(LodActive, EffectsComeAndGoWithoutAJump) {
   }
 }
 
-TEST(LodActive, AToleranceThatTremblesSwitchesNothing) {
+TEST(LodActive, FluctuatingToleranceSwitchesNothing) {
   Scene scene(3);
   scene.ask(0.004F);
   scene.manage();
@@ -150,7 +149,7 @@ TEST(LodActive, AToleranceThatTremblesSwitchesNothing) {
     switched += scene.lod.report().switched;
     scene.simulation.tick();
   }
-  EXPECT_LE(switched, 2 * scene.people.size());  // once up, where 3.8 mm asks for more
+  EXPECT_LE(switched, 2 * scene.people.size());  // once up, where 3.8 mm requires more
 }
 
 TEST(LodActive, WithoutFiniteShapeTheLinearLevelsServes) {
@@ -166,7 +165,7 @@ TEST(LodActive, WithoutFiniteShapeTheLinearLevelsServes) {
   EXPECT_FALSE(has_finite_shape(scene.simulation, scene.calf()));
 }
 
-TEST(LodActive, ASnapshotKeepsWhoIsShownLinearly) {
+TEST(LodActive, SnapshotKeepsLinearDisplay) {
   Scene scene(1);
   scene.ask(0.02F);
   scene.manage();

@@ -1,4 +1,4 @@
-// Bases that are made while ticks go on: what is chosen depends on ticks, not on when the work was done.
+// Bases made in the background: choices depend on ticks, not on when the work is done.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace mobil::basis_orders_test {
 
 constexpr std::uint32_t making_ticks = 12;
 
-/// Work that waits until somebody has time for it.
+/// A job queue that waits until a test runs it.
 struct Queue {
   std::vector<std::pair<void (*)(void*), void*>> waiting;
   std::size_t asked = 0;
@@ -42,7 +42,7 @@ struct Queue {
   }
 };
 
-/// Two people with one muscle, at tolerances of their own; small meshes are what the coarse levels are of.
+/// Two people with one muscle, at different tolerances; the coarse levels use small meshes.
 struct Scene {
   Simulation simulation;
   Lod lod;
@@ -62,7 +62,7 @@ struct Scene {
   std::size_t level(std::size_t i) const { return lod.why(people[i], Muscle::hamstrings)->level; }
 };
 
-/// The state after each tick, where the queue is worked off as `when` says.
+/// Returns the state hash after each tick. The queue is run in ticks for which `when` is true.
 std::vector<std::uint64_t> hashes(Queue& queue, const std::function<bool(int tick)>& when) {
   Scene scene(queue.background());
   std::vector<std::uint64_t> all;
@@ -76,7 +76,7 @@ std::vector<std::uint64_t> hashes(Queue& queue, const std::function<bool(int tic
   return all;
 }
 
-TEST(BasisOrders, WhatIsChosenFollowsFromTicks) {
+TEST(BasisOrders, ChoicesFollowFromTicks) {
   Queue soon, late, never, threads;
   threads.at_once_on_threads = true;
   const auto first = hashes(soon, [](int) { return true; });
@@ -87,7 +87,7 @@ TEST(BasisOrders, WhatIsChosenFollowsFromTicks) {
   EXPECT_EQ(soon.asked, never.asked);
 }
 
-TEST(BasisOrders, UntilThenTheCoarserOneServesAndNothingIsMade) {
+TEST(BasisOrders, CoarserBasisServesUntilTheOrderIsDue) {
   Queue queue;
   Scene scene(queue.background());
   for (std::uint32_t tick = 0; tick < making_ticks; ++tick) {
@@ -100,7 +100,7 @@ TEST(BasisOrders, UntilThenTheCoarserOneServesAndNothingIsMade) {
   queue.run();
 }
 
-TEST(BasisOrders, WhatWasPreparedDoesNotWait) {
+TEST(BasisOrders, PreparedBasesDoNotWait) {
   Queue queue;
   Scene scene(queue.background());
   ASSERT_TRUE(scene.lod.prepare());
@@ -109,8 +109,8 @@ TEST(BasisOrders, WhatWasPreparedDoesNotWait) {
   EXPECT_EQ(queue.asked, 0U);
 }
 
-/// In another program that restores both, choosing goes on with the same bits; what is lacking is made there.
-TEST(BasisOrders, GoOnInAnotherProgram) {
+/// Another program that restores both continues with the same bits. Missing bases are made there.
+TEST(BasisOrders, ContinueInAnotherProgram) {
   Queue queue, others;
   Scene scene(queue.background()), other(others.background());
   for (int tick = 0; tick < 6; ++tick) scene.simulation.tick();

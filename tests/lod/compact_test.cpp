@@ -1,4 +1,4 @@
-// Who is not seen is compact, and whole again when seen: with the walk and the muscles of who never was.
+// Unseen people are compact, and full when seen again, with the gait and muscles of people who were never compact.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ MOBIL_TEST_LABELS("long");
 namespace mobil::lod_compact_test {
 namespace {
 
-/// People round a camera that turns.
+/// People around a camera that turns.
 struct Turning {
   explicit Turning(bool compact, int threads, std::size_t count, MuscleSet muscles) : simulation({.threads = threads}) {
     LodOptions options;
@@ -59,7 +59,7 @@ struct Turning {
     camera.forward = {std::sin(yaw), 0, std::cos(yaw)};
     camera.half_angle_rad = 0.5F;
     camera.radians_per_pixel = 0.001F;
-    camera.near_m = 12;  // all go on unseen
+    camera.near_m = 12;  // all people continue unseen
     camera.reach_m = 12;
     needs.camera = camera;
     ASSERT_TRUE(lod->set_scene(needs));
@@ -82,7 +82,7 @@ struct Turning {
   std::vector<Entity> people;
 };
 
-/// Largest distance between the control points of two muscles, m; nothing where these are not placed.
+/// Returns the largest distance between the control points of two muscles, m, or nothing if they are not placed.
 std::optional<double> apart(const Simulation& a, Entity one, const Simulation& b, Entity other) {
   const NodalView u = nodal_displacement(a.world(), one), v = nodal_displacement(b.world(), other);
   if (u.first == nullptr || v.first == nullptr) return std::nullopt;
@@ -92,14 +92,14 @@ std::optional<double> apart(const Simulation& a, Entity one, const Simulation& b
   return worst;
 }
 
-TEST(LodCompact, WhoIsUnseenIsCompactAndTheSameAsEver) {
+TEST(LodCompact, UnseenPeopleAreCompactWithTheSameState) {
   MOBIL_SLOW();
   constexpr std::size_t count = 90;
   const MuscleSet muscles(5);
   Turning compact(true, 1, count, muscles), whole(false, 1, count, muscles);
   std::size_t shrank = 0, grew = 0, small = 0, compared = 0;
   double worst = 0;
-  std::vector<std::array<int, 4>> alike(count);  // for how many ticks the methods are the same
+  std::vector<std::array<int, 4>> alike(count);  // number of ticks with equal methods
   for (int t = 0; t < 900; ++t) {
     const LodReport report = compact.tick();
     whole.tick();
@@ -119,9 +119,9 @@ TEST(LodCompact, WhoIsUnseenIsCompactAndTheSameAsEver) {
       for (const std::size_t m : {std::size_t{0}, std::size_t{2}}) {
         const auto muscle = static_cast<Muscle>(m);
         MuscleMethod one = compact.simulation.method(a, muscle), two = whole.simulation.method(b, muscle);
-        one.modal.control_points = two.modal.control_points;  // some ticks later of who must be whole first
+        one.modal.control_points = two.modal.control_points;  // placed some ticks later after expansion
         alike[i][m] = same_method(one, two) ? alike[i][m] + 1 : 0;
-        if (is_small || alike[i][m] < 120) continue;  // what a change excites has died away
+        if (is_small || alike[i][m] < 120) continue;  // the vibration of a change has decayed
         const auto off = apart(compact.simulation, compact.simulation.muscle(a, muscle, Side::left), whole.simulation,
                                whole.simulation.muscle(b, muscle, Side::left));
         if (!off) continue;
@@ -137,7 +137,7 @@ TEST(LodCompact, WhoIsUnseenIsCompactAndTheSameAsEver) {
   EXPECT_LT(worst, 5e-5);
 }
 
-TEST(LodCompact, NeedsAndReasonsAreAnsweredOfThem) {
+TEST(LodCompact, CompactPeopleHaveRequestsAndReasons) {
   Turning scene(true, 1, 40, 2);
   for (int t = 0; t < 150; ++t) scene.tick();
   const auto at =

@@ -1,4 +1,4 @@
-// The cheapest that is good enough, and the best that a budget affords: properties of any table.
+// The cheapest sufficient level, and the best level within a budget: properties of any table.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ void over_tables(unsigned count, Check check) {
   }
 }
 
-TEST(LodTable, NothingCheaperThanTheChoiceIsGoodEnoughAndWhereNothingIsTheBestIsTaken) {
+TEST(LodTable, ChoiceIsTheCheapestSufficientOrTheBest) {
   over_tables(50, [](const LodTable& lod_table, Dice& dice) {
     for (int i = 0; i < 100; ++i) {
       const LevelCase of = dice.a_case();
@@ -76,7 +76,7 @@ TEST(LodTable, NothingCheaperThanTheChoiceIsGoodEnoughAndWhereNothingIsTheBestIs
   });
 }
 
-TEST(LodTable, WhatMeetsATighterToleranceStaysWhileItWobblesWithinTheHysteresis) {
+TEST(LodTable, LevelStaysWithinTheHysteresis) {
   constexpr float slack = 0.7F;
   over_tables(50, [](const LodTable& lod_table, Dice& dice) {
     const LevelCase of = dice.a_case();
@@ -89,7 +89,7 @@ TEST(LodTable, WhatMeetsATighterToleranceStaysWhileItWobblesWithinTheHysteresis)
   });
 }
 
-TEST(LodTable, WhatMissesIsLeftAtOnceAndWhatIsChosenIsKept) {
+TEST(LodTable, MissingLevelIsLeftAtOnceAndChosenLevelIsKept) {
   over_tables(50, [](const LodTable& lod_table, Dice& dice) {
     for (int i = 0; i < 100; ++i) {
       const LevelCase of = dice.a_case();
@@ -105,7 +105,7 @@ TEST(LodTable, WhatMissesIsLeftAtOnceAndWhatIsChosenIsKept) {
   });
 }
 
-TEST(LodTable, ErrorsBetweenMeasuredSpeedsAreNoSmallerThanStraightLinesBetweenThem) {
+TEST(LodTable, ErrorsAreAtLeastTheLinearInterpolation) {
   const RandomTable random(3);
   const LodTable lod_table(random.table);
   for (float speed = 0.9F; speed < 2; speed += 0.013F) {
@@ -116,7 +116,7 @@ TEST(LodTable, ErrorsBetweenMeasuredSpeedsAreNoSmallerThanStraightLinesBetweenTh
     };
     const LevelCase of{1, LodTable::speed_step(speed, static_cast<float>(reference_body_height_m)), true, true};
     for (std::uint32_t r = 0; r < level_count; ++r) {
-      // the step's ends are on the same straight lines, or on both sides of a class' speed
+      // both ends of the step are on the same straight lines, or on either side of a class's speed
       const float a = row(c)->error_m[r], b = row(c + 1)->error_m[r];
       if (std::abs(speed - 1.4F) > 0.1F) {
         EXPECT_GE(lod_table.error_m(of, r), (a + part * (b - a)) * 0.9999F);
@@ -129,7 +129,7 @@ TEST(LodTable, ErrorsBetweenMeasuredSpeedsAreNoSmallerThanStraightLinesBetweenTh
   EXPECT_GT(LodTable::speed_step(1.4F, 1.5F), LodTable::speed_step(1.4F, 2));
 }
 
-TEST(LodTable, AMuscleThatWasNotMeasuredHasItsGroupsFigures) {
+TEST(LodTable, UnmeasuredMuscleHasItsGroupsFigures) {
   const LodTable lod_table(accuracy_table());
   for (std::uint32_t m = 0; m < muscles().size(); ++m) {
     const auto group = static_cast<std::uint32_t>(members_of(static_cast<Muscle>(m)).front().group);
@@ -144,8 +144,8 @@ TEST(LodTable, AMuscleThatWasNotMeasuredHasItsGroupsFigures) {
   }
 }
 
-/// Beside tissue at finite strain: what is shown linearly is off in volume by what finite shapes keep.
-TEST(LodTable, MusclesThatPullHaveFiguresOfTheirOwn) {
+/// Compared with tissue at finite strain, linear shapes have volume errors that finite shapes avoid.
+TEST(LodTable, ActiveMusclesHaveTheirOwnFigures) {
   const LodTable lod_table(accuracy_table());
   for (std::uint32_t m = 0; m < muscles().size(); ++m) {
     const LevelCase of{m, 14, true, true, true};
@@ -180,14 +180,14 @@ std::vector<OneMuscle> a_crowd(Dice& dice, std::size_t count) {
   return all;
 }
 
-/// The sum over a crowd of what everybody takes at a factor; those who cannot meet it take their best.
+/// Returns the cost of a crowd at a factor. Muscles that cannot meet it use their best level.
 std::int64_t taken(const LodTable& lod_table, const std::vector<OneMuscle>& crowd, float factor) {
   std::int64_t sum = 0;
   for (const OneMuscle& one : crowd) sum += lod_table.cost_ps(one.of, lod_table.cheapest(one.of, factor / one.size));
   return sum;
 }
 
-TEST(CostSpectrum, FindsTheLeastFactorThatFitsUpToABin) {
+TEST(CostSpectrum, FindsTheMinimumFactorThatFitsWithinABin) {
   over_tables(20, [](const LodTable& lod_table, Dice& dice) {
     const auto crowd = a_crowd(dice, 300);
     CostSpectrum spectrum;
@@ -211,7 +211,7 @@ TEST(CostSpectrum, FindsTheLeastFactorThatFitsUpToABin) {
   });
 }
 
-TEST(CostSpectrum, DoesNotDependOnTheOrderOfAdding) {
+TEST(CostSpectrum, IndependentOfInsertionOrder) {
   const RandomTable random(1);
   const LodTable lod_table(random.table);
   Dice dice{std::mt19937(1)};
@@ -228,13 +228,13 @@ TEST(CostSpectrum, DoesNotDependOnTheOrderOfAdding) {
   EXPECT_EQ(factors(), in_order);
 }
 
-TEST(CostSpectrum, OfNobodyIsTheLeast) {
+TEST(CostSpectrum, EmptySpectrumGivesTheMinimum) {
   const CostSpectrum nobody;
   EXPECT_EQ(nobody.factor_within(0), CostSpectrum::min_factor);
   EXPECT_EQ(nobody.cost_at(1), 0);
 }
 
-TEST(MachineFactor, OfAHundredTicksNinetyNineAreWithinATenthOfThePlan) {
+TEST(MachineFactor, NinetyNinePercentOfTicksAreWithinATenthOfThePlan) {
   for (const double scatter : {0.0, 0.02, 0.1, 0.3}) {
     for (const double slow : {0.5, 1.0, 7.0}) {
       MachineFactor machine;

@@ -1,4 +1,4 @@
-// What people get from what a scene needs, in simulations that run.
+// Level of detail in running simulations: chosen methods for the requests of a scene.
 #include <mobil/each.h>
 #include <mobil/engine/world.h>
 #include <mobil/lod.h>
@@ -27,7 +27,7 @@
 MOBIL_TEST_LABELS("threads");
 
 namespace mobil::lod_test {
-/// Modal bellies of one body alone need a basis a muscle; all are quick to make.
+/// Modal bellies of a single body need only one basis a muscle, which is quick to make.
 SamplePerson one_body(int i) {
   SamplePerson p;
   p.body.height_m = 1.8F;
@@ -39,7 +39,7 @@ SamplePerson one_body(int i) {
 constexpr std::size_t fine_level = 9;
 static_assert(levels[fine_level].cells == Cells{8, 8, 32});
 
-/// The library's table, but for the fine mesh, which it finds no good: bases of that take a second each to make.
+/// The library's table with an error of 1 m for the fine mesh, because its bases take a second each to make.
 const AccuracyTable& quick_table() {
   static const std::vector<AccuracyRow> rows = [] {
     std::vector<AccuracyRow> all(accuracy_table().rows.begin(), accuracy_table().rows.end());
@@ -55,7 +55,7 @@ LodOptions quick(LodOptions options) {
   return options;
 }
 
-/// People with two muscles, or as many of the first groups as asked: what a muscle costs to make a test waits for.
+/// People with two muscles, or with as many of the first groups as set. Tests wait for the preparation of each muscle.
 struct Scene {
   Simulation simulation;
   Lod lod;
@@ -112,8 +112,8 @@ std::uint64_t deformed(const Simulation& simulation) {
   return sum;
 }
 
-TEST(Lod, EveryMuscleKeepsToItsToleranceAndNoCheaperMethodWould) {
-  constexpr std::array tolerances_m = {0.001F, 0.002F, 0.005F, 0.02F};  // the first the scene's, the others their own
+TEST(Lod, EveryMuscleHasTheCheapestSufficientMethod) {
+  constexpr std::array tolerances_m = {0.001F, 0.002F, 0.005F, 0.02F};  // scene's, then per person
   Scene scene(6 * static_cast<int>(tolerances_m.size()), {.switching_s = 1, .stagger = 1, .machine_factor = 1});
   scene.muscle_count = muscle_group_count;
   ASSERT_TRUE(scene.ask({.tolerance_m = tolerances_m[0]}));
@@ -146,8 +146,8 @@ TEST(Lod, EveryMuscleKeepsToItsToleranceAndNoCheaperMethodWould) {
   }
 }
 
-/// The heap tells: to make a basis takes more than a thousand requests.
-TEST(Lod, PreparedNoUpdateMakesWhatMethodsShare) {
+/// Detected by the heap: making a basis takes more than a thousand requests.
+TEST(Lod, PreparedUpdatesMakeNoSharedData) {
   if (!counts_malloc) GTEST_SKIP() << "malloc is another's here";
   std::array<std::size_t, 2> most{};
   for (const bool prepared : {false, true}) {
@@ -175,14 +175,14 @@ TEST(Lod, PreparedNoUpdateMakesWhatMethodsShare) {
   EXPECT_GT(most[0], most[1] + 1000);
 }
 
-TEST(Lod, PreparingRefusesWhatIsNoTolerance) {
+TEST(Lod, PreparingRefusesInvalidTolerances) {
   Scene scene(1);
   for (const float bad : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
     EXPECT_TRUE(is_refused(scene.lod.prepare({&bad, 1}), "tolerance"));
   }
 }
 
-TEST(Lod, NobodyManagedIsNobodyTouched) {
+TEST(Lod, UnmanagedPeopleAreUnchanged) {
   Simulation plain, watched;
   for (Simulation* simulation : {&plain, &watched}) {
     for (int i = 0; i < 2; ++i) {
@@ -201,7 +201,7 @@ TEST(Lod, NobodyManagedIsNobodyTouched) {
   EXPECT_EQ(plain.world().tables().size(), watched.world().tables().size());
 }
 
-TEST(Lod, OutOfSightAndReachNothingDeformsAndPeopleWalkOn) {
+TEST(Lod, NothingDeformsOutOfReachAndPeopleKeepWalking) {
   Scene scene(8);
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F}));
   scene.manage_all();
@@ -211,7 +211,7 @@ TEST(Lod, OutOfSightAndReachNothingDeformsAndPeopleWalkOn) {
   away.position_m = {0, 1.7F, 1000};
   away.reach_m = 100;
   ASSERT_TRUE(scene.ask({.camera = away}));
-  scene.run(60);  // what faded has gone
+  scene.run(60);  // fades have ended
   EXPECT_EQ(deformed(scene.simulation), 0U);
   const float before = scene.simulation.get<Pose>(scene.people[0])->position_m[0].z;
   scene.run(30);
@@ -224,7 +224,7 @@ TEST(Lod, OutOfSightAndReachNothingDeformsAndPeopleWalkOn) {
   });
 }
 
-TEST(Lod, WhoIsFartherFromTheCameraHasNoDearerMethod) {
+TEST(Lod, FartherPeopleHaveNoCostlierMethod) {
   Scene scene(40);
   Viewpoint camera;
   camera.position_m = {10, 1.5F, -4};
@@ -245,7 +245,7 @@ TEST(Lod, WhoIsFartherFromTheCameraHasNoDearerMethod) {
   });
 }
 
-TEST(Lod, ControlPointsArePlacedForThoseLookedAtAlone) {
+TEST(Lod, ControlPointsArePlacedOnlyForPeopleLookedAt) {
   Scene scene(8);
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F, .looked_at = false}));
   scene.manage_all();
@@ -257,7 +257,7 @@ TEST(Lod, ControlPointsArePlacedForThoseLookedAtAlone) {
   }
 }
 
-TEST(Lod, WhatOnePersonNeedsHoldsBeforeWhatTheSceneNeeds) {
+TEST(Lod, PersonRequestsOverrideTheScene) {
   Scene scene(2);
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.05F}));
   scene.manage_all();
@@ -272,7 +272,7 @@ TEST(Lod, WhatOnePersonNeedsHoldsBeforeWhatTheSceneNeeds) {
             scene.lod.why(scene.people[0], Muscle::quadriceps)->predicted_cost_us);
 }
 
-TEST(Lod, TheSameWhateverTheThreads) {
+TEST(Lod, SameOnAnyThreads) {
   const auto fly = [](int threads) {
     Scene scene(40, {.switches = 12, .stagger = 3, .machine_factor = 2}, threads);
     EXPECT_TRUE(scene.ask({}));
@@ -293,7 +293,7 @@ TEST(Lod, TheSameWhateverTheThreads) {
   EXPECT_EQ(fly(1), one);
 }
 
-TEST(Lod, TheSameInWhateverOrderPeopleCame) {
+TEST(Lod, SpawnOrderIndependent) {
   constexpr int people = 24;
   const auto choices = [](const std::vector<int>& order) {
     Scene scene(0);
@@ -320,7 +320,7 @@ TEST(Lod, TheSameInWhateverOrderPeopleCame) {
   EXPECT_EQ(choices(order), in_order);
 }
 
-TEST(Lod, NoMoreMethodsChangeAtOnceThanAllowedAndThoseThatMissMostComeFirst) {
+TEST(Lod, ChangesAtOnceAreLimitedWorstFirst) {
   Scene scene(20, {.switches = 7, .stagger = 1, .machine_factor = 1});
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F}));
   scene.manage_all();
@@ -345,7 +345,7 @@ TEST(Lod, NoMoreMethodsChangeAtOnceThanAllowedAndThoseThatMissMostComeFirst) {
   }
 }
 
-TEST(Lod, WhatIsForcedStaysAndWhatIsUnforcedIsChosenAgain) {
+TEST(Lod, ForcedMethodsStayUntilUnforced) {
   Scene scene(2);
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.005F}));
   scene.manage_all();
@@ -361,7 +361,7 @@ TEST(Lod, WhatIsForcedStaysAndWhatIsUnforcedIsChosenAgain) {
   EXPECT_EQ(scene.lod.why(person, Muscle::hamstrings)->level, chosen);
 }
 
-TEST(Lod, WhatWasForcedOfAMuscleThatIsGoneIsForgotten) {
+TEST(Lod, ForcedMethodsOfRemovedMusclesAreDropped) {
   Scene scene(2);
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.005F}));
   scene.manage_all();
@@ -377,7 +377,7 @@ TEST(Lod, WhatWasForcedOfAMuscleThatIsGoneIsForgotten) {
   EXPECT_NE(scene.lod.why(person, Muscle::hamstrings)->reason, Reason::forced);
 }
 
-TEST(Lod, WhoIsReleasedKeepsTheirMusclesAndIsNotTouchedAgain) {
+TEST(Lod, ReleasedPeopleKeepTheirMusclesUnchanged) {
   Scene scene(2);
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.001F}));
   scene.manage_all();
@@ -392,7 +392,7 @@ TEST(Lod, WhoIsReleasedKeepsTheirMusclesAndIsNotTouchedAgain) {
   EXPECT_EQ(scene.lod.why(scene.people[0], Muscle::quadriceps).error(), Status::missing);
 }
 
-TEST(Lod, PeopleMayGoUnderWay) {
+TEST(Lod, PeopleCanBeDespawnedMeanwhile) {
   Scene scene(20, {.stagger = 3, .machine_factor = 1});
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.002F, .budget_s = 7e-6}));
   scene.manage_all();
@@ -408,7 +408,7 @@ TEST(Lod, PeopleMayGoUnderWay) {
   EXPECT_NEAR(1e6 * scene.lod.report().predicted_s, sum_us, 1e-3);
 }
 
-TEST(Lod, RefusesWhatIsOutOfRangeInOneLine) {
+TEST(Lod, RefusesValuesOutOfRangeInOneLine) {
   Scene scene(1);
   for (const LodScene& bad : {LodScene{.tolerance_m = 0.0F}, LodScene{.tolerance_m = NAN}, LodScene{.budget_s = -1},
                               LodScene{.tolerance_px = INFINITY}, LodScene{.camera = Viewpoint{.forward = {0, 0, 0}}},
@@ -423,7 +423,7 @@ TEST(Lod, RefusesWhatIsOutOfRangeInOneLine) {
   EXPECT_FALSE(scene.lod.set_options({.stagger = 0}));
 }
 
-/// The time that methods as they are would take on a machine so much slower than the table's.
+/// Returns the time of the current methods on a machine slower than the table's by a factor.
 double clock_s(const Scene& scene, double slower) {
   double sum_us = 0;
   const AccuracyTable& table = accuracy_table();
@@ -443,7 +443,7 @@ double clock_s(const Scene& scene, double slower) {
   return 1e-6 * slower * sum_us;
 }
 
-TEST(Lod, ABudgetHoldsAsTheCameraFliesOverASlowAndUnsteadyMachine) {
+TEST(Lod, BudgetHoldsOnASlowAndUnsteadyMachine) {
   std::mt19937 dice(3);
   std::normal_distribution<double> bell;
   constexpr int people = 64;
@@ -466,7 +466,7 @@ TEST(Lod, ABudgetHoldsAsTheCameraFliesOverASlowAndUnsteadyMachine) {
     if (t >= 60) needs.budget_s = budget_s;
     ASSERT_TRUE((*self)->ask(needs));
     (*self)->run(1);
-    if (t > 400) slower = 4;  // other programs are at work
+    if (t > 400) slower = 4;  // other programs are running
     const double exact_s = clock_s(**self, slower);
     spent_s = exact_s * std::max(0.5, 1 + 0.03 * bell(dice));
     if (t == 59) budget_s = 0.4 * exact_s;

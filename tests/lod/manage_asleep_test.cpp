@@ -1,4 +1,4 @@
-// People who are managed asleep: who is in view wakes, and who is refused leaves everybody as they were.
+// People managed asleep: those in view wake, and a refusal leaves all people unchanged.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace mobil {
 namespace {
 namespace manage_asleep {
 
-/// One walks on, one turns and cannot sleep.
+/// Two people: one walks straight on, one turns and cannot sleep.
 struct Two {
   Simulation simulation{SimulationOptions{.threads = 1}};
   std::vector<Entity> people;
@@ -31,7 +31,7 @@ struct Two {
   }
 };
 
-/// Nobody is managed or asleep after it.
+/// Expects a refusal that leaves no person managed or asleep.
 void expect_refused(const LodOptions& options, const std::string& word) {
   Two two;
   Lod lod = lod_of(two.simulation, options);
@@ -41,7 +41,7 @@ void expect_refused(const LodOptions& options, const std::string& word) {
   EXPECT_FALSE(lod.release(two.people[0])) << word;
 }
 
-TEST(ManageAsleep, WhatMusclesCannotBeIsRefusedBeforeAnybodySleeps) {
+TEST(ManageAsleep, InvalidMusclesAreRefusedBeforeAnyoneSleeps) {
   expect_refused({.leg_muscles = {.dt_s = 1e-12}}, "step");
   expect_refused({.leg_muscles = {.material = {.young_pa = 0}}}, "Young");
   expect_refused({.leg_muscles = {.damping_per_s = -1}}, "damping");
@@ -49,7 +49,7 @@ TEST(ManageAsleep, WhatMusclesCannotBeIsRefusedBeforeAnybodySleeps) {
   expect_refused({.leg_muscles = {.activation = ExcitationSource::moments}}, "Feature::forces");
 }
 
-TEST(ManageAsleep, WhoSleepsWithForcesHasMoments) {
+TEST(ManageAsleep, SleepersWithForcesHaveMoments) {
   Simulation simulation(SimulationOptions{.threads = 1});
   const Entity person = *simulation.spawn(BodyRequest{}, {});
   ASSERT_TRUE(simulation.enable(person, Feature::forces));
@@ -61,7 +61,7 @@ TEST(ManageAsleep, WhoSleepsWithForcesHasMoments) {
   EXPECT_TRUE(done) << done.error().message;
 }
 
-TEST(ManageAsleep, ASceneWithoutMusclesManagesWhoCannotSleepToo) {
+TEST(ManageAsleep, SceneWithoutMusclesManagesPeopleUnableToSleep) {
   Two two;
   Lod lod = two.simulation.lod();
   LodScene needs;
@@ -72,7 +72,7 @@ TEST(ManageAsleep, ASceneWithoutMusclesManagesWhoCannotSleepToo) {
   for (const Entity person : two.people) EXPECT_TRUE(lod.release(person));
 }
 
-TEST(ManageAsleep, WhoComesIntoAViewThatStandsStillWakes) {
+TEST(ManageAsleep, PeopleEnteringAFixedViewWake) {
   Two two;
   Lod lod = two.simulation.lod();
   LodScene needs;

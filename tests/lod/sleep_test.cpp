@@ -1,4 +1,4 @@
-// A camera flies over a crowd, turns and cuts; who is far from being seen sleeps.
+// A camera flies over a crowd, turns and cuts. People far from view sleep.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ namespace {
 constexpr std::size_t everybody = 900;
 constexpr float side_m = 120;
 
-/// People and a camera; with `sleep` as a scene has it, else nobody ever sleeps.
+/// People and a camera. With `sleep` the scene puts people to sleep, otherwise no person ever sleeps.
 struct Scene {
   explicit Scene(bool sleep, int threads = 1, bool muscles = false, std::size_t people_count = everybody)
       : simulation({.threads = threads}) {
@@ -65,7 +65,7 @@ struct Scene {
     }
   }
 
-  /// Where the camera is in a tick: every five seconds elsewhere.
+  /// Sets the camera of a tick: a new place every five seconds.
   void look(std::uint32_t tick) {
     const std::uint32_t take = tick / 300;
     const float since_s = static_cast<float>(tick % 300) / 60;
@@ -104,7 +104,7 @@ struct Scene {
     return static_cast<std::size_t>(
         std::ranges::count_if(people, [&](Entity e) { return (simulation.state(e) == PersonState::asleep); }));
   }
-  /// Of positions, poses and clocks of everybody, whether they sleep or not.
+  /// Returns a hash of gaits, clocks and poses of all people, asleep or not.
   std::uint64_t walks_hash() const {
     std::uint64_t hash = 0;
     const auto add = [&](const auto& row) { hash = mix64(hash ^ hash_bytes(&*row, sizeof(*row))); };
@@ -115,7 +115,7 @@ struct Scene {
     }
     return hash;
   }
-  /// Who is seen by the camera as it is, or near it.
+  /// Returns true if the camera sees the person, or is near.
   bool sees(Entity person) const {
     const Viewpoint& camera = *needs.camera;
     const Vec3<float> at = simulation.get<Pose>(person)->position_m[0];
@@ -132,7 +132,7 @@ struct Scene {
   std::vector<std::uint32_t> changes;
 };
 
-TEST(LodSleep, NobodyWhoIsSeenSleeps) {
+TEST(LodSleep, SeenPeopleAreAwake) {
   MOBIL_SLOW();
   Scene scene(true);
   std::size_t seen = 0;
@@ -148,7 +148,7 @@ TEST(LodSleep, NobodyWhoIsSeenSleeps) {
   EXPECT_GT(seen, 1000U);
 }
 
-TEST(LodSleep, TheNearestWakeFirst) {
+TEST(LodSleep, NearestPeopleWakeFirst) {
   Scene scene(true);
   LodOptions few;
   few.machine_factor = 1;
@@ -174,7 +174,7 @@ TEST(LodSleep, TheNearestWakeFirst) {
     }
     EXPECT_LE(report.woken, few.wakes);
     if (farthest > 0) {
-      EXPECT_GT(nearest, before - 1);  // a walker's pelvis is beside the line
+      EXPECT_GT(nearest, before - 1);  // a walker's pelvis is next to the line
       before = farthest;
     }
     if (report.to_wake == 0) break;
@@ -197,7 +197,7 @@ TEST(LodSleep, ThreadsDoNotMatter) {
   for (const int threads : {2, 3, 8}) EXPECT_EQ(hashes(threads), alone) << threads << " threads";
 }
 
-TEST(LodSleep, ASnapshotHalfWayGoesOnAlike) {
+TEST(LodSleep, SnapshotHalfWayContinuesEqually) {
   Scene scene(true, 1, true);
   for (int i = 0; i < 330; ++i) scene.tick();
   EXPECT_GT(scene.asleep(), 0U);
@@ -218,7 +218,7 @@ TEST(LodSleep, ASnapshotHalfWayGoesOnAlike) {
   EXPECT_EQ(go_on(), first);
 }
 
-TEST(LodSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
+TEST(LodSleep, MusclesAreCreatedWhenNeededAndRemovedAgain) {
   Scene scene(true, 1, true);
   std::size_t begun = 0, ended = 0;
   for (int i = 0; i < 900; ++i) {
@@ -243,7 +243,7 @@ TEST(LodSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
     if (lod_state.relative_size == 0) continue;  // has just woken
     EXPECT_EQ(has, (lod_state.effects & lod_bare) == 0);
     EXPECT_EQ(scene.simulation.person(person)->leg_muscles.muscles, MuscleSet(1));
-    // A method of the host's choice is that of the muscles there are, or they begin with it.
+    // A method forced by the host applies to the existing muscles, or to those that are then created.
     bare += has ? 0 : 1;
     const MuscleMethod asked = {Method::modal, {.modes = 3}};
     ASSERT_TRUE(scene.lod->force(person, static_cast<Muscle>(0), asked));
@@ -255,7 +255,7 @@ TEST(LodSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
   EXPECT_GT(bare, 0U);
 }
 
-TEST(LodSleep, MusclesThatAreTakenAwayStayAway) {
+TEST(LodSleep, RemovedMusclesStayRemoved) {
   Scene scene(true, 1, true);
   for (int i = 0; i < 300; ++i) scene.tick();
   std::vector<Entity> some;
@@ -282,7 +282,7 @@ TEST(LodSleep, MusclesThatAreTakenAwayStayAway) {
   }
 }
 
-TEST(LodSleep, AHostsMethodComesToWhoIsCompactAndBare) {
+TEST(LodSleep, ForcedMethodReachesCompactPeopleWithoutMuscles) {
   Scene scene(true, 1, true);
   scene.needs.compact_unseen = true;
   std::size_t found = 0;
@@ -307,8 +307,8 @@ TEST(LodSleep, AHostsMethodComesToWhoIsCompactAndBare) {
   EXPECT_GT(found, 0U);
 }
 
-/// Those that were to come begin: nobody else would begin them.
-TEST(LodSleep, WhoIsReleasedHasTheirMuscles) {
+/// Pending muscles start on release, because nothing would start them later.
+TEST(LodSleep, ReleasedPeopleHaveTheirMuscles) {
   Scene scene(true, 1, true);
   scene.needs.compact_unseen = true;
   std::size_t asleep = 0, bare = 0, compact = 0;
@@ -349,8 +349,8 @@ TEST(LodSleep, WhoIsReleasedHasTheirMuscles) {
   }
 }
 
-/// An hour with MOBIL_LONG in the environment (tests/run --long), else half a minute: nobody drifts from where those
-/// are who never slept, whatever the threads; one crowd is taken back to what it was half way and goes on from there.
+/// An hour with MOBIL_LONG (tests/run --long), else half a minute. Sleepers match people who never slept, on any number
+/// of threads. One crowd is restored to its halfway state and continues from there.
 TEST(LodSleep, AnHourAsleepIsAnHourAwake) {
   MOBIL_SLOW();
   const int ticks = std::getenv("MOBIL_LONG") != nullptr ? 216'000 : 1800;
@@ -388,7 +388,7 @@ TEST(LodSleep, AnHourAsleepIsAnHourAwake) {
   EXPECT_GT(compact, static_cast<std::size_t>(ticks));
 }
 
-/// Neither the camera nor a request moves, so that only a change of the scene can wake people.
+/// Camera and requests are fixed, so only a change of the scene can wake people.
 struct Standing : Scene {
   Standing() : Scene(true) {
     for (int i = 0; i < 60; ++i) update();
@@ -404,7 +404,7 @@ struct Standing : Scene {
   }
 };
 
-TEST(LodSleep, AWiderViewWakesWhomItShows) {
+TEST(LodSleep, WiderViewWakesThePeopleItShows) {
   const auto wider = {+[](Viewpoint& camera) { camera.half_angle_rad = 1.2F; },
                       +[](Viewpoint& camera) { camera.reach_m = 90; }, +[](Viewpoint& camera) { camera.near_m = 25; }};
   for (const auto widen : wider) {
@@ -419,7 +419,7 @@ TEST(LodSleep, AWiderViewWakesWhomItShows) {
   }
 }
 
-TEST(LodSleep, EverybodyWakesWhereNobodyIsToSleep) {
+TEST(LodSleep, AllWakeWhenSleepIsDisabled) {
   for (const bool camera : {true, false}) {
     Standing scene;
     ASSERT_GT(scene.asleep(), 100U);
@@ -430,7 +430,7 @@ TEST(LodSleep, EverybodyWakesWhereNobodyIsToSleep) {
   }
 }
 
-TEST(LodSleep, WhoCountsAsSeenStaysAwake) {
+TEST(LodSleep, PeopleMarkedAsSeenStayAwake) {
   Standing scene;
   const auto far =
       std::ranges::find_if(scene.people, [&](Entity e) { return (scene.simulation.state(e) == PersonState::asleep); });
@@ -443,7 +443,7 @@ TEST(LodSleep, WhoCountsAsSeenStaysAwake) {
   EXPECT_EQ(scene.simulation.state(*far), PersonState::asleep);
 }
 
-TEST(LodSleep, WhoHasMusclesToComeIsNotPutToSleepAnew) {
+TEST(LodSleep, ManagedSleepersAreNotManagedAgain) {
   Scene scene(true, 1, true, 20);
   const std::size_t asleep = scene.asleep();
   EXPECT_EQ(scene.lod->manage_asleep(scene.people).error().status, Status::already_there);
@@ -452,11 +452,11 @@ TEST(LodSleep, WhoHasMusclesToComeIsNotPutToSleepAnew) {
   EXPECT_NE(scene.lod->set_scene(scene.needs).error().message.find("muscles"), std::string::npos);
 }
 
-TEST(LodSleep, WhatCannotBeIsRefused) {
+TEST(LodSleep, InvalidScenesAreRefused) {
   Scene scene(true);
   LodScene needs;
   needs.asleep_beyond_m = 10;
-  EXPECT_FALSE(scene.lod->set_scene(needs));  // of what camera?
+  EXPECT_FALSE(scene.lod->set_scene(needs));  // without a camera
   needs.camera = scene.needs.camera;
   needs.asleep_beyond_m = 1;
   EXPECT_FALSE(scene.lod->set_scene(needs));

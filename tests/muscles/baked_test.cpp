@@ -1,4 +1,4 @@
-// What muscles share, baked into bytes and loaded again.
+// Shared data of muscles, baked into bytes and loaded again.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 namespace mobil {
 namespace {
 
-/// One of each method, small meshes: bytes that are quickly made and read.
+/// Muscles of each method with small meshes, which are quickly baked and loaded.
 std::vector<LegMuscles> choices() {
   LegMuscles one;
   one.muscles = MuscleSet(1);
@@ -36,7 +36,7 @@ std::vector<LegMuscles> choices() {
   return all;
 }
 
-/// Somebody with that choice; every one is of another build.
+/// Spawns a person with that choice; each has another build.
 void spawn(Simulation& simulation, std::size_t choice) {
   const auto person = simulation.spawn({.height_m = 1.65F + 0.03F * static_cast<float>(choice), .mass_kg = 72});
   ASSERT_TRUE(person);
@@ -44,7 +44,7 @@ void spawn(Simulation& simulation, std::size_t choice) {
   ASSERT_TRUE(done) << done.error().message;
 }
 
-/// Half a second of one of each.
+/// Returns the hash after half a second with one person of each choice.
 std::uint64_t walked(Simulation& simulation) {
   for (std::size_t choice = 0; choice < choices().size(); ++choice) spawn(simulation, choice);
   for (int i = 0; i < 30; ++i) simulation.tick();
@@ -57,14 +57,14 @@ std::vector<std::byte> baked_bytes() {
   return simulation.muscle_library().bake();
 }
 
-/// Sealed anew, so that what is inside must be looked at.
+/// Seals the bytes again, so that their content is checked.
 void seal(std::vector<std::byte>& bytes) {
   constexpr std::size_t header = 32;
   const std::uint64_t seal = hash_bytes(bytes.data() + header, bytes.size() - header);
   std::memcpy(bytes.data() + 24, &seal, sizeof seal);
 }
 
-TEST(Baked, WhatIsLoadedIsWhatWouldBeMade) {
+TEST(Baked, LoadedDataMatchesComputedData) {
   Simulation made, loaded;
   const std::uint64_t hash = walked(made);
   const std::vector<std::byte> bytes = made.muscle_library().bake();
@@ -75,7 +75,7 @@ TEST(Baked, WhatIsLoadedIsWhatWouldBeMade) {
       << "something was made again, or something that was not there before";
 }
 
-TEST(Baked, LoadedOnTopOfWhatIsThereAddsWhatLacks) {
+TEST(Baked, LoadingAddsOnlyMissingData) {
   const std::vector<std::byte> bytes = baked_bytes();
   Simulation simulation;
   for (const std::size_t choice : {std::size_t{9}, std::size_t{5}}) spawn(simulation, choice);
@@ -86,7 +86,7 @@ TEST(Baked, LoadedOnTopOfWhatIsThereAddsWhatLacks) {
   EXPECT_EQ(both.size(), bytes.size()) << "of what both have there is one";
 }
 
-TEST(Baked, ASnapshotFindsWhatWasLoaded) {
+TEST(Baked, SnapshotUsesLoadedData) {
   Simulation made, loaded;
   walked(made);
   ASSERT_TRUE(loaded.muscle_library().load(made.muscle_library().bake()));
@@ -125,8 +125,8 @@ TEST(Baked, DamagedBytesAreRefused) {
   }
 }
 
-/// With a right seal the content may still be nonsense: it is refused, or at least leads nobody astray.
-TEST(Baked, NonsenseUnderARightSealHarmsNobody) {
+/// With a valid seal the content can still be invalid: it is refused, or at least harmless.
+TEST(Baked, InvalidContentUnderAValidSealIsHarmless) {
   const std::vector<std::byte> bytes = baked_bytes();
   std::mt19937 random(5);
   int taken = 0;

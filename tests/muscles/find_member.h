@@ -1,5 +1,5 @@
 #pragma once
-// A row of the table of muscles by its name.
+// Finds a row of the table of muscles by name.
 
 #include <algorithm>
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace mobil {
 
-/// The muscle of that name, or null.
+/// Returns the muscle of that name, or null.
 inline const MemberMuscle* find_member_muscle(std::string_view name) {
   const auto members = member_muscles();
   const auto found = std::ranges::find(members, name, &MemberMuscle::name);

@@ -1,4 +1,4 @@
-// The inner build of the leg's muscles: published figures come back at the reference body, and grow with the body.
+// Architecture of the leg's muscles: published figures at the reference body, which grow with the body.
 #include "assets/muscles/muscle_architecture.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ Body body_of(float height, float mass, float meso = 4, Constitution constitution
   return make_body({height, mass, {3, meso, 3}, constitution}).value();
 }
 
-/// Published for each member: volume at 80 kg and 1.80 m (Handsfield 2014); volume of the Rajagopal 2016 model, a man
-/// of 75 kg and 1.70 m; and of the cadavers' mean (Ward 2009) belly, fibres, and physiological section.
+/// Published figures of each member: volume at 80 kg and 1.80 m (Handsfield 2014); volume of the Rajagopal 2016 model,
+/// a man of 75 kg and 1.70 m; and the cadavers' mean (Ward 2009) belly, fibres and physiological section.
 struct Published {
   std::string_view name;
   double volume_cm3, model_volume_cm3, belly_m, fibre_m, tendon_m, muscle_tendon_m;
@@ -37,7 +37,7 @@ constexpr Published published[] = {{"semimembranosus", 275.09, 253.11, 0.293, 0.
                                    {"soleus", 486.49, 454.29, 0.405, 0.044, 0.25, 0.2914},
                                    {"tibialis_anterior", 149.95, 139.73, 0.26, 0.068, 0.223, 0.30379}};
 
-TEST(MuscleArchitecture, TheReferenceBodyHasThePublishedMuscles) {
+TEST(MuscleArchitecture, ReferenceBodyHasThePublishedMuscles) {
   const Body body = body_of(1.80F, 80);
   const Body model = body_of(1.70F, 75);
   for (const Published& p : published) {
@@ -52,8 +52,8 @@ TEST(MuscleArchitecture, TheReferenceBodyHasThePublishedMuscles) {
     EXPECT_NEAR(made.tendon_m / p.tendon_m, 1, 0.15);
     EXPECT_NEAR(made.muscle_tendon_m / p.muscle_tendon_m, 1, 0.15);
     EXPECT_NEAR(made.mass_kg, 1060 * made.volume_m3, 1e-9);
-    // Fibres and tendon of the model span the path that it was published with: fibres between half and one and a half
-    // of their best length there.
+    // Fibres and tendon of the model span the path that it was published with. The fibres are there between half and
+    // one and a half of their optimal length.
     const double span = made.muscle_tendon_m - made.tendon_m;
     EXPECT_GT(span, 0.5 * made.model_fibre_m);
     EXPECT_LT(span, 1.5 * made.model_fibre_m);
@@ -68,7 +68,7 @@ TEST(MuscleArchitecture, FibresFitIntoTheirBellyAndTendonsOnTheirPath) {
     EXPECT_LT(made.tendon_m, made.muscle_tendon_m) << member.name;
   }
   const double tendon = member_parameters(body_of(1.70F, 70), *find_member_muscle("plantaris")).tendon_m;
-  EXPECT_GT(tendon, 0.30);  // as anatomists measure it
+  EXPECT_GT(tendon, 0.30);  // the anatomists' measurement
   EXPECT_LT(tendon, 0.45);
 }
 
@@ -93,7 +93,7 @@ RC_GTEST_PROP(MuscleArchitecture, VolumesRiseWithHeightMassAndMesomorphyLengthsW
   }
 }
 
-RC_GTEST_PROP(MuscleArchitecture, PlacesLieOnTheirPathAndInTheirBones, ()) {
+RC_GTEST_PROP(MuscleArchitecture, PlacesAreOnTheirPathAndInTheirBones, ()) {
   const auto height = static_cast<float>(*rc::gen::inRange(1200, 2200)) / 1000;
   const Body body = body_of(height, living_mass(height, 0.3));
   const LegFrames<double> leg = anatomical_leg(body);
@@ -114,7 +114,7 @@ RC_GTEST_PROP(MuscleArchitecture, PlacesLieOnTheirPathAndInTheirBones, ()) {
   }
 }
 
-TEST(MuscleArchitecture, AGroupIsTheSumOfItsMembers) {
+TEST(MuscleArchitecture, GroupIsTheSumOfItsMembers) {
   const Body body = body_of(1.80F, 80);
   for (const Muscle group :
        {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae, Muscle::tibialis_anterior}) {

@@ -14,7 +14,7 @@ constexpr float LatticeStation::*fields[] = {
     &LatticeStation::t,        &LatticeStation::offset_x_m, &LatticeStation::offset_y_m, &LatticeStation::semi_x_m,
     &LatticeStation::semi_y_m, &LatticeStation::shear_x_m,  &LatticeStation::shear_y_m};
 
-/// As the table has it.
+/// Returns a row in the table's source format.
 std::string row_of(Muscle muscle, const LatticeStations& lattice) {
   std::string text = fmt::format("    // {}\n    {{{{", muscle_name(muscle));
   for (const LatticeStation& station : lattice) {
@@ -25,7 +25,7 @@ std::string row_of(Muscle muscle, const LatticeStations& lattice) {
   return text + "}},\n";
 }
 
-TEST(MuscleLattice, IsWhatTheSurfacesGive) {
+TEST(MuscleLattice, MatchesTheSurfaces) {
   ASSERT_EQ(lattice_muscles, muscles().size());
   std::string drawn;
   bool same = true;

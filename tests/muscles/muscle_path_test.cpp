@@ -1,4 +1,4 @@
-// The paths of muscles against what was published of them: lengths, where they meet bone, that they never jump.
+// Muscle paths compared with published lengths and bone contacts; paths have no jumps.
 #include <mobil/assets/muscles/muscle_path.h>
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ double normalised_length(const MemberMuscle& muscle, const LegAngles& angles) {
   return member_length(muscle, scale, posed(reference, angles)) / member_length(muscle, scale, posed(reference, {}));
 }
 
-// Lengths in the anatomical position of the published model (gait2392, CC BY 3.0, Delp et al. 1990), m.
+// Lengths of the published model in the anatomical position (gait2392, CC BY 3.0, Delp et al. 1990), m.
 TEST(MusclePath, PathsAreAsLongAsPublished) {
   const std::map<std::string_view, double> published = {{"semimembranosus", 0.41457},
                                                         {"semitendinosus", 0.46323},
@@ -54,7 +54,7 @@ TEST(MusclePath, PathsAreAsLongAsPublished) {
   }
 }
 
-// Lengths over those in the anatomical position, from the published model evaluated on its own rolling knee.
+// Lengths relative to those in the anatomical position, from the published model evaluated on its own rolling knee.
 TEST(MusclePath, LengthsFollowThePublishedModelAtChosenAngles) {
   const std::vector<LegAngles> hip_knee = {{-20, 0, 0}, {0, 40, 0}, {30, 0, 0}, {30, 60, 0}, {60, 30, 0}};
   const std::vector<LegAngles> knee_ankle = {{0, 0, -30},  {0, 0, 20},  {0, 30, 0},
@@ -105,7 +105,7 @@ TEST(MusclePath, LengthsFollowThePublishedModelOverItsWholeRange) {
     EXPECT_LT(fit.rms(), 0.007) << name;
     EXPECT_GT(fit.correlation(), 0.997) << name;
   }
-  // Groups: the published lengths of their members, weighted as ours.
+  // Groups: the published lengths of their members, weighted as in the library.
   const auto published = [&](const MemberMuscle& m, const LegAngles& at) {
     const std::string column = test::published_name.at(m.name) + "_norm";
     const bool of_hip = hip_knee.front().has(column);
@@ -137,7 +137,7 @@ TEST(MusclePath, LengthsFollowThePublishedModelOverItsWholeRange) {
   }
 }
 
-/// How deep a place lies in a bone, mm of the body, measured towards the middle of its section; negative outside.
+/// Returns how deep a point is in a bone, mm of the body, measured towards the middle of its section; negative outside.
 double depth_mm(const LegFrame& frame, std::span<const LegSection> bone, const Vec& at) {
   const double level = leg_level(frame, at.y);
   const auto e = leg_ellipse(bone, level);
@@ -149,9 +149,9 @@ double depth_mm(const LegFrame& frame, std::span<const LegSection> bone, const V
   return std::hypot(lateral, anterior) * (1 / std::max(reach, 1e-3) - 1) * frame.unit * 1000;
 }
 
-// Attachments lie in the bone where they were published so, by up to 12 mm: what is tested begins where the path has
-// once left it. In knees flexed beyond 110°, where calf and thigh press on each other, both heads of gastrocnemius run
-// through the rim of the tibia: to wrap them round it would make knee extensors of them.
+// Published attachments are up to 12 mm inside the bone, so the check starts where the path has first left it. In knees
+// flexed beyond 110°, where calf and thigh press on each other, both heads of gastrocnemius run through the rim of the
+// tibia: wrapping them round it would make them knee extensors.
 TEST(MusclePath, NoPieceCutsDeepThroughABone) {
   constexpr double deepest_mm = 6, attached_m = 0.05;
   const LegFrame frame = leg_frame(reference);

@@ -1,4 +1,4 @@
-// The muscles' figures against what was published, and what a plan makes of them for any body.
+// The muscles' figures compared with publications, and plans for any body.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -53,14 +53,14 @@ TEST(MuscleTable, EveryMemberRunsFromAFixedOriginToAFixedEnd) {
 }
 
 // Handsfield et al. 2014, tabulated by the regression for 80 kg and 1.80 m, cm³.
-TEST(MuscleTable, VolumesAreThePublishedOnes) {
+TEST(MuscleTable, VolumesMatchPublishedOnes) {
   const std::map<std::string_view, double> published = {
       {"semimembranosus", 275.1},           {"semitendinosus", 212.7},   {"biceps_femoris_long_head", 230.5},
       {"biceps_femoris_short_head", 115.0}, {"rectus_femoris", 303.7},   {"vastus_medialis", 491.8},
       {"vastus_intermedius", 296.3},        {"vastus_lateralis", 950.9}, {"gastrocnemius_medial", 289.7},
       {"gastrocnemius_lateral", 168.5},     {"soleus", 486.5},           {"tibialis_anterior", 149.9}};
   for (const auto& m : member_muscles()) {
-    if (m.name == "plantaris") continue;  // not among them
+    if (m.name == "plantaris") continue;  // not in that study
     EXPECT_NEAR(handsfield_volume_cm3(m, 1.80, 80), published.at(m.name), 0.1) << m.name;
   }
   for (const auto group : groups) {
@@ -88,7 +88,7 @@ TEST(MusclePlan, SectionGrowsWithPhysique) {
   }
 }
 
-RC_GTEST_PROP(MusclePlan, ATallerBodyHasTheSameLegsLonger, ()) {
+RC_GTEST_PROP(MusclePlan, TallerBodyHasTheSameLegsLonger, ()) {
   const auto height = static_cast<float>(*rc::gen::inRange(1200, 2200)) / 1000;
   const float mass = living_mass(height, *rc::gen::inRange(0, 1001) / 1000.0);
   const double by = static_cast<double>(height) / 1.80;
@@ -97,13 +97,13 @@ RC_GTEST_PROP(MusclePlan, ATallerBodyHasTheSameLegsLonger, ()) {
     RC_ASSERT(std::abs(own.rest_length_m / (by * other.rest_length_m) - 1) < 1e-6);
     RC_ASSERT(std::abs(own.belly_length_m / (by * other.belly_length_m) - 1) < 1e-6);
     RC_ASSERT(std::abs(static_cast<double>(own.scale.along) / by - 1) < 1e-6);
-    // The template scaled has the plan's size.
+    // The scaled template has the plan's size.
     const double s = static_cast<double>(own.scale.across);
     RC_ASSERT(std::abs(s * s * other.section_m2 / own.section_m2 - 1) < 1e-5);
   }
 }
 
-TEST(MusclePlan, BelliesLieWhereTheAnatomyHasThem) {
+TEST(MusclePlan, BelliesAreAtTheirAnatomicalPlaces) {
   const std::map<Muscle, std::pair<double, double>> span = {{Muscle::hamstrings, {0.26, 0.30}},
                                                             {Muscle::quadriceps, {0.28, 0.33}},
                                                             {Muscle::triceps_surae, {0.22, 0.28}},
@@ -139,12 +139,12 @@ TEST(MusclePlan, BelliesLieWhereTheAnatomyHasThem) {
   }
 }
 
-TEST(MusclePlan, StiffnessIsThePapersThirdEquation) {
+TEST(MusclePlan, StiffnessFollowsThePapersThirdEquation) {
   const Material material;
   EXPECT_DOUBLE_EQ(bar_stiffness(material, 0.003, 0.4), material.young_pa * 0.003 / 0.4);
 }
 
-TEST(MusclePlan, ABodyThatWasNeverMadeIsRefused) {
+TEST(MusclePlan, UnmadeBodyIsRefused) {
   EXPECT_TRUE(is_refused(make_muscle_plan(Body{}, Muscle::quadriceps), "must be positive"));
   EXPECT_FALSE(make_muscle_plan(reference, static_cast<Muscle>(99)));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Published lengths of muscles as tables of numbers, and how well ours fit them.
+// Published muscle lengths as tables, and the quality of a fit to them.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace mobil::test {
 
-/// Our muscles' names in the published model.
+/// Names of the library's muscles in the published model.
 inline const std::map<std::string_view, std::string> published_name = {{"semimembranosus", "semimem"},
                                                                        {"semitendinosus", "semiten"},
                                                                        {"biceps_femoris_long_head", "bifemlh"},
@@ -27,7 +27,7 @@ inline const std::map<std::string_view, std::string> published_name = {{"semimem
                                                                        {"soleus", "soleus"},
                                                                        {"tibialis_anterior", "tib_ant"}};
 
-/// A row of a CSV file by its header's names.
+/// A row of a CSV file, by the names of its header.
 struct TableRow {
   std::map<std::string, std::string, std::less<>> cell;
 
@@ -35,7 +35,7 @@ struct TableRow {
     const auto found = cell.find(name);
     return found != cell.end() && !found->second.empty();
   }
-  /// 0 where the table has no such column.
+  /// Returns a cell's number, or 0 if the table has no such column.
   double operator()(std::string_view name) const { return has(name) ? std::stod(cell.find(name)->second) : 0; }
 };
 

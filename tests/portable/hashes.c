@@ -1,5 +1,5 @@
-/* State hashes of a few scenes, a line each: the same on every machine that fuses multiply-adds. C89; to be compiled
- * without contraction, so that what is asked for is the same too. */
+/* State hashes of a few scenes, a line each: equal on every machine that fuses multiply-adds. C89. Compile without
+ * contraction, so that the requests are equal as well. */
 #include <stdio.h>
 #include <stdlib.h>
 

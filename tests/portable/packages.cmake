@@ -1,6 +1,6 @@
-# For other machines and for the browser: of what others wrote the headers alone, which need not be built for the target.
+# Header-only dependencies for other machines and the browser, where they need not be built for the target.
 set(MOBIL_HEADERS_FROM /usr/include CACHE PATH "Where the headers of Eigen (eigen3), Highway, fmt and tl::expected are")
-set(others ${PROJECT_BINARY_DIR}/others)  # these alone, without all else that lies beside them
+set(others ${PROJECT_BINARY_DIR}/others)  # only these, without other headers in the same folder
 file(MAKE_DIRECTORY ${others})
 foreach(folder hwy fmt tl eigen3)
   file(CREATE_LINK ${MOBIL_HEADERS_FROM}/${folder} ${others}/${folder} SYMBOLIC)

@@ -1,5 +1,5 @@
-// Bad input through the program itself: exit status 2, one line that says what is wrong and how to mend it, nothing
-// written. Help tells of what there is.
+// Bad input to the program itself: exit status 2, one line that names the mistake and its remedy, no file written. Help
+// lists what exists.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST(BadBody, NamesValueRangeAndUnit) {
   expect_refused("walk --constitution burly --out out", {"'burly'", "thin, average, athletic, heavy"});
 }
 
-TEST(BadGait, NamesWhatTheCallerAsked) {
+TEST(BadGait, NamesTheRequestedValue) {
   expect_refused("walk --speed 9m/s --out out", {"speed of 9 m/s", "–", "m/s", "1.75 m"});
   expect_refused("walk --speed 0 --step-length 0.7 --out out", {"speed", "positive", "0 to stand"});
   expect_refused("walk --speed -1 --out out", {"--speed -1", "m/s"});
@@ -53,7 +53,7 @@ TEST(BadGait, NamesWhatTheCallerAsked) {
   expect_refused("walk --view xray --out out", {"'xray'", "stick, wireframe, surface"});
 }
 
-TEST(BadParameter, NamesTheNearestTheRangeAndTheList) {
+TEST(BadParameter, NamesTheNearestNameTheRangeAndTheList) {
   expect_refused("walk --set toe_out=3 --out out", {"--set toe_out", "did you mean toe_out_deg?", "--list-parameters"});
   expect_refused("walk --set step_widht_h=0.1 --out out", {"did you mean step_width_h?", "--list-parameters"});
   expect_refused("walk --set zzz=3 --out out", {"--set zzz", "--list-parameters"});
@@ -82,14 +82,14 @@ TEST(BadOutput, AFolderHasTheNameOfAResult) {
     EXPECT_EQ(ran.status, 2) << name;
     EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
     EXPECT_NE(ran.err.find(name), std::string::npos) << ran.err;
-    for (const auto& entry : fs::directory_iterator(folder.path / "out")) {  // nothing under a passing name
+    for (const auto& entry : fs::directory_iterator(folder.path / "out")) {  // no file under a temporary name
       const std::set<std::string> final_names = {"motion.csv", "muscles.csv", "walk.glb", "summary.json"};
       EXPECT_TRUE(final_names.contains(entry.path().filename().string())) << entry.path();
     }
   }
 }
 
-TEST(BadOutput, WithoutFfmpegOrADriverNothingIsWritten) {
+TEST(BadOutput, WithoutFfmpegOrDriverNothingIsWritten) {
   const TemporaryFolder folder;
   for (const std::string refused :
        {"PATH=/nowhere '" MOBIL_PROGRAM "' walk --seconds 0.1 --video --out out",
@@ -108,7 +108,7 @@ TEST(BadWalk, NamesTheMethodsAndElements) {
   expect_refused("walk --element cube", {"--element", "'cube'", "full, bbar, one-point"});
 }
 
-/// What is within files is refused by those who read them (Script).
+/// Mistakes inside files are refused by their readers (Script).
 TEST(BadFile, IsNamed) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "short.csv") << "time_s,parameter,value\n1,stop\n";

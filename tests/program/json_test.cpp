@@ -1,4 +1,4 @@
-// demo/program/json.h against the library that spells it out: the same text from the same lines.
+// demo/program/json.h compared with the full JSON library: equal text from equal calls.
 #include "demo/program/json.h"
 
 #include <gtest/gtest.h>
@@ -48,13 +48,13 @@ J shapes() {
   return json;
 }
 
-TEST(Json, IsSpelledAsTheLibrarySpellsIt) {
+TEST(Json, MatchesTheLibrarysText) {
   EXPECT_EQ(values<Json>().dump(2), values<nlohmann::ordered_json>().dump(2));
   EXPECT_EQ(shapes<Json>().dump(2), shapes<nlohmann::ordered_json>().dump(2));
   EXPECT_EQ(shapes<Json>().dump(1), shapes<nlohmann::ordered_json>().dump(1));
 }
 
-TEST(Json, ReadsBackAsWhatWasWritten) {
+TEST(Json, RoundTripsThroughTheLibrary) {
   const auto read = nlohmann::json::parse(values<Json>().dump(2));
   EXPECT_EQ(read["texts"]["view"], "c\"\n\t");
   EXPECT_EQ(read["numbers"][3], 1e-5);

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the `mobil` program itself, and reads what it wrote.
+// Runs the `mobil` program and reads its output.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@
 
 namespace mobil {
 
-/// Built with a sanitizer, under which measuring takes minutes and means nothing.
+/// True if built with a sanitizer, under which measurements take minutes and have no meaning.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool sanitized = true;
 #else
@@ -34,7 +34,7 @@ struct Ran {
   std::string out, err;
 };
 
-/// A command line of the shell, in the folder `in`.
+/// Runs a command line of the shell in the folder `in`.
 inline Ran run_shell(const std::string& command, const std::filesystem::path& in) {
   const TemporaryFolder streams;
   const int status = std::system(fmt::format("cd '{}' && {} >'{}' 2>'{}' </dev/null", in.string(), command,
@@ -44,13 +44,13 @@ inline Ran run_shell(const std::string& command, const std::filesystem::path& in
           read_bytes(streams.path / "err")};
 }
 
-/// `mobil` with those arguments, as a shell reads them.
+/// Runs `mobil` with those arguments, as a shell reads them.
 inline Ran run_mobil(const std::string& arguments, const std::filesystem::path& in) {
   return run_shell("'" MOBIL_PROGRAM "' " + arguments, in);
 }
 
-/// Whether `mobil COMMAND` refuses each of those arguments with status 2 and one line that holds all its pieces, and
-/// leaves nothing in the folder `in` that was not there.
+/// Expects `mobil COMMAND` to refuse each set of arguments with status 2 and one line that contains all its pieces, and
+/// to leave the folder `in` unchanged.
 inline void expect_refused(const std::string& command, const std::map<std::string, std::vector<std::string>>& refused,
                            const std::filesystem::path& in) {
   const auto entries = [&in] { return std::distance(std::filesystem::directory_iterator(in), {}); };
@@ -68,7 +68,7 @@ inline void expect_refused(const std::string& command, const std::map<std::strin
   EXPECT_EQ(entries(), before);
 }
 
-/// A CSV with a header, by column.
+/// A CSV file with a header, by column.
 class Csv {
  public:
   explicit Csv(const std::filesystem::path& file) {
@@ -84,7 +84,7 @@ class Csv {
   }
 
   const std::string& text(std::size_t row, const std::string& column) const { return rows[row][number_of(column)]; }
-  /// NaN where the cell is empty.
+  /// Returns a cell's number; NaN if it is empty.
   double number(std::size_t row, const std::string& column) const {
     const std::string& cell = text(row, column);
     return cell.empty() ? std::nan("") : std::stod(cell);

@@ -1,5 +1,5 @@
 #pragma once
-// Command lines that are refused, in one line that says how to mend them.
+// Command lines that are refused in one line that names the remedy.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace mobil::refusals {
 namespace fs = std::filesystem;
 
-/// Everything in a folder: names, and what files hold.
+/// Returns the contents of a folder: names, and bytes of files.
 inline std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -23,7 +23,7 @@ inline std::map<std::string, std::string> contents(const fs::path& folder) {
   return found;
 }
 
-/// One refused command line; `pieces` must all be in the message, and what lies in the folder stays as it is.
+/// Expects one refused command line. The message contains all `pieces`, and the folder is unchanged.
 inline void expect_refused(const fs::path& folder, const std::string& arguments, const std::vector<std::string>& pieces) {
   SCOPED_TRACE("mobil " + arguments);
   const auto before = contents(folder);

@@ -1,5 +1,5 @@
-// What people write for a walk and its changes (quantities, gait parameters, scripts) means what it says, over random
-// values; what cannot be meant is refused in one line that names the place and the range.
+// Quantities, gait parameters and scripts of walks have their documented meaning for random values. Invalid ones are
+// refused in one line that names the place and the range.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -86,7 +86,7 @@ TEST(Quantities, ReadBackInEveryUnitAndWithoutOne) {
   });
 }
 
-TEST(Quantities, AnotherKindsUnitIsRefusedAndThoseThatServeAreListed) {
+TEST(Quantities, WrongUnitIsRefusedAndValidUnitsAreListed) {
   for (const auto& unit : known_units) {
     for (const auto& other : known_units) {
       if (other.quantity == unit.quantity || *other.name == '\0') continue;
@@ -103,7 +103,7 @@ TEST(Quantities, AnotherKindsUnitIsRefusedAndThoseThatServeAreListed) {
 
 // --------------------------------------------------------------------------------------------- gait parameters
 
-TEST(GaitParameters, TheTableThatIsPrintedCanBeTypedBackIn) {
+TEST(GaitParameters, PrintedTableCanBeReadBack) {
   std::istringstream lines(gait_parameter_table());
   std::vector<std::string> listed;
   for (std::string line; std::getline(lines, line);) {
@@ -128,7 +128,7 @@ TEST(GaitParameters, TheTableThatIsPrintedCanBeTypedBackIn) {
   EXPECT_EQ(listed, gait_parameter_names());
 }
 
-TEST(GaitParameters, ASettingChangesThatParameterAlone) {
+TEST(GaitParameters, SettingChangesOnlyThatParameter) {
   over_random_seeds("settings", [](Dice& dice) {
     GaitStyle style, expected;
     for (int i = 0; i < 5; ++i) {
@@ -157,7 +157,7 @@ TEST(GaitParameters, OutsideTheRangeIsRefusedWithTheRange) {
   });
 }
 
-TEST(GaitParameters, ALetterLeftOutIsFound) {
+TEST(GaitParameters, MissingLetterIsCorrected) {
   for (const GaitParameter& p : gait_parameters) {
     for (std::size_t i = 0; i < p.name.size(); ++i) {
       std::string name(p.name);
@@ -179,7 +179,7 @@ const Body& body() {
   return made;
 }
 
-/// The rules of --help, kept by hand: what a walker does between two changes.
+/// The documented rules of --help: the walk between two changes.
 struct Expected {
   double speed = 0, length = 0, right = 0, left = 0;
   GaitStyle style;
@@ -197,7 +197,7 @@ struct Expected {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
-/// The rows of one time, and what they make of the walk before; values are such that no body limit is near.
+/// Returns the rows of one time and applies them to the walk before. Values are far from the body's limits.
 Rows random_change(Dice& dice, Expected& walk) {
   Rows rows;
   const auto add = [&](const std::string& name, double value, const std::string& unit = "", double one = 1) {
@@ -263,7 +263,7 @@ Rows random_change(Dice& dice, Expected& walk) {
   return rows;
 }
 
-TEST(Script, ChangesAreWhatTheRulesOfHelpMakeOfTheRows) {
+TEST(Script, ChangesFollowTheRulesOfHelp) {
   over_random_seeds("scripts", [](Dice& dice) {
     const GaitRequest start{.speed_m_s = 1.4F};
     Expected walk;
@@ -310,13 +310,13 @@ TEST(Script, ChangesAreWhatTheRulesOfHelpMakeOfTheRows) {
   });
 }
 
-/// What must stand in the message besides file and line.
+/// Required text of the message, in addition to file and line.
 struct Bad {
   Rows rows;  // at one time
   std::string piece;
 };
 
-TEST(Script, ABadRowIsRefusedByFileAndLine) {
+TEST(Script, BadRowIsRefusedByFileAndLine) {
   const std::vector<Bad> all_bad = {
       {{{"speedd", "1"}}, "did you mean speed?"},
       {{{"toe_out", "1"}}, "did you mean toe_out_deg?"},
@@ -372,7 +372,7 @@ TEST(Script, TimesGoForward) {
   }
 }
 
-TEST(Script, WhoStandsNeedsASpeedToWalk) {
+TEST(Script, StandingWalkerNeedsSpeedToWalk) {
   for (const std::string row : {"step_length,0.7", "step_frequency,2", "step_length_left,0.7"}) {
     const auto script = parse_walk_script("time_s,parameter,value\n1,stop,\n2," + row + "\n", "s.csv");
     ASSERT_TRUE(script.has_value());
@@ -389,7 +389,7 @@ TEST(Script, HelpNamesEveryWord) {
                                  "heading", "stop", "--list-parameters"}) {
     EXPECT_TRUE(holds(std::string(walk_script_help), word)) << word;
   }
-  // and its example is a script
+  // and its example is a valid script
   const std::string help(walk_script_help);
   const auto from = help.find("    time_s,");
   const auto script = parse_walk_script(help.substr(from, help.find("Each", from) - from), "help");

@@ -1,4 +1,4 @@
-// mobil walk --ground.
+// Tests of `mobil walk --ground`.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace mobil {
 namespace {
 
-/// Column 5 of the last row: how high the centre of mass is.
+/// Returns column 5 of the last row: the height of the centre of mass.
 double last_height_m(const std::filesystem::path& motion) {
   std::istringstream lines(read_bytes(motion));
   std::string line, last;
@@ -23,7 +23,7 @@ double last_height_m(const std::filesystem::path& motion) {
   return std::stod(cell);
 }
 
-TEST(WalkGround, StairsAndSlopesLeadUpAndDown) {
+TEST(WalkGround, StairsAndSlopesGoUpAndDown) {
   MOBIL_SLOW();
   const TemporaryFolder folder;
   const std::string brief = "walk --muscles quadriceps --method static --seconds 3 ";
@@ -35,13 +35,13 @@ TEST(WalkGround, StairsAndSlopesLeadUpAndDown) {
   const double level = height_m("--speed 1.2");
   EXPECT_NEAR(height_m("--speed 1.2 --ground slope:10%"), level + 0.36, 0.08);
   EXPECT_NEAR(height_m("--speed 1.2 --ground slope:-0.1"), level - 0.36, 0.08);
-  // At 1.8 steps a second, of which the first two are level.
+  // At 1.8 steps a second; the first two steps are level.
   EXPECT_NEAR(height_m("--ground stairs:16cm/30cm"), level + 0.16 * (3 * 1.8 - 2), 0.2);
   EXPECT_NEAR(height_m("--ground stairs:-16cm/30cm"), level - 0.16 * (3 * 1.8 - 2), 0.2);
   EXPECT_NEAR(height_m("--speed 1.2 --ground kerb:15cm"), level + 0.15, 0.04);
 }
 
-TEST(WalkGround, WhatCannotBeIsRefusedInOneLine) {
+TEST(WalkGround, InvalidGroundIsRefusedInOneLine) {
   const TemporaryFolder folder;
   expect_refused("walk",
                  {{"--ground moon", {"--ground", "stairs:16cm/30cm"}},

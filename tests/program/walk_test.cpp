@@ -1,4 +1,4 @@
-// What `mobil walk` promises, read off the files that the program itself wrote.
+// Documented properties of `mobil walk`, checked in the files that the program writes.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -30,7 +30,7 @@ using Json = nlohmann::json;
 constexpr double tick_s = 1.0 / 60;
 const std::vector<std::string> sides = {"right", "left"};
 
-/// Three people, and what each was asked for.
+/// Three people and their requested gaits.
 struct Asked {
   std::string arguments;
   double height_m, mass_kg, speed_m_s, step_m, seconds;
@@ -61,7 +61,7 @@ struct Walk {
   }
   fs::path file(const std::string& name) const { return folder.path / "out" / name; }
   Json summary() const { return Json::parse(read_bytes(file("summary.json"))); }
-  /// Phase at which a foot is lifted: half a cycle and a double support after its heel strike.
+  /// Returns the phase of toe-off: half a cycle and a double support after the heel strike.
   double toe_off() const { return 0.5 + summary().at("gait").at("double_support_cycle").get<double>(); }
 };
 
@@ -80,7 +80,7 @@ class WalkOf : public testing::TestWithParam<std::size_t> {
 };
 INSTANTIATE_TEST_SUITE_P(ThreePeople, WalkOf, testing::Values(0U, 1U, 2U));
 
-TEST_P(WalkOf, AllPromisedColumnsAndRowsAreThere) {
+TEST_P(WalkOf, HasAllDocumentedColumnsAndRows) {
   std::vector<std::string> promised = {"time_s",  "phase_right",         "phase_left",      "com_x_m",        "com_y_m",
                                        "com_z_m", "pelvis_rotation_deg", "pelvis_list_deg", "pelvis_tilt_deg"};
   for (const auto& side : sides) {
@@ -121,8 +121,8 @@ TEST_P(WalkOf, AllPromisedColumnsAndRowsAreThere) {
     }
   }
 }
-TEST_P(WalkOf, MeanSpeedIsTheOneAskedFor) {
-  // Over whole strides: from right heel strike to right heel strike, each between two rows.
+TEST_P(WalkOf, MeanSpeedIsTheRequestedOne) {
+  // Over complete strides, from right heel strike to right heel strike, each between two rows.
   std::vector<double> times, places;
   for (std::size_t i = 1; i < motion.rows.size(); ++i) {
     const double before = motion.number(i - 1, "phase_right") - 1, now = motion.number(i, "phase_right");
@@ -152,7 +152,7 @@ TEST_P(WalkOf, BelliesFollowTheirLines) {
   }
 }
 
-TEST_P(WalkOf, SummaryTellsWhatWasAskedWhatCameAndWhatItCost) {
+TEST_P(WalkOf, SummaryHasRequestResultAndCost) {
   const Json summary = walk.summary();
   EXPECT_NEAR(summary.at("body").at("height_m"), asked.height_m, 1e-6);
   EXPECT_NEAR(summary.at("body").at("mass_kg"), asked.mass_kg, 1e-5);
@@ -199,7 +199,7 @@ TEST(Walk, TheSameCommandWritesTheSameBytes) {
   }
 }
 
-TEST(Walk, NothingElseIsWrittenAndNoProgressBarWithoutATerminal) {
+TEST(Walk, OnlyDocumentedFilesAndNoProgressWithoutATerminal) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(walk_of(0).folder.path / "out"))
     names.insert(entry.path().filename());
@@ -208,13 +208,13 @@ TEST(Walk, NothingElseIsWrittenAndNoProgressBarWithoutATerminal) {
   for (const auto& name : names) EXPECT_NE(walk_of(0).ran.out.find(name), std::string::npos) << name;
 }
 
-TEST(Walk, UnitsAreOtherWaysToSayTheSame) {
+TEST(Walk, UnitsGiveEqualResults) {
   const Walk metric("--height 1.8288 --mass 80 --speed 1.25 --seconds 0.5");
   const Walk other("--height 6ft --mass 80000g --speed 4.5km/h --seconds 500ms");
   EXPECT_EQ(read_bytes(metric.file("motion.csv")), read_bytes(other.file("motion.csv")));
 }
 
-TEST(Walk, MusclesMoveByTheMethodAsked) {
+TEST(Walk, MusclesMoveByTheRequestedMethod) {
   for (const std::string method : {"explicit-central", "implicit-central", "newmark", "static"}) {
     const Walk walk(fmt::format("--seconds 0.5 --inertia --element bbar --method {}", method));
     const auto& summary = walk.summary();
@@ -237,7 +237,7 @@ TEST(Walk, MusclesMoveByTheMethodAsked) {
   EXPECT_EQ(pulled.muscles->text(0, "method"), "newmark_force");
 }
 
-/// Ground reaction and moments of a row, or the columns that hold none.
+/// Columns of ground reaction and moments, which are empty without forces.
 const std::vector<std::string> force_columns = [] {
   std::vector<std::string> names;
   for (const auto& side : sides) {
@@ -271,7 +271,7 @@ TEST(Motion, GroundReactionIsWrittenAlongTheHeading) {
     const double heading = row.heading_rad;
     for (std::size_t side = 0; side < 2; ++side) {
       const Vec3<float> force = forces.ground.force_n[side];
-      // turned back by the heading, the walker goes toward +z
+      // rotated back by the heading, the walker moves toward +z
       const double ahead =
           std::cos(heading) * static_cast<double>(force.z) + std::sin(heading) * static_cast<double>(force.x);
       RC_ASSERT(near("grf_vertical_" + sides[side] + "_n", force.y));
@@ -284,7 +284,7 @@ TEST(Motion, GroundReactionIsWrittenAlongTheHeading) {
   }));
 }
 
-TEST(Walk, WithoutForcesTheirCellsAreEmptyAndTheRestIsTheSame) {
+TEST(Walk, WithoutForcesTheirCellsAreEmptyAndOthersEqual) {
   const Walk bare(everybody[0].arguments + " --no-forces");
   const Csv& full = *walk_of(0).motion;
   ASSERT_EQ(bare.motion->rows.size(), full.rows.size());
@@ -297,7 +297,7 @@ TEST(Walk, WithoutForcesTheirCellsAreEmptyAndTheRestIsTheSame) {
   EXPECT_EQ(bare.summary().at("time").at("ticks"), full.rows.size());
 }
 
-TEST(Walk, ParametersThatAreSetAreInTheSummaryAndInTheWalk) {
+TEST(Walk, SetParametersAreInTheSummaryAndTheWalk) {
   const std::string still = "--set arm_back_deg=0 --set arm_forward_deg=0 --set toe_out_deg=12deg --seconds 1.5";
   const Walk walk("--speed 1.3 " + still), plain("--speed 1.3 --seconds 1.5");
   const Json parameters = walk.summary().at("gait").at("parameters");
@@ -319,13 +319,13 @@ TEST(Walk, ParametersThatAreSetAreInTheSummaryAndInTheWalk) {
   EXPECT_LT(swing(*walk.motion), 0.5 * swing(*plain.motion));
 }
 
-TEST(Walk, AScriptOfWhatIsAlreadySoChangesNothing) {
+TEST(Walk, ScriptWithoutChangesChangesNothing) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "same.csv") << "time_s,parameter,value\n0,heading,0\n0.4,toe_out_deg,6\n0.4,heading,0\n"
                                              "0.6,pelvis_list_deg,4\n5,stop,\n";
   const auto file = (folder.path / "same.csv").string();
   const Walk scripted("--speed 1.3 --seconds 1.5 --script '" + file + "'"), plain("--speed 1.3 --seconds 1.5");
-  for (std::size_t i = 0; i < plain.motion->rows.size(); ++i) {  // the step may be solved anew
+  for (std::size_t i = 0; i < plain.motion->rows.size(); ++i) {  // the step can be solved again
     for (const auto& column : plain.motion->columns) {
       if (!column.ends_with("_deg") && !column.ends_with("_m")) continue;
       EXPECT_NEAR(scripted.motion->number(i, column), plain.motion->number(i, column), 1e-2) << column << " row " << i;
@@ -337,7 +337,7 @@ TEST(Walk, AScriptOfWhatIsAlreadySoChangesNothing) {
   EXPECT_FALSE(plain.summary().contains("script"));
 }
 
-/// Width and height of a PNG: big-endian, after its signature and the head of its first chunk.
+/// Returns width and height of a PNG: big-endian, after its signature and the head of its first chunk.
 std::pair<unsigned, unsigned> picture_size(const std::string& png) {
   if (png.size() < 24 || !png.starts_with("\x89PNG\r\n\x1a\n")) return {0, 0};
   const auto word = [&](std::size_t at) {
@@ -368,7 +368,7 @@ TEST(Walk, PicturesOfEveryView) {
     }
     EXPECT_EQ(frames, 3U) << view;  // 30 a second
   }
-  EXPECT_EQ(pictures.size(), 12U);  // each another
+  EXPECT_EQ(pictures.size(), 12U);  // all different
 }
 
 }  // namespace mobil::walk_test

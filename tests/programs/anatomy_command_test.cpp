@@ -1,4 +1,4 @@
-// `mobil anatomy`: it goes on after a bad mesh, lists every fault, says what it mended, and draws what it can use.
+// `mobil anatomy` continues after a bad mesh, lists every fault, reports repairs, and draws the usable meshes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ void write(const fs::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-/// A shin bone, a soleus with one triangle turned, and the rows given.
+/// Writes a shin bone, a soleus with one reversed triangle, and the given rows.
 void write_folder(const fs::path& folder, const std::string& rows) {
   fs::create_directories(folder);
   write(folder / "landmarks.csv",
@@ -33,7 +33,7 @@ void write_folder(const fs::path& folder, const std::string& rows) {
   write(folder / "soleus.obj", test::obj_text(belly));
 }
 
-TEST(AnatomyCommand, SaysWhatItMendedAndDraws) {
+TEST(AnatomyCommand, ReportsRepairsAndDraws) {
   const TemporaryFolder folder;
   write_folder(folder.path / "leg", "");
   const Ran ran = run_mobil("anatomy leg --out leg.png", folder.path);
@@ -53,7 +53,7 @@ TEST(AnatomyCommand, SaysWhatItMendedAndDraws) {
   EXPECT_EQ(summary.at("anatomy_said").size(), 1U);
 }
 
-TEST(AnatomyCommand, GoesOnAfterEveryFault) {
+TEST(AnatomyCommand, ContinuesAfterEveryFault) {
   const TemporaryFolder folder;
   write_folder(folder.path / "leg",
                "a.off,A,right,bone,\nfemur.obj,Femur,right,bone,\n../b.obj,B,right,bone,\npatella.ply,P,right,bone,\n");

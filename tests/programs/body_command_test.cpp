@@ -1,4 +1,4 @@
-// `mobil body`: what it writes adds up and says where it is from; what cannot be is refused, what gives way is said.
+// `mobil body`: its figures add up and name their sources; impossible bodies are refused, adjustments are reported.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <png.h>
@@ -117,7 +117,7 @@ TEST(BodyCommand, EveryBlockOfFiguresNamesItsSource) {
   EXPECT_EQ(reference()["joint_limits"]["column"].size(), 24U);
 }
 
-TEST(BodyCommand, WhatIsImpossibleIsRefusedInOneLine) {
+TEST(BodyCommand, ImpossibleBodiesAreRefusedInOneLine) {
   const TemporaryFolder folder;
   expect_refused("body",
                  {{"--height 2.2 --mass 30 --out out", {"2.2 m", "30 kg", "58.1–200.0 kg"}},
@@ -131,7 +131,7 @@ TEST(BodyCommand, WhatIsImpossibleIsRefusedInOneLine) {
                  folder.path);
 }
 
-TEST(BodyCommand, ReportsWhatWasAdjusted) {
+TEST(BodyCommand, ReportsAdjustments) {
   const Json thin = parameters("--height 1.80 --mass 60 --biotype 2-3-1");
   ASSERT_EQ(thin["notes"].size(), 1U);
   EXPECT_NE(thin["notes"][0].get<std::string>().find("ectomorphy 1.0"), std::string::npos);
@@ -143,7 +143,7 @@ TEST(BodyCommand, ReportsWhatWasAdjusted) {
   EXPECT_NE(stout["notes"].dump().find("81 kg without fat"), std::string::npos) << stout["notes"];
 }
 
-/// How many different colours a picture has, and its size.
+/// Different colours of a picture, and its size.
 struct Picture {
   unsigned width = 0, height = 0;
   std::set<std::uint32_t> colours;
@@ -161,7 +161,7 @@ Picture read_picture(const std::filesystem::path& file) {
   return read;
 }
 
-TEST(BodyCommand, WritesWhatItPrintsAndAPicture) {
+TEST(BodyCommand, WritesItsOutputAndAPicture) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("body --height 1.65 --mass 58 --out one/two", folder.path);
   ASSERT_EQ(ran.status, 0) << ran.err;
@@ -176,7 +176,7 @@ TEST(BodyCommand, WritesWhatItPrintsAndAPicture) {
   EXPECT_GE(picture.width, 800U);
   EXPECT_GE(picture.height, 800U);
   EXPECT_GT(picture.colours.size(), 2000U);
-  // Nothing else, and nothing half-written.
+  // No other file, and none incomplete.
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path / "one/two"), {}), 2);
 }
 

@@ -1,5 +1,5 @@
-// `mobil crowd` in several shards: what it refuses, that its state depends on neither threads nor on where a run was
-// interrupted. (Ranks by MPI: tests/cluster/mpi_test.sh.)
+// `mobil crowd` in several shards: refusals, and a state that is independent of threads and of interruptions. (Ranks by
+// MPI: tests/cluster/mpi_test.sh.)
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -27,7 +27,7 @@ City city(const std::string& arguments, const std::filesystem::path& in, const s
 
 const std::string walkers = "--people 90 --shards 5 --effects none --churn 40 --burst 2 ";
 
-TEST(City, StateDependsOnNoThreads) {
+TEST(City, StateIsIndependentOfThreads) {
   const TemporaryFolder folder;
   const City one = city(walkers + "--seconds 2 --threads 1", folder.path);
   const City two = city(walkers + "--seconds 2 --threads 2", folder.path);
@@ -42,7 +42,7 @@ TEST(City, StateDependsOnNoThreads) {
   EXPECT_NE(one.out.find("state hash " + one.hash()), std::string::npos);
 }
 
-TEST(City, GoesOnWhereItWasSaved) {
+TEST(City, ResumesWhereItWasSaved) {
   const TemporaryFolder folder;
   const std::string whole = city(walkers + "--seconds 4", folder.path).hash();
   city(walkers + "--seconds 2.5 --save run --save-every 1s", folder.path);
@@ -52,8 +52,8 @@ TEST(City, GoesOnWhereItWasSaved) {
   EXPECT_GT(went_on.report["of_rank"][0]["replayed_ticks"].get<int>(), 0);
 }
 
-/// With muscles, some of them seen, whose methods change as people come near.
-TEST(City, MusclesGoOnWhereTheyWereSaved) {
+/// With muscles, some of them seen, whose methods change as people approach.
+TEST(City, MusclesResumeWhereTheyWereSaved) {
   const TemporaryFolder folder;
   const std::string seen = "--people 50 --shards 3 --near 12 --seed 2 ";
   const City whole = city(seen + "--seconds 3 --threads 2", folder.path);
@@ -62,7 +62,7 @@ TEST(City, MusclesGoOnWhereTheyWereSaved) {
   EXPECT_EQ(city(seen + "--seconds 3 --threads 1 --resume run", folder.path).hash(), whole.hash());
 }
 
-TEST(City, SleepersGoOnToo) {
+TEST(City, SleepersResume) {
   const TemporaryFolder folder;
   const std::string alive = "--people 1500 --in-view 150 --effects none --shards 3 --seed 4 ";
   const std::string whole = city(alive + "--seconds 12", folder.path, "city").hash();
@@ -70,7 +70,7 @@ TEST(City, SleepersGoOnToo) {
   EXPECT_EQ(city(alive + "--seconds 12 --resume run", folder.path, "city").hash(), whole);
 }
 
-TEST(City, RefusesWhatDoesNotGoTogetherInOneLine) {
+TEST(City, RefusesConflictingOptionsInOneLine) {
   const TemporaryFolder folder;
   expect_refused("crowd",
                  {{"--shards 0", {"--shards 0", "1 to 4096"}},
@@ -86,7 +86,7 @@ TEST(City, RefusesWhatDoesNotGoTogetherInOneLine) {
                  folder.path);
 }
 
-TEST(City, AnotherRunIsNotGoneOnWith) {
+TEST(City, AnotherRunIsNotResumed) {
   const TemporaryFolder folder;
   city("--people 30 --shards 2 --effects none --seconds 0.5 --save run", folder.path);
   const Ran other = run_mobil("crowd --people 31 --shards 2 --effects none --seconds 1 --resume run", folder.path);

@@ -1,4 +1,4 @@
-// Pictures on a sheet stand where they should, whole and untouched.
+// Pictures on a contact sheet are at their places, complete and unchanged.
 #include "demo/pictures/contact_sheet.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ Image plain(int width, int height, std::array<std::uint8_t, 4> colour) {
   return image;
 }
 
-TEST(ContactSheet, RowsAndColumnsHoldTheirLargestPictureAndTheRestIsWhite) {
+TEST(ContactSheet, CellsFitTheLargestPictureAndTheRestIsWhite) {
   const std::vector<std::vector<Image>> rows = {{plain(4, 3, {9, 8, 7, 255}), plain(2, 5, {1, 2, 3, 255})},
                                                 {plain(6, 2, {200, 100, 50, 0})}};
   const Image sheet = contact_sheet(rows, 2);
@@ -26,11 +26,11 @@ TEST(ContactSheet, RowsAndColumnsHoldTheirLargestPictureAndTheRestIsWhite) {
       ASSERT_EQ(p[3], 255);
       if (p[0] == 9 && p[1] == 8 && p[2] == 7) {
         ++first;
-        EXPECT_TRUE(x >= 3 && x < 7 && y >= 3 && y < 6) << x << ' ' << y;  // in the middle of its cell
+        EXPECT_TRUE(x >= 3 && x < 7 && y >= 3 && y < 6) << x << ' ' << y;  // centred in its cell
       } else if (p[0] == 1 && p[1] == 2 && p[2] == 3) {
         ++second;
       } else {
-        EXPECT_TRUE(p[0] == 255 && p[1] == 255 && p[2] == 255) << x << ' ' << y;  // the clear one shows the white
+        EXPECT_TRUE(p[0] == 255 && p[1] == 255 && p[2] == 255) << x << ' ' << y;  // the transparent one shows white
       }
     }
   }
@@ -38,7 +38,7 @@ TEST(ContactSheet, RowsAndColumnsHoldTheirLargestPictureAndTheRestIsWhite) {
   EXPECT_EQ(second, 10);
 }
 
-TEST(ContactSheet, OfNoPicturesIsEmpty) {
+TEST(ContactSheet, WithoutPicturesIsEmpty) {
   EXPECT_TRUE(contact_sheet({}, 3).rgba.empty());
   const std::vector<std::vector<Image>> rows(2);
   EXPECT_TRUE(contact_sheet(rows, 3).rgba.empty());

@@ -1,5 +1,4 @@
-// `mobil crowd`: what it refuses, what its report says and that the figures agree, and that a crowd depends on its seed
-// alone.
+// `mobil crowd`: refusals, consistent figures of its report, and a crowd that is determined by its seed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +19,7 @@
 namespace mobil::crowd_command_test {
 using Json = nlohmann::json;
 
-/// The report of a crowd that is asked for so.
+/// Returns the report of a crowd with those arguments.
 Json report_of(const std::string& arguments, const std::string& command = "crowd") {
   const TemporaryFolder folder;
   const Ran ran = run_mobil(command + " --quiet --report crowd.json " + arguments, folder.path);
@@ -29,10 +28,10 @@ Json report_of(const std::string& arguments, const std::string& command = "crowd
   return Json::parse(read_bytes(folder.path / "crowd.json"), nullptr, false);
 }
 
-// Nobody's muscles need more than their lines: no bases have to be made first.
+// All muscles are lines only, so no bases have to be made first.
 const std::string lines_alone = "--tolerance 100mm --near 0 ";
 
-TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
+TEST(CrowdCommand, RefusesValuesOutOfRangeInOneLine) {
   const TemporaryFolder folder;
   expect_refused("crowd",
                  {{"--people 0", {"--people 0", "1 to 200000"}},
@@ -118,7 +117,7 @@ TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
   }
 }
 
-TEST(CrowdCommand, AnotherSeedIsAnotherCrowd) {
+TEST(CrowdCommand, AnotherSeedGivesAnotherCrowd) {
   const std::string asked = "--people 20 --seconds 1 --effects none ";
   const Json first = report_of(asked + "--seed 1"), again = report_of(asked + "--seed 1"),
              other = report_of(asked + "--seed 2");
@@ -126,7 +125,7 @@ TEST(CrowdCommand, AnotherSeedIsAnotherCrowd) {
   EXPECT_NE(first["state_hash"], other["state_hash"]);
 }
 
-TEST(CrowdCommand, MostOfThoseAliveSleepAndDependOnTheSeedAlone) {
+TEST(CrowdCommand, MostPeopleSleepAndDependOnlyOnTheSeed) {
   const std::string asked = "--people 4000 --in-view 300 --seconds 2 --effects none --seed 5 --threads ";
   const Json one = report_of(asked + "1", "city"), two = report_of(asked + "2", "city");
   ASSERT_TRUE(one.is_object());
@@ -142,7 +141,7 @@ TEST(CrowdCommand, MostOfThoseAliveSleepAndDependOnTheSeedAlone) {
   EXPECT_GT(one["tick_ms_p99"].get<double>(), 0);
 }
 
-TEST(CrowdCommand, AsManyComeAsLeave) {
+TEST(CrowdCommand, SpawnsEqualDespawns) {
   const Json report = report_of("--people 30 --seconds 4 --churn 12 --burst 5 " + lines_alone);
   EXPECT_EQ(report["people"], 30);
   EXPECT_EQ(report["spawns"], report["despawns"]);
@@ -150,7 +149,7 @@ TEST(CrowdCommand, AsManyComeAsLeave) {
   EXPECT_LT(report["steady_ticks"], report["ticks"]);
 }
 
-TEST(CrowdScene, IsRaisedUntilTicksAreMissedOrThereCanBeNoMore) {
+TEST(CrowdScene, IsRaisedUntilTicksAreMissedOrTheLimit) {
   constexpr std::size_t most = 50;
   CrowdRequest request;
   request.people = 8;
@@ -170,7 +169,7 @@ TEST(CrowdScene, IsRaisedUntilTicksAreMissedOrThereCanBeNoMore) {
   }
 }
 
-TEST(CrowdScene, NobodyStaysFarOutsideOfTheSquare) {
+TEST(CrowdScene, PeopleReturnToTheSquare) {
   CrowdRequest request;
   request.people = 60;
   request.effects.muscles = false;
@@ -186,11 +185,11 @@ TEST(CrowdScene, NobodyStaysFarOutsideOfTheSquare) {
     }
   }
   const double half_m = 0.5 * scene.side_m();
-  EXPECT_GT(farthest_m, half_m);       // they do come there,
-  EXPECT_LT(farthest_m, half_m + 15);  // and turn within the steps that a turn takes
+  EXPECT_GT(farthest_m, half_m);       // they do get there,
+  EXPECT_LT(farthest_m, half_m + 15);  // and turn within the steps of a turn
 }
 
-TEST(CrowdPeople, NumberAndSeedAloneMakeAPersonAndWhatTheyDo) {
+TEST(CrowdPeople, PeopleFollowFromNumberAndSeed) {
   std::set<float> heights;
   for (std::uint64_t number = 0; number < 1000; ++number) {
     const CrowdPerson person = crowd_person(3, number, 0), same = crowd_person(3, number, 0);

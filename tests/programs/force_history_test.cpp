@@ -1,4 +1,4 @@
-// Loads as tables: interpolation, and which tables are refused and where.
+// Loads as tables: interpolation, and refusals of tables with their line.
 #include "demo/lab/muscle/force_history.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ RC_GTEST_PROP(ForceHistory, LinearBetweenRowsZeroBeforeHeldAfter, (int first_n, 
   RC_ASSERT(force_at(history, 3 + t).x == b);
 }
 
-TEST(ForceHistory, TwoRowsOfOneMomentAreAJump) {
+TEST(ForceHistory, TwoRowsOfOneTimeAreAJump) {
   const auto history = parse_force_history(header + "0,0,0,1\n1,0,0,1\n1,0,0,5\n2,0,0,5\n", "load.csv");
   ASSERT_TRUE(history) << history.error().message;
   EXPECT_DOUBLE_EQ(force_at(*history, 0.999999).z, 1);

@@ -1,5 +1,5 @@
-// `mobil walk --export` and `mobil crowd --export`: which files there are, and that they agree with the tables.
-// One process for all tests of a suite, which share a walk.
+// `mobil walk --export` and `mobil crowd --export`: their files, which agree with the tables. The tests share a walk,
+// so they run in one process.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ const Exported& exported() {
   return once;
 }
 
-TEST(WalkFormats, AllAppearBesideTheUsualFiles) {
+TEST(WalkFormats, AllAppearNextToTheUsualFiles) {
   ASSERT_EQ(exported().ran.status, 0) << exported().ran.err;
   std::set<std::string> expected(files.begin(), files.end()), found;
   expected.insert({"walk.glb", "motion.csv", "muscles.csv", "summary.json"});
@@ -53,7 +53,7 @@ TEST(WalkFormats, AllAppearBesideTheUsualFiles) {
   for (const auto& file : files) EXPECT_NE(exported().ran.out.find(file), std::string::npos) << file;
 }
 
-TEST(WalkFormats, OpensimsAnglesAreThoseOfTheTableAtEveryTick) {
+TEST(WalkFormats, OpensimAnglesMatchTheTableAtEveryTick) {
   ASSERT_EQ(exported().ran.status, 0) << exported().ran.err;
   const OpensimTable table(exported().out / "walk.mot");
   const Csv& motion = *exported().motion;
@@ -82,7 +82,7 @@ TEST(WalkFormats, OpensimsAnglesAreThoseOfTheTableAtEveryTick) {
   }
 }
 
-TEST(WalkFormats, OpensimsForcesAreThoseOfTheTable) {
+TEST(WalkFormats, OpensimForcesMatchTheTable) {
   ASSERT_EQ(exported().ran.status, 0) << exported().ran.err;
   const OpensimTable table(exported().out / "walk.sto");
   const Csv& motion = *exported().motion;
@@ -93,7 +93,7 @@ TEST(WalkFormats, OpensimsForcesAreThoseOfTheTable) {
   }
 }
 
-TEST(WalkFormats, WhatIsRefusedIsOneLine) {
+TEST(WalkFormats, RefusalsAreOneLine) {
   const TemporaryFolder folder;
   expect_refused("walk",
                  {{"--export walk.fbx", {"--export walk.fbx", ".glb, .bvh", ".gl"}},
@@ -118,7 +118,7 @@ TEST(WalkFormats, WhatIsRefusedIsOneLine) {
                  folder.path);
 }
 
-TEST(CrowdFormats, ACrowdIsOneValidGlbAndOneUsda) {
+TEST(CrowdFormats, CrowdIsOneValidGlbAndOneUsda) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil(
       "crowd --people 12 --seconds 0.1 --tolerance 100mm --near 0 --export crowd.glb --export crowd.usda "
@@ -136,7 +136,7 @@ TEST(CrowdFormats, ACrowdIsOneValidGlbAndOneUsda) {
   for (const auto& mesh : scene.at("meshes")) {
     for (const auto& primitive : mesh.at("primitives")) positions.insert(primitive.at("attributes").at("POSITION"));
   }
-  // Skin, legs, lips, hair, shirt, shorts, shoes: shared by all of about one build.
+  // Skin, legs, lips, hair, shirt, shorts, shoes: common to all people of similar build.
   EXPECT_EQ(positions.size() % 7, 0U);
   EXPECT_LT(positions.size(), 7U * 12);
   if (run_shell("python3 --version", folder.path).status == 0) {

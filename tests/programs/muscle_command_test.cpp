@@ -1,4 +1,4 @@
-// `mobil muscle` as people and scripts meet it: every method, what it writes, what it refuses and why.
+// `mobil muscle` as users and scripts run it: every method, its output, and its refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace mobil::muscle_command_test {
 const std::string push = "time_s,force_x_n,force_y_n,force_z_n\n0,0.001,0.0005,0.01\n0.1,0.002,0,0.01\n0.1,0,0,0\n";
 
-/// Runs in a folder that holds load.csv; hands back the table.
+/// Runs in a folder that contains load.csv. Returns the table.
 Csv displacement(const TemporaryFolder& folder, const std::string& options) {
   std::ofstream(folder.path / "load.csv") << push;
   const Ran ran = run_mobil("muscle " + options, folder.path);
@@ -53,7 +53,7 @@ TEST(MuscleCommand, SingleAndDoublePrecisionAgreeInEveryMethodUnderEveryLoad) {
   }
 }
 
-TEST(MuscleCommand, EveryRowIsTheStateAtItsTimeFromRestOn) {
+TEST(MuscleCommand, EveryRowIsTheStateAtItsTime) {
   const TemporaryFolder folder;
   for (const std::string method : {"explicit-central", "implicit-central", "newmark"}) {
     const Csv csv = displacement(folder, "--load load.csv --dt 0.5ms --seconds 0.05 --method " + method);
@@ -63,12 +63,12 @@ TEST(MuscleCommand, EveryRowIsTheStateAtItsTimeFromRestOn) {
       ASSERT_NEAR(csv.number(r, "time_s"), 0.0005 * static_cast<double>(r), 1e-9);
     }
     EXPECT_EQ(csv.number(0, "u_z_m"), 0);
-    // the force is there from t = 0 on: uniform acceleration at first, four times as far at twice the time
+    // the force acts from t = 0: uniform acceleration at first, four times the distance at twice the time
     EXPECT_NEAR(csv.number(2, "u_z_m") / csv.number(1, "u_z_m"), 4, method == "newmark" ? 0.6 : 0.3) << method;
   }
 }
 
-TEST(MuscleCommand, DefaultMassFollowsTheMethodAndTheSummarySaysSo) {
+TEST(MuscleCommand, DefaultMassFollowsTheMethodAndIsReported) {
   const TemporaryFolder folder;
   const auto says = [&](const std::string& options, const std::string& part) {
     const Ran ran = run_mobil("muscle --seconds 0.02 " + options, folder.path);
@@ -84,7 +84,7 @@ TEST(MuscleCommand, DefaultMassFollowsTheMethodAndTheSummarySaysSo) {
   says("--method implicit-central", "critical step  0.001629 s");
 }
 
-TEST(MuscleCommand, CaaTakesStepsThatExplicitMethodsAreRefused) {
+TEST(MuscleCommand, NewmarkAllowsStepsThatExplicitMethodsRefuse) {
   const TemporaryFolder folder;
   const Csv csv = displacement(folder, "--load load.csv --method newmark --dt 20ms --seconds 1");
   for (std::size_t r = 0; r < csv.rows.size(); ++r) EXPECT_LT(std::abs(csv.number(r, "u_x_m")), 0.1);
@@ -94,7 +94,7 @@ TEST(MuscleCommand, CaaTakesStepsThatExplicitMethodsAreRefused) {
   expect_refused("--dt 3.4ms --element bbar --poisson 0.49", {"critical step"});
 }
 
-TEST(MuscleCommand, RefusesWhatDoesNotGoTogetherAndNamesWhatDoes) {
+TEST(MuscleCommand, RefusesConflictingOptionsAndNamesValidOnes) {
   expect_refused("--method explicit-central --mass consistent", {"--method implicit-central", "--mass lumped"});
   expect_refused("--method implicit-central --mass lumped", {"--method explicit-central", "--mass consistent"});
   expect_refused("--method verlet", {"'verlet'", "static, explicit-central, implicit-central, newmark"});
@@ -108,7 +108,7 @@ TEST(MuscleCommand, RefusesWhatDoesNotGoTogetherAndNamesWhatDoes) {
   expect_refused("--grading 0,1", {"--grading '0,1'", "0.01 to 100"});
 }
 
-TEST(MuscleCommand, WarnsOfElementsTooCoarseForTheWavesAndRunsAllTheSame) {
+TEST(MuscleCommand, WarnsOfTooCoarseElementsAndStillRuns) {
   const TemporaryFolder folder;
   const Ran coarse = run_mobil("muscle --cells 2x2x4 --cell-size 0.04 --seconds 0.05", folder.path);
   EXPECT_EQ(coarse.status, 0);
@@ -118,7 +118,7 @@ TEST(MuscleCommand, WarnsOfElementsTooCoarseForTheWavesAndRunsAllTheSame) {
   EXPECT_EQ(run_mobil("muscle --cells 2x2x4 --cell-size 0.029 --seconds 0.05", folder.path).err, "");
 }
 
-TEST(MuscleCommand, HelpShowsTheMethodsAndAnExampleThatRuns) {
+TEST(MuscleCommand, HelpShowsMethodsAndARunnableExample) {
   const TemporaryFolder folder;
   const Ran help = run_mobil("muscle --help", folder.path);
   const std::size_t example = help.out.find("  printf 'time_s");

@@ -1,4 +1,4 @@
-// What a run leaves behind when it is interrupted, its reader goes away, or its names are bad.
+// Files after a run is interrupted, its reader closes, or its names are invalid.
 
 #include <gtest/gtest.h>
 
@@ -22,13 +22,13 @@ std::set<std::string> names(const fs::path& folder) {
   return found;
 }
 
-/// Results of one run have one speed in them.
+/// Returns the number of lines of motion.csv, which identifies the run.
 std::size_t length_of_motion(const fs::path& out) {
   const std::string text = read_bytes(out / "motion.csv");
   return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
-TEST(Outputs, AnInterruptedRunLeavesNothingAndChangesNothing) {
+TEST(Outputs, InterruptedRunLeavesAndChangesNothing) {
   const TemporaryFolder folder;
   const std::string walk = "walk --no-forces --method none --seconds ";
   const Ran all = run_mobil(walk + "1 --frames --video --out whole", folder.path);
@@ -42,13 +42,13 @@ TEST(Outputs, AnInterruptedRunLeavesNothingAndChangesNothing) {
   const std::size_t old_rows = length_of_motion(folder.path / "old");
 
   for (const std::string signal : {"INT", "TERM", "HUP"}) {
-    // One of them at every stage of a run; with MOBIL_LONG all.
+    // One signal at every stage of a run; with MOBIL_LONG all signals.
     const bool all_stages = signal == "TERM" || std::getenv("MOBIL_LONG") != nullptr;
     for (const std::string& after_s :
          all_stages ? std::vector<std::string>{"0.03", "0.15", "0.4", "0.9", "1.6"} : std::vector<std::string>{"0.4"}) {
       const std::string said = signal + " after " + after_s + " s";
       for (const std::string out : {"new", "old"}) {
-        // Of --preserve-status: 128 and the signal.
+        // --preserve-status: 128 plus the signal.
         const Ran ran = run_shell("timeout --preserve-status -s " + signal + " " + after_s + " '" MOBIL_PROGRAM "' " +
                                       walk + "1 --frames --video --out " + out,
                                   folder.path);
@@ -60,7 +60,7 @@ TEST(Outputs, AnInterruptedRunLeavesNothingAndChangesNothing) {
         }
         EXPECT_GT(ran.status, 128) << said;
         if (out == "new") {
-          // A signal that comes after all is in place, before the program ends, finds the whole.
+          // A signal after all files are in place, but before the program ends, leaves complete results.
           if (fs::exists(folder.path / "new")) {
             EXPECT_EQ(names(folder.path / "new"), whole) << said;
           }
@@ -75,7 +75,7 @@ TEST(Outputs, AnInterruptedRunLeavesNothingAndChangesNothing) {
   EXPECT_EQ(run_shell("ps -eo args | grep '[f]fmpeg.*" + folder.path.string() + "'", folder.path).out, "");
 }
 
-TEST(Outputs, AReaderThatGoesAwayIsNoError) {
+TEST(Outputs, ClosedReaderIsNotAnError) {
   const TemporaryFolder folder;
   for (const std::string command : {"--help", "walk --list-parameters", "walk --help"}) {
     const Ran ran =
@@ -93,7 +93,7 @@ TEST(Outputs, ADeviceIsWrittenTo) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(Outputs, NamesThatCannotBeAreRefusedWithStatusTwo) {
+TEST(Outputs, InvalidNamesAreRefusedWithStatusTwo) {
   const TemporaryFolder folder;
   fs::create_symlink("loop", folder.path / "loop");
   const std::string longest(300, 'n');
@@ -114,7 +114,7 @@ TEST(Outputs, NamesThatCannotBeAreRefusedWithStatusTwo) {
   expect_refused("bake", {{"loop", {"loop"}}, {longest + "/" + longest, {"nnn"}}}, folder.path);
 }
 
-TEST(Outputs, WhatIsRepeatedOfAMistakeIsShortAndHarmless) {
+TEST(Outputs, QuotedMistakesAreShortAndHarmless) {
   const TemporaryFolder folder;
   const std::string red = "$(printf '\\033[31mred')", lines = "$(printf 'two\\nlines')",
                     endless = "$(printf '%050000d' 0)x";

@@ -1,4 +1,4 @@
-// `mobil schedule`: the picture of a tick shows all of it, and the one in ARCHITECTURE.md is today's.
+// `mobil schedule`: the picture shows the complete tick, and the one in ARCHITECTURE.md is current.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,14 +39,14 @@ TEST(SchedulePicture, EverySystemAndEveryAccessHasItsMark) {
   for (const auto phases : {simulation.schedule().before(), simulation.schedule().after()})
     for (const TimedPhase& one : phases)
       EXPECT_NE(picture.find(">" + one.phase.name + "<"), std::string::npos) << one.phase.name;
-  // each once more in the legend
+  // each occurs once more in the legend
   EXPECT_EQ(count_of("class=\"read\"", picture), read + 1);
   EXPECT_EQ(count_of("class=\"write\"", picture), written + 1);
   EXPECT_EQ(count_of("class=\"lookup\"", picture), looked_up + 1);
   EXPECT_EQ(count_of("class=\"previous\"", picture), previous + 1);
 }
 
-TEST(SchedulePicture, TheCommittedOneIsTodays) {
+TEST(SchedulePicture, CommittedPictureIsCurrent) {
   EXPECT_EQ(read_bytes(MOBIL_SOURCE_DIR "/demo/gallery/schedule.svg"), schedule_picture(Simulation().schedule()))
       << "the systems have changed; run: mobil schedule --svg demo/gallery/schedule.svg";
 }

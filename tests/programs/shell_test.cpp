@@ -1,5 +1,5 @@
-// What shells and `man` get is made from the tables of the command line: every option of every subcommand is in it, and
-// the shells and troff take it. Progress and --quiet.
+// Completions and manual pages are made from the tables of the command line: they contain every option of every
+// subcommand, and shells and troff accept them. Progress and --quiet.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ bool is_there(const std::string& program) {
   return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0;
 }
 
-/// Its names, dashes included, without arguments that have none.
+/// Returns the names of a subcommand's options, including dashes, without positional arguments.
 std::vector<std::string> option_names(const Program& program, const Subcommand& command) {
   std::vector<std::string> names = {"-h", "--help"};
   for (const auto* options : {&command.options, &program.options})
@@ -33,7 +33,7 @@ std::vector<std::string> option_names(const Program& program, const Subcommand& 
   return names;
 }
 
-/// Whether each name stands in the text, not as the beginning of a longer one.
+/// Expects each name in the text as a complete word.
 void expect_all(const std::string& text, const std::vector<std::string>& names, const std::string& where) {
   for (const std::string& name : names) {
     std::size_t at = text.find(name);
@@ -46,7 +46,7 @@ void expect_all(const std::string& text, const std::vector<std::string>& names, 
   }
 }
 
-/// The words that bash would offer for the last of `words`, sorted.
+/// Returns the words that bash offers for the last of `words`, sorted.
 std::vector<std::string> bash_offers(const std::vector<std::string>& words) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "mobil.bash") << bash_completion(mobil_program());
@@ -100,7 +100,7 @@ TEST(Completion, BashOffersEveryOptionOfEverySubcommand) {
   }
 }
 
-TEST(Completion, OtherShellsHaveEveryOptionAndTakeTheScript) {
+TEST(Completion, OtherShellsHaveEveryOptionAndAcceptTheScript) {
   const Program program = mobil_program();
   const TemporaryFolder folder;
   const std::string zsh = zsh_completion(program), fish = fish_completion(program);
@@ -136,7 +136,7 @@ TEST(Completion, TheProgramPrintsItsScripts) {
   expect_refused("completion", {{"", {"bash, zsh or fish"}}, {"bahs", {"did you mean bash?"}}}, folder.path);
 }
 
-/// Text of troff without changes of font and what else begins with a backslash.
+/// Returns troff text without font changes and other escapes.
 std::string without_escapes(std::string text) {
   for (const char* font : {"\\fB", "\\fI", "\\fR"})
     for (std::size_t at; (at = text.find(font)) != std::string::npos;) text.replace(at, 3, " ");
@@ -162,7 +162,7 @@ TEST(Manual, HasEveryOptionOfEverySubcommand) {
   expect_refused("man", {{"walj", {"'walj'", "did you mean walk?"}}}, folder.path);
 }
 
-TEST(Manual, TroffHasNothingToWarnOf) {
+TEST(Manual, TroffAcceptsItWithoutWarnings) {
   if (!is_there("groff")) GTEST_SKIP() << "no groff";
   const TemporaryFolder folder;
   const Ran written = run_mobil("man --out pages", folder.path);
@@ -180,7 +180,7 @@ TEST(Manual, TroffHasNothingToWarnOf) {
   EXPECT_EQ(pages, mobil_program().commands.size() + 1);
 }
 
-TEST(Quiet, NothingIsSaidOfWhatWasWritten) {
+TEST(Quiet, WrittenFilesAreNotReported) {
   const TemporaryFolder folder;
   for (const std::string arguments :
        {"muscle --seconds 0.01", "body --out out", "walk --seconds 0.1 --out out", "man --out pages",
@@ -212,7 +212,7 @@ TEST(Progress, PlainLinesAreTenSecondsApart) {
   EXPECT_FALSE(pace.due(1001)) << "a long silence is no credit";
 }
 
-TEST(Progress, ShortRunsSayNothingWhereStderrIsNoTerminal) {
+TEST(Progress, ShortRunsPrintNothingWithoutATerminal) {
   testing::internal::CaptureStderr();
   show("measuring");
   for (std::size_t i = 0; i < 5; ++i) show_progress("spawning", i, 5);
@@ -223,7 +223,7 @@ TEST(Progress, ShortRunsSayNothingWhereStderrIsNoTerminal) {
   EXPECT_EQ(run_mobil("crowd --people 8 --seconds 0.1 --effects none", folder.path).err, "");
 }
 
-/// On a terminal of its own; what it wrote there.
+/// Runs on a pseudo-terminal. Returns its output.
 std::string on_terminal(const std::string& arguments, const TemporaryFolder& folder) {
   return run_shell("script -qec \"'" MOBIL_PROGRAM "' " + arguments + "\" /dev/null", folder.path).out;
 }

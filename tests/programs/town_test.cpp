@@ -17,8 +17,8 @@
 namespace mobil::town_test {
 namespace {
 
-/// Everybody gets somewhere and nobody into anybody, on kerbs, stairs and ramp.
-TEST(Town, PeopleGoAboutItAndKeepApart) {
+/// All people reach goals without collisions, on kerbs, stairs and ramp.
+TEST(Town, PeopleReachGoalsWithoutCollisions) {
   auto made = TownScene::make({.people = 30, .seed = 3, .threads = 1});
   ASSERT_TRUE(made) << made.error().message;
   TownScene& scene = *made;
@@ -29,7 +29,7 @@ TEST(Town, PeopleGoAboutItAndKeepApart) {
     const Root guide = scene.guide();
     highest_m = std::max(highest_m, town_ground(static_cast<float>(guide.x_m), static_cast<float>(guide.z_m)).height_m);
     if (tick % 30 != 0) continue;
-    for (const Entity person : scene.people()) {  // feet are on the ground, not in it
+    for (const Entity person : scene.people()) {  // feet are not in the ground
       const Feet<float> feet = *scene.simulation().get<Feet>(person);
       const auto side = scene.simulation().get<GaitState>(person)->stance_side;
       for (const Vec3<float>& at : {feet.heel_m[side], feet.toe_m[side]})
@@ -45,7 +45,7 @@ TEST(Town, PeopleGoAboutItAndKeepApart) {
   EXPECT_LT(report.longest_wait_s, 20);
 }
 
-TEST(Town, WaysGoRoundWallsAndOverTheStairs) {
+TEST(Town, PathsGoRoundWallsAndOverStairs) {
   const auto made = TownPaths::make();
   ASSERT_TRUE(made) << made.error().message;
   std::vector<GroundPoint> way;
@@ -72,7 +72,7 @@ TEST(Town, WaysGoRoundWallsAndOverTheStairs) {
   }
 }
 
-TEST(Town, ItsReportSaysWhatHappened) {
+TEST(Town, ReportMatchesTheRun) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("town --people 12 --seconds 5 --report town.json", folder.path);
   ASSERT_EQ(ran.status, 0) << ran.err;
@@ -85,7 +85,7 @@ TEST(Town, ItsReportSaysWhatHappened) {
   EXPECT_EQ(report["state_hash"], nlohmann::json::parse(read_bytes(folder.path / "again.json"))["state_hash"]);
 }
 
-TEST(Town, WhatCannotBeIsRefusedInOneLine) {
+TEST(Town, InvalidOptionsAreRefusedInOneLine) {
   const TemporaryFolder folder;
   expect_refused("town",
                  {{"--people 0", {"--people 0", "1 to 300"}},

@@ -1,4 +1,4 @@
-// Bad command lines of any subcommand: exit status 2, one line that says how to mend it. Help tells of what there is.
+// Bad command lines of any subcommand: exit status 2, one line with the remedy. Help lists what exists.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace mobil::usage_test {
 using namespace refusals;
 
-TEST(Usage, UnknownNamesAreNamedAndTheNearestSuggested) {
+TEST(Usage, UnknownNamesAreReportedWithASuggestion) {
   expect_refused("", {"subcommand is missing", "walk", "muscle", "mobil --help"});
   expect_refused("walj", {"'walj'", "walk, crowd", "mobil --help"});
   expect_refused("walj --height 1.8", {"'walj'", "did you mean walk?", "mobil --help"});
@@ -31,7 +31,7 @@ TEST(Usage, UnknownNamesAreNamedAndTheNearestSuggested) {
   expect_refused("--height 1.8 walk", {"--height goes after the subcommand"});
 }
 
-TEST(Usage, AValueIsMissing) {
+TEST(Usage, MissingValueIsRefused) {
   expect_refused("walk --out out --height", {"--height needs one value"});
   expect_refused("muscle --load", {"--load needs one value"});
   for (const std::string option :
@@ -40,7 +40,7 @@ TEST(Usage, AValueIsMissing) {
   }
 }
 
-/// The names of subcommands in a help text: those of blocks that begin with "Subcommands:" or "Subcommands of …:".
+/// Returns the subcommands in a help text, from blocks that begin with "Subcommands:" or "Subcommands of …:".
 std::set<std::string> listed(const std::string& help) {
   std::set<std::string> names;
   std::istringstream lines(help);
@@ -55,7 +55,7 @@ std::set<std::string> listed(const std::string& help) {
   return names;
 }
 
-TEST(Usage, HelpAtEveryLevelListsWhatThereIs) {
+TEST(Usage, HelpAtEveryLevelIsComplete) {
   const TemporaryFolder folder;
   const Ran top = run_mobil("--help", folder.path);
   EXPECT_EQ(top.status, 0);
@@ -68,7 +68,7 @@ TEST(Usage, HelpAtEveryLevelListsWhatThereIs) {
     EXPECT_EQ(help.err, "") << name;
     EXPECT_NE(help.out.find("--help"), std::string::npos) << name;
   }
-  // and what it does not list is not there
+  // and names that it does not list do not exist
   const Ran none = run_mobil("somersault", folder.path);
   for (const std::string planned : {"body", "effects", "frontier", "crowd", "bench", "robustness"}) {
     const bool there = none.err.find(planned) != std::string::npos;
@@ -123,6 +123,24 @@ TEST(BadMuscle, AFileIsNamed) {
   expect_refused(folder.path, "muscle --load word.csv", {"word.csv"});
   expect_refused(folder.path, "muscle --load nowhere.csv", {"nowhere.csv", "time_s"});
   expect_refused(folder.path, "muscle --load .", {"--load"});
+}
+
+TEST(Usage, DeprecatedWordsWorkWithAWarning) {
+  const TemporaryFolder folder;
+  const std::string_view moved = "muscle --cells 2x2x8 --seconds 0.02 --out ";
+  for (const auto& [old, current] :
+       std::map<std::string, std::string>{{"--method ecd", "--method explicit-central"},
+                                          {"--method=icd", "--method=implicit-central"},
+                                          {"--method caa", "--method newmark"},
+                                          {"--method reduced --vectors 4", "--method modal --modes 4"}}) {
+    const Ran was = run_mobil(std::string(moved) + "was.csv --quiet " + old, folder.path);
+    const Ran is = run_mobil(std::string(moved) + "is.csv --quiet " + current, folder.path);
+    EXPECT_EQ(was.status, 0) << was.err;
+    EXPECT_EQ(is.status, 0) << is.err;
+    EXPECT_NE(was.err.find("' is deprecated; use '"), std::string::npos) << was.err;
+    EXPECT_EQ(is.err.find("deprecated"), std::string::npos) << is.err;
+    EXPECT_EQ(read_bytes(folder.path / "was.csv"), read_bytes(folder.path / "is.csv")) << old;
+  }
 }
 
 }  // namespace mobil::usage_test

@@ -1,4 +1,4 @@
-// What `mobil view` shows: changes under way, refusals that change nothing, a crowd that stays near.
+// Scene of `mobil view`: changes while walking, refusals that change nothing, a crowd that stays near.
 #include "demo/view/view_scene.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(ViewScene, WalksAndRemembersTheLastSeconds) {
   EXPECT_GT(*std::ranges::max_element(trace.elongation_mm[1]) - *std::ranges::min_element(trace.elongation_mm[1]), 20);
 }
 
-TEST(ViewScene, WhatIsSetIsAndABodyComesWhereTheOldOneWas) {
+TEST(ViewScene, ChoicesApplyAndANewBodyReplacesTheOldInPlace) {
   auto scene = ViewScene::make(small_scene());
   ASSERT_TRUE(scene) << scene.error().message;
   run(*scene, 60);
@@ -52,7 +52,7 @@ TEST(ViewScene, WhatIsSetIsAndABodyComesWhereTheOldOneWas) {
   ASSERT_TRUE(scene->set(choice));
   EXPECT_EQ(scene->gone(), 0U);
   EXPECT_EQ(scene->gone(), std::nullopt);
-  EXPECT_NEAR(scene->place().z, z, 0.45F);  // half a step: who comes strikes with the heel, the pelvis behind it
+  EXPECT_NEAR(scene->place().z, z, 0.45F);  // half a step: it starts at heel strike, pelvis behind the heel
   for (std::size_t g = 0; g < view_groups; ++g) EXPECT_EQ(scene->method(g).method.method, choice.method[g]);
   EXPECT_EQ(scene->drawn().size(), 13U);
   choice.people = 30;
@@ -63,7 +63,7 @@ TEST(ViewScene, WhatIsSetIsAndABodyComesWhereTheOldOneWas) {
   run(*scene, 20);
 }
 
-TEST(ViewScene, WhatCannotBeIsRefusedAndChangesNothing) {
+TEST(ViewScene, InvalidChoicesAreRefusedUnchanged) {
   auto scene = ViewScene::make(small_scene());
   ASSERT_TRUE(scene) << scene.error().message;
   run(*scene, 30);
@@ -97,7 +97,7 @@ TEST(ViewScene, MethodsAreChosenForTheCameraAndSetAgainAfter) {
   run(*scene, 5);
 }
 
-TEST(ViewScene, TheCrowdStaysNear) {
+TEST(ViewScene, CrowdStaysNear) {
   auto scene = ViewScene::make(small_scene());
   ASSERT_TRUE(scene) << scene.error().message;
   run(*scene, 60 * 40);

@@ -1,4 +1,4 @@
-// Bases of modal bellies against dense matrices and stepped full models in double.
+// Bases of modal bellies, compared with dense matrices and stepped full models in double precision.
 #include "assets/reduction/modal_basis.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ Scale scale_of(double ratio, double product) {
   return {std::sqrt(ratio * product), std::sqrt(product / ratio)};
 }
 
-/// The whole belly: what the modal one is a part of. All its nodes are control points.
+/// The full belly that the modal one approximates. All its nodes are control points.
 struct Whole {
   std::vector<Index> moving;
   Matrix stiffness, mass;  // with the foundation; half lumped, half consistent
@@ -92,7 +92,7 @@ struct Whole {
     return mass * field;
   }
 
-  /// At rest under 1 of an input.
+  /// Returns the static displacement under 1 of an input.
   Vector rest(const ModalBasisOptions& o, std::size_t input) const {
     const std::size_t ends = o.far_end == FarEnd::free ? 3 : 1;
     Vector u = Vector::Zero(mass.rows()), load = u;
@@ -109,7 +109,7 @@ struct Whole {
   }
 };
 
-/// The same of the modal belly, from the numbers that the kernels take.
+/// Returns the modal belly's static displacement under 1 of an input, from the numbers for the kernels.
 Vector shown_rest(const ModalBasis& basis, Scale s, std::size_t input) {
   const auto belly = make_modal_belly(basis, s.across, s.along).value();
   const std::size_t n = basis.modes, width = n + basis.inputs;
@@ -127,8 +127,8 @@ Vector shown_rest(const ModalBasis& basis, Scale s, std::size_t input) {
   return u;
 }
 
-// Rounding may leave more directions than there are rows that move; the first one too many was none, and with it all.
-TEST(ModalBasis, AMeshHasAsManyVectorsAsRowsThatMove) {
+// Rounding can give more directions than there are moving rows. The first excess direction must not spoil the basis.
+TEST(ModalBasis, MeshHasAsManyModesAsMovingRows) {
   for (const double length_m : {0.15, 0.21, 0.24, 0.33}) {
     for (const double width : {1.05, 1.2, 2.0, 4.0}) {
       ModalBasisOptions o = options_of(FarEnd::held, true, 12);
@@ -143,7 +143,7 @@ TEST(ModalBasis, AMeshHasAsManyVectorsAsRowsThatMove) {
   }
 }
 
-TEST(ModalBasis, StaticAnswersAreThoseOfTheWholeBellyWhereItWasTrained) {
+TEST(ModalBasis, StaticSolutionsMatchTheFullBellyInTraining) {
   const auto mesh = wide_spindle(small);
   for (const FarEnd end : far_ends) {
     for (const bool frame : {false, true}) {
@@ -152,7 +152,7 @@ TEST(ModalBasis, StaticAnswersAreThoseOfTheWholeBellyWhereItWasTrained) {
       for (const double ratio : {basis.lowest_ratio, o.middle_ratio, basis.highest_ratio}) {
         const Scale s = scale_of(ratio, o.middle_product);
         const Whole whole(mesh, o, s);
-        // each load as large as in walking; of loads that hardly move a belly less is kept
+        // each load is as large as in walking; loads that hardly move a belly are represented less accurately
         double largest = 0;
         for (std::size_t input = 0; input < basis.inputs; ++input) {
           const double size = input + frame_inputs < basis.inputs || !frame ? 0.0 : 10.0;
@@ -173,7 +173,7 @@ TEST(ModalBasis, StaticAnswersAreThoseOfTheWholeBellyWhereItWasTrained) {
   }
 }
 
-TEST(ModalBasis, StiffnessAndFrequenciesAreNoLessThanTheWholeBellys) {
+TEST(ModalBasis, StiffnessAndFrequenciesBoundTheFullBellyFromAbove) {
   const auto mesh = wide_spindle(small);
   for (const FarEnd end : far_ends) {
     for (const bool frame : {false, true}) {
@@ -194,7 +194,7 @@ TEST(ModalBasis, StiffnessAndFrequenciesAreNoLessThanTheWholeBellys) {
         const double stiffness = u.dot(whole.stiffness * u);
         EXPECT_GE(belly.reaction[0], stiffness * (1 - 1e-9));
         EXPECT_LT(belly.reaction[0], stiffness * (1 + 2e-3));
-        // what the frame's loads pull with at the face, by the work that they do as it moves
+        // the reaction of the frame's loads at the face, from the work done as it moves
         for (std::size_t input = 1; input < basis.inputs; ++input) {
           EXPECT_NEAR(belly.reaction[input], -u.dot(whole.frame(input - 1)), 1e-3 * u.dot(whole.frame(2))) << input;
         }
@@ -203,7 +203,7 @@ TEST(ModalBasis, StiffnessAndFrequenciesAreNoLessThanTheWholeBellys) {
   }
 }
 
-TEST(ModalBasis, NoBellysFrequenciesAreBelowTheWholeOnesWhateverItIsMadeOf) {
+TEST(ModalBasis, FrequenciesAreNeverBelowTheFullBelly) {
   std::mt19937 random(7);
   const auto between = [&](double low, double high) {
     return low + (high - low) * std::uniform_real_distribution<double>(0, 1)(random);
@@ -231,7 +231,7 @@ TEST(ModalBasis, NoBellysFrequenciesAreBelowTheWholeOnesWhateverItIsMadeOf) {
       for (std::size_t j = 0; j < belly.modes; ++j)
         EXPECT_GE(belly.omega_1_s[j], std::sqrt(exact(static_cast<Index>(j))) * (1 - 1e-9)) << round << " " << j;
       EXPECT_LT(belly.omega_1_s[0], 1.05 * std::sqrt(exact(0))) << round;
-      // and they are those of the modes' own matrices
+      // and they match the matrices of the modes
       const auto square = [&](const std::vector<double>& numbers) -> Matrix {
         return Eigen::Map<const Matrix>(numbers.data(), Index{basis.modes}, Index{basis.modes});
       };
@@ -245,14 +245,14 @@ TEST(ModalBasis, NoBellysFrequenciesAreBelowTheWholeOnesWhateverItIsMadeOf) {
   }
 }
 
-/// Inputs of a walk's kind: slow swings with kinks, one number an input.
+/// Returns an input as in a walk: slow swings with kinks, different for each input.
 double drive(std::size_t input, double t_s) {
   const double swing = std::sin(7 * t_s + 0.9 * static_cast<double>(input));
   const double kinked = std::abs(std::fmod(t_s * 1.8 + 0.13 * static_cast<double>(input), 1.0) - 0.3);
   return swing + kinked;
 }
 
-/// Displacements of the control points over a time, by the motions alone.
+/// Returns displacements of the control points over time, from the modal motions only.
 std::vector<double> modal_run(const ModalBasis& basis, Scale s, const std::vector<std::vector<double>>& input,
                               double tick_s) {
   const double damping = 8;
@@ -287,7 +287,7 @@ std::vector<double> modal_run(const ModalBasis& basis, Scale s, const std::vecto
   return run;
 }
 
-/// The same of the whole belly, in small steps of constant average acceleration.
+/// Returns the same for the full belly, in small steps of constant average acceleration.
 std::vector<double> whole_run(const HexahedralMesh& mesh, const ModalBasisOptions& o, Scale s,
                               const std::vector<std::vector<double>>& input, double tick_s) {
   constexpr int steps = 16;
@@ -327,7 +327,7 @@ std::vector<double> whole_run(const HexahedralMesh& mesh, const ModalBasisOption
   return run;
 }
 
-TEST(ModalBasis, BodiesThatItWasNotMadeForMoveAsTheWholeBellyDoesTheBetterTheMoreVectors) {
+TEST(ModalBasis, OtherBodiesConvergeToTheFullBellyWithMoreModes) {
   const auto mesh = wide_spindle(small);
   constexpr double tick_s = 1.0 / 60;
   for (const FarEnd end : far_ends) {
@@ -372,7 +372,7 @@ TEST(ModalBasis, BodiesThatItWasNotMadeForMoveAsTheWholeBellyDoesTheBetterTheMor
   }
 }
 
-TEST(ModalBasis, CutToFewerVectorsIsTheOneMadeWithSoFew) {
+TEST(ModalBasis, TruncationEqualsABasisOfFewerModes) {
   for (const bool corrected : {false, true}) {
     auto o = options_of(FarEnd::held, true);
     o.corrected = corrected;
@@ -395,7 +395,7 @@ TEST(ModalBasis, CutToFewerVectorsIsTheOneMadeWithSoFew) {
   }
 }
 
-TEST(ModalBasis, CorrectionTakesMostOfTheMeshsOwnErrorAway) {
+TEST(ModalBasis, CorrectionRemovesMostOfTheMeshError) {
   const auto belly_of = [](const Cells& cells, bool corrected) {
     auto o = options_of(FarEnd::held, false, 12);
     o.corrected = corrected;
@@ -414,7 +414,7 @@ TEST(ModalBasis, CorrectionTakesMostOfTheMeshsOwnErrorAway) {
   }
 }
 
-TEST(ModalBasis, BadOptionsGiveOneLineThatSaysWhatCanBe) {
+TEST(ModalBasis, BadOptionsAreRefusedWithTheValidRange) {
   const auto message = [](auto&& change, Cells cells = small) {
     ModalBasisOptions o = options_of(FarEnd::held, false, 4);
     change(o);

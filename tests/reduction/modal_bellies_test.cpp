@@ -1,4 +1,4 @@
-// Sixteen bodies' motions solved together: right for each, and the same whoever shares the block.
+// Motions of sixteen bodies solved together: correct for each, and independent of the other lanes.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -65,7 +65,7 @@ std::vector<Rows> rows_of(const ModalBasis& basis, const std::vector<BellyScale<
   return rows;
 }
 
-RC_GTEST_PROP(ModalBellies, WhatALaneGetsDoesNotDependOnTheOthers, ()) {
+RC_GTEST_PROP(ModalBellies, LanesAreIndependent, ()) {
   const ModalBasis& basis = basis_of(*rc::gen::inRange(0, 6));
   const double damping = *rc::gen::element(0.0, 8.0, 500.0);
   std::vector<BellyScale<float>> bodies(static_cast<std::size_t>(*rc::gen::inRange(1, 17)));
@@ -79,7 +79,7 @@ RC_GTEST_PROP(ModalBellies, WhatALaneGetsDoesNotDependOnTheOthers, ()) {
   }
 }
 
-RC_GTEST_PROP(ModalBellies, RestWhereTheirStaticAnswerIs, ()) {
+RC_GTEST_PROP(ModalBellies, RestInTheirStaticSolution, ()) {
   const ModalBasis& basis = basis_of(*rc::gen::element(0, 2, 4));
   std::vector<BellyScale<float>> bodies(static_cast<std::size_t>(*rc::gen::inRange(1, 17)));
   for (auto& body : bodies) body = random_scale(basis);

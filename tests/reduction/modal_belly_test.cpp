@@ -1,4 +1,4 @@
-// One body's motions: eigenvectors, the numbers that kernels take, and states that are fitted and shown.
+// One body's motions: eigenvectors, numbers for the kernels, and states that are fitted and displayed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -78,7 +78,7 @@ RC_GTEST_PROP(SmallEigen, TurnsAnySymmetricMatrixIntoItsEigenvalues, ()) {
   RC_ASSERT((dense * modes - modes * values).norm() <= 10 * scale);
 }
 
-TEST(SmallEigen, SaysWhereNumbersAreNone) {
+TEST(SmallEigen, ReportsNan) {
   double matrix[max_modes][max_modes] = {};
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) matrix[i][j] = std::nan("");
@@ -87,8 +87,8 @@ TEST(SmallEigen, SaysWhereNumbersAreNone) {
   EXPECT_FALSE(solve_small(matrix, 4, eigen));
 }
 
-// A tick turns (Y, V) by [a b; −b a − g·b], whose trace and determinant are those of e^(λ·h), λ² + α·λ + ω² = 0.
-RC_GTEST_PROP(ModalMotion, IsTheExactFlowOfADampedSwing, ()) {
+// A tick applies [a b; −b a − g·b] to (Y, V). Its trace and determinant are those of e^(λ·h), λ² + α·λ + ω² = 0.
+RC_GTEST_PROP(ModalMotion, IsTheExactFlowOfADampedOscillator, ()) {
   ModalBelly belly{};
   belly.modes = 1;
   belly.inputs = 1;
@@ -109,7 +109,7 @@ RC_GTEST_PROP(ModalMotion, IsTheExactFlowOfADampedSwing, ()) {
   RC_ASSERT(std::abs(2 * a - g * b - static_cast<double>((one + other).real())) <= size);
   RC_ASSERT(std::abs(a * (a - g * b) + b * b - static_cast<double>((one * other).real())) <= size);
   RC_ASSERT(a * (a - g * b) + b * b <= 1.0);
-  const double beginning = omega * tick * std::exp(-alpha * tick / 2);  // and b has the sign of what starts so
+  const double beginning = omega * tick * std::exp(-alpha * tick / 2);  // and b has the sign of the initial motion
   if (omega * tick < 3) RC_ASSERT((b > 0) == (beginning > 0) || b == 0);
 }
 
@@ -123,8 +123,8 @@ TEST(ModalBelly, FailsInOneLineOutsideItsRange) {
   }
 }
 
-// One that comes into a running crowd.
-TEST(ModalBellies, TakeNothingFromTheHeapTheSecondTime) {
+// One body that is spawned in a running crowd.
+TEST(ModalBellies, AllocateNothingTheSecondTime) {
   const auto& basis = basis_of(FarEnd::held, true);
   const std::vector<BellyScale<float>> first(lane_count, {1, 1}), second = {{1.01F, 0.99F}};
   std::vector<Lanes<float>> motion(modal_motion_width(basis.modes, basis.inputs)),
@@ -140,14 +140,14 @@ TEST(ModalBellies, TakeNothingFromTheHeapTheSecondTime) {
   EXPECT_TRUE(std::all_of(shape.begin(), shape.end(), [](const Lanes<float>& x) { return std::isfinite(x[0]); }));
 }
 
-// Only prints.
+// This test only prints.
 TEST(ModalBelly, DISABLED_Microseconds) {
   for (const bool frame : {false, true}) {
     for (const std::uint32_t modes : {8U, 12U, 16U}) {
       const auto basis = truncated(basis_of(FarEnd::held, frame), modes);
       constexpr int bellies = 20000;
       double sum = 0;
-      const std::clock_t begin = std::clock();  // of this process alone
+      const std::clock_t begin = std::clock();  // of this process only
       for (int i = 0; i < bellies; ++i) sum += make_modal_belly(basis, 1 + 1e-6 * i, 1)->omega_1_s[0];
       const double took_us = 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
       fmt::print("{} modes, {} inputs: {:.2f} us a belly ({:.3g} Hz)\n", modes, basis.inputs, took_us / bellies,
@@ -156,7 +156,7 @@ TEST(ModalBelly, DISABLED_Microseconds) {
   }
 }
 
-RC_GTEST_PROP(ModalState, ShownAndFittedIsItself, ()) {
+RC_GTEST_PROP(ModalState, FitOfADisplayedStateIsTheState, ()) {
   const auto& basis = basis_of(static_cast<FarEnd>(whole(0, 3)), whole(0, 2) == 1);
   const double ratio = uniform(0.96, 1.04), product = uniform(0.8, 1.1);
   const auto belly = make_modal_belly(basis, std::sqrt(ratio * product), std::sqrt(product / ratio)).value();
@@ -167,7 +167,7 @@ RC_GTEST_PROP(ModalState, ShownAndFittedIsItself, ()) {
   }
   std::vector<float> state(modal_state_width(basis.modes)), again(state.size());
   for (std::size_t j = 0; j < basis.modes; ++j) {
-    // over P, with one input: as large in all motions as they are shown
+    // divided by P with one input: equally large displacements in all motions
     const double unit = basis.inputs == 1 ? std::max(1e-4, std::abs(belly.participation[j][0])) : 1;
     state[2 * j] = static_cast<float>(uniform(-0.05, 0.05) * belly.omega_1_s[j] / unit);
     state[2 * j + 1] = static_cast<float>(uniform(-0.5, 0.5) / unit);
@@ -189,8 +189,8 @@ RC_GTEST_PROP(ModalState, ShownAndFittedIsItself, ()) {
   RC_ASSERT(off(v, v2) < 1e-4);
 }
 
-// At rest, all of a state is zero, and what it shows is what `shape` places.
-RC_GTEST_PROP(ModalState, OfABodyAtRestIsZero, ()) {
+// At rest, all of a state is zero, and its displacement is that placed by `shape`.
+RC_GTEST_PROP(ModalState, IsZeroAtRest, ()) {
   const auto& basis = basis_of(static_cast<FarEnd>(whole(0, 3)), whole(0, 2) == 1);
   const auto belly = make_modal_belly(basis, 1.0, uniform(0.96, 1.04)).value();
   std::vector<double> input(basis.inputs);

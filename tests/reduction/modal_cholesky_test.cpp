@@ -1,4 +1,4 @@
-// The factor of a banded matrix solves as a dense one does, with the same bits on every instruction set.
+// The banded factor solves as a dense one does, with the same bits on every instruction set.
 
 #include "assets/reduction/modal_cholesky.h"
 
@@ -20,7 +20,7 @@ int any(int low, int high) {
   return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
 }
 
-/// Diagonally dominant.
+/// A random diagonally dominant problem.
 struct Problem {
   Index size = any(1, 260), reach = any(0, 130), columns = any(1, 5);
   Matrix dense = Matrix::Zero(size, size);
@@ -67,7 +67,7 @@ RC_GTEST_PROP(BandCholesky, HasTheSameBitsOnEveryInstructionSet, ()) {
   RC_ASSERT(same);
 }
 
-RC_GTEST_PROP(BandCholesky, RefusesWhatIsNotPositiveDefinite, ()) {
+RC_GTEST_PROP(BandCholesky, RefusesIndefiniteMatrices, ()) {
   Problem problem;
   const Index at = any(0, static_cast<int>(problem.size));
   problem.dense(at, at) = any(-3, 1);

@@ -1,4 +1,4 @@
-// What fibres that pull add to modal bellies: against the tangent of finite strain and dense matrices.
+// Effect of active fibres on modal bellies, compared with the tangent of finite strain and dense matrices.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -42,7 +42,7 @@ Columns random_fields(const HexahedralMesh& mesh, Index count) {
   return fields;
 }
 
-/// Force of the fibres alone, fully active, when the nodes have moved by `u`.
+/// Returns the force of fully active fibres at a displacement `u` of the nodes.
 VectorXd fibre_force(const HexahedralMesh& mesh, const VectorXd& u) {
   const FiniteTissue tissue;
   VectorXd sum = VectorXd::Zero(u.size());
@@ -64,7 +64,7 @@ VectorXd fibre_force(const HexahedralMesh& mesh, const VectorXd& u) {
   return sum;
 }
 
-TEST(TunedBelly, TensionIsTheTangentOfFibresThatPull) {
+TEST(TunedBelly, TensionIsTheTangentOfActiveFibres) {
   const HexahedralMesh mesh = wide_spindle({2, 2, 8});
   const Columns fields = random_fields(mesh, 3);
   const MatrixXd stiffness = tension_stiffness(mesh, FiniteTissue{}.shear_pa, fields);
@@ -79,7 +79,7 @@ TEST(TunedBelly, TensionIsTheTangentOfFibresThatPull) {
   EXPECT_NEAR((stiffer - 2 * stiffness).norm() / stiffness.norm(), 0, 1e-12);
 }
 
-TEST(TunedBelly, ItsMotionsAreThoseOfALittleTension) {
+TEST(TunedBelly, MotionsAreThoseOfSlightTension) {
   for (const bool frame : {false, true}) {
     const ModalBasis& basis = basis_of(frame);
     const auto n = Index{basis.modes};
@@ -108,8 +108,8 @@ TEST(TunedBelly, ItsMotionsAreThoseOfALittleTension) {
   }
 }
 
-/// Where the end alone moves a belly, tension changes nothing of where it comes to rest, nor of what that takes.
-TEST(TunedBelly, TheEndsDisplacementHasTheStaticAnswerOfNoTension) {
+/// If only the end moves a belly, tension changes neither its rest shape nor the force for it.
+TEST(TunedBelly, EndDisplacementHasTheUntensionedStaticSolution) {
   for (const bool frame : {false, true}) {
     const ModalBasis& basis = basis_of(frame);
     const auto slack = make_modal_belly(basis, 1.1, 1.02), tuned = make_modal_belly(basis, 1.1, 1.02, true);
@@ -131,7 +131,7 @@ TEST(TunedBelly, TheEndsDisplacementHasTheStaticAnswerOfNoTension) {
   }
 }
 
-TEST(TunedBelly, WhatALaneGetsDoesNotDependOnTheOthers) {
+TEST(TunedBelly, LanesAreIndependent) {
   const ModalBasis& basis = basis_of(true);
   std::vector<BellyScale<float>> bodies;
   for (int i = 0; i < 16; ++i)
@@ -150,7 +150,7 @@ TEST(TunedBelly, WhatALaneGetsDoesNotDependOnTheOthers) {
   }
 }
 
-TEST(TunedBelly, AloneItsNumbersAreThoseOfTheBlock) {
+TEST(TunedBelly, SingleBellyMatchesTheBlock) {
   const ModalBasis& basis = basis_of(true);
   const BellyScale<float> body{1.1F, 1};
   const std::size_t width = modal_motion_width(basis.modes, basis.inputs);

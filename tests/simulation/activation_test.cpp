@@ -1,4 +1,4 @@
-// Muscles that pull, within a simulation: who asks for it, what drives it, and what it survives.
+// Active muscles in a simulation: enabling, excitation sources, and state through changes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,8 +32,8 @@ void run(Simulation& simulation, int ticks) {
   for (int i = 0; i < ticks; ++i) simulation.tick();
 }
 
-/// Neither the walk nor the lines know of it, and the others' rows are what they were.
-TEST(Activation, WhoDoesNotAskIsAsBefore) {
+/// Neither the gait nor the lines change, and other people's rows keep their bits.
+TEST(Activation, PeopleWithoutActivationAreUnchanged) {
   Simulation with(sharing()), without(sharing());
   const Entity asks = join_with(with, sample_person(1), pulling(ExcitationSource::phase, Method::explicit_central));
   const Entity does_not = join_with(with, sample_person(2), pulling(ExcitationSource::none, Method::explicit_central));
@@ -47,8 +47,8 @@ TEST(Activation, WhoDoesNotAskIsAsBefore) {
   EXPECT_FALSE(without.get<Musculotendon>(other));
 }
 
-/// The mesh's end is where the tendon leaves it, by every method.
-TEST(Activation, BellyFollowsWhatTheTendonLeaves) {
+/// The mesh's end is at the tendon's end for every method.
+TEST(Activation, BellyFollowsTheTendonsEnd) {
   MOBIL_SLOW();
   for (const Method method : {Method::explicit_central, Method::implicit_central, Method::newmark, Method::statics,
                               Method::modal, Method::finite}) {
@@ -91,14 +91,14 @@ TEST(Activation, FollowsTheHost) {
   EXPECT_GT(pulls.tendon_m, relaxed.tendon_m + 0.005F);
   EXPECT_GT(pulls.force_n, 1500);
   EXPECT_GT(pulls.pennation_rad, relaxed.pennation_rad + 0.05F);
-  // A group's members all do.
+  // All members of a group are excited.
   ASSERT_TRUE(simulation.set_excitation(person, Muscle::quadriceps, Side::right, 7));
   run(simulation, 60);
   EXPECT_EQ(activation(simulation, person, "quadriceps", Side::right).excitation, 1);
   EXPECT_GT(pull(simulation, person, "quadriceps", Side::right).force_n, 500) << "short, on a straight knee";
 }
 
-TEST(Activation, BadRequestsSayWhat) {
+TEST(Activation, BadRequestsAreNamed) {
   Simulation simulation(sharing());
   const Entity walks = *simulation.spawn({}), hosted = *simulation.spawn({});
   ASSERT_TRUE(simulation.set_muscles(walks, pulling(ExcitationSource::phase)));
@@ -121,8 +121,8 @@ TEST(Activation, BadRequestsSayWhat) {
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
-/// Method changes, snapshots, batches, other sources.
-TEST(Activation, StateGoesOn) {
+/// State through method changes, snapshots, batches and other sources.
+TEST(Activation, StateSurvivesChanges) {
   Simulation simulation(sharing());
   const Entity person = join_with(simulation, sample_person(4), pulling(ExcitationSource::phase, Method::modal));
   run(simulation, 33);
@@ -140,14 +140,14 @@ TEST(Activation, StateGoesOn) {
   run(other, 20);
   EXPECT_EQ(other.state_hash(), later);
 
-  // The host takes over where the walk had it.
+  // The host continues from the activation of the walk.
   ASSERT_TRUE(simulation.restore(bytes, RestoreLimits::none()));
   LegMuscles hosted = pulling(ExcitationSource::host, Method::modal);
   ASSERT_TRUE(simulation.set_muscles(person, hosted));
   EXPECT_EQ(activation(simulation, person, "triceps_surae", Side::right).activation, excited.activation);
   run(simulation, 5);
   EXPECT_EQ(activation(simulation, person, "triceps_surae", Side::right).excitation, excited.excitation);
-  // Without, the line's length is the belly's again.
+  // Without activation the line's length is the belly's again.
   ASSERT_TRUE(simulation.set_muscles(person, pulling(ExcitationSource::none, Method::statics)));
   run(simulation, 2);
   const Entity muscle = simulation.muscle(person, Muscle::triceps_surae, Side::right);
@@ -170,7 +170,7 @@ TEST(Activation, LeftIsRightHalfACycleLater) {
   EXPECT_NEAR(activation(simulation, *person, "triceps_surae", Side::left).activation, excited.activation, 0.01F);
 }
 
-/// The phase is that of the walk: at a heel strike of its own a leg's tibialis is strongly excited, its calf is not.
+/// The phase is that of the gait: at a heel strike the leg's tibialis is strongly excited, its calf is not.
 TEST(Activation, IsInStepWithTheFeet) {
   Simulation simulation(sharing());
   const Entity person = *simulation.spawn({}, {.speed_m_s = 1.3F});

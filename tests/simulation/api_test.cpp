@@ -1,4 +1,4 @@
-// The one door to what rows are made of: a host's parts pass, the library's do not.
+// Host access to rows: a host's components are accepted, the library's are refused.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -26,7 +26,7 @@ struct Palette {
   int colours = 3;
 };
 
-TEST(Door, AHostsPartsPass) {
+TEST(Door, HostComponentsAreAccepted) {
   Simulation simulation;
   const Entity person = *simulation.spawn(sample_person(1).body);
   ASSERT_TRUE(simulation.set_muscles(person));
@@ -61,7 +61,7 @@ TEST(Door, AHostsPartsPass) {
   EXPECT_EQ(simulation.parts().destroy(*own), Status::stale_entity);
 }
 
-TEST(Door, WhatIsTheLibrarysDoesNot) {
+TEST(Door, LibraryComponentsAreRefused) {
   Simulation simulation;
   const Entity person = *simulation.spawn(sample_person(1).body);
   ASSERT_TRUE(simulation.set_muscles(person));
@@ -83,8 +83,8 @@ TEST(Door, WhatIsTheLibrarysDoesNot) {
   EXPECT_FALSE(status_text(Status::not_yours).empty());
 }
 
-/// A snapshot with a part that no module names says which, where another program does not know it.
-TEST(Door, ASnapshotSaysWhichPartIsUnknown) {
+/// A snapshot with a component that no module names is refused by that name in a program that lacks it.
+TEST(Door, SnapshotNamesUnknownComponents) {
   Simulation simulation, other;
   const Entity person = *simulation.spawn(sample_person(1).body);
   ASSERT_EQ(simulation.parts().add(person, Score<float>{3, 0.5F}), Status::ok);
@@ -106,7 +106,7 @@ TEST(Made, ErrorsAreValues) {
   EXPECT_TRUE(simulation.lod().set_options({}));
 }
 
-TEST(Made, ASimulationMayMove) {
+TEST(Made, SimulationIsMovable) {
   const auto fill = [](Simulation& simulation) {
     const Entity person = *simulation.spawn(sample_person(2).body);
     EXPECT_TRUE(simulation.set_muscles(person));
@@ -129,8 +129,8 @@ TEST(Made, ASimulationMayMove) {
   }
 }
 
-/// A change names what is to be otherwise; the rest stays, and can be read back.
-TEST(GaitChanges, WhatIsLeftOutStays) {
+/// A change sets only named fields. Other fields stay and can be read back.
+TEST(GaitChanges, UnsetFieldsKeepTheirValue) {
   Simulation simulation;
   GaitRequest asked{.speed_m_s = 1.2F, .step_length_m = 0.66F};
   asked.style.toe_out_deg = 15;

@@ -1,4 +1,5 @@
-// Compact people: walks are those of people who never were, to the bit; muscles go on within what is promised.
+// Compact people: gaits match those of people who were never compact to the bit; muscles match within the promised
+// error.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ LegMuscles unseen(std::uint32_t modes) {
   return choice;
 }
 
-/// The same people in two simulations: in one of them some are compact.
+/// Equal people in two simulations. In one of them some are compact.
 struct Pair {
   explicit Pair(int count, const std::optional<LegMuscles>& muscles = std::nullopt, int threads = 1)
       : compact(sharing({.threads = threads})), whole(sharing({.threads = threads})) {
@@ -73,7 +74,7 @@ std::vector<float> state_of(const Simulation& simulation, Entity muscle) {
   return state;
 }
 
-TEST(Compact, WhoWasCompactIsWhereWhoNeverWasIs) {
+TEST(Compact, CompactedPeopleMatchFullOnes) {
   Pair pair(70);
   std::mt19937 random(3);
   std::size_t most = 0, read = 0;
@@ -103,8 +104,8 @@ TEST(Compact, WhoWasCompactIsWhereWhoNeverWasIs) {
   EXPECT_GT(read, 200U);
 }
 
-/// Near the origin: far from it whole people's places, and with them their lines, lose digits that compact ones keep.
-TEST(Compact, MusclesGoOnWithinFourMicrometres) {
+/// Near the origin: far from it, full people's positions and lines lose digits that compact ones keep.
+TEST(Compact, MusclesMatchWithinFourMicrometres) {
   MOBIL_SLOW();
   for (const std::uint32_t modes : {4U, 12U}) {
     Pair pair(40, unseen(modes));
@@ -143,7 +144,7 @@ TEST(Compact, MusclesGoOnWithinFourMicrometres) {
   }
 }
 
-TEST(Compact, HandingOverAndBackChangesNothing) {
+TEST(Compact, CompactingAndExpandingChangesNothing) {
   Simulation simulation(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 19; ++i) {
@@ -176,7 +177,7 @@ TEST(Compact, HandingOverAndBackChangesNothing) {
   EXPECT_EQ(simulation.state_hash(), hash);
 }
 
-TEST(Compact, EachMuscleHasTheMethodThatItHad) {
+TEST(Compact, MusclesKeepTheirMethods) {
   Simulation simulation(sharing());
   const Entity person = *simulation.spawn({});
   ASSERT_TRUE(simulation.set_muscles(person, unseen(4)));
@@ -206,7 +207,7 @@ struct Sticker {
   F value;
 };
 
-TEST(Compact, NotWhoHasWhatACompactRowCannotHold) {
+TEST(Compact, PeopleWithUnstorableStateStayFull) {
   Simulation simulation({.modules = {{.name = "stickers", .parts = {component_id<Sticker>()}}}});
   const auto stays_full = [&](Entity person, const char* what) {
     EXPECT_EQ(simulation.set_state({&person, 1}, PersonState::compact).value(), 0U) << what;
@@ -259,7 +260,7 @@ TEST(Compact, NotWhoHasWhatACompactRowCannotHold) {
   EXPECT_NE(simulation.state(fine), PersonState::compact);
 }
 
-TEST(Compact, OtherCallsMakeWholeFirst) {
+TEST(Compact, OtherCallsExpandFirst) {
   Simulation simulation(sharing());
   const Entity person = *simulation.spawn({});
   ASSERT_TRUE(simulation.set_muscles(person, unseen(4)));
@@ -302,7 +303,7 @@ TEST(Compact, FallsAsleepAndWakes) {
   }
 }
 
-TEST(Compact, SnapshotsAndAnotherOriginKeepThem) {
+TEST(Compact, KeptBySnapshotsAndOriginShifts) {
   Simulation simulation(sharing({.threads = 2}));
   std::vector<Entity> people;
   for (int i = 0; i < 21; ++i) {
@@ -330,7 +331,7 @@ TEST(Compact, SnapshotsAndAnotherOriginKeepThem) {
   EXPECT_NEAR(after.z, before.z + 128, 2e-5);
 }
 
-TEST(Compact, PosesAreWrittenOfThem) {
+TEST(Compact, PosesCanBeWritten) {
   Pair pair(35);
   pair.tick(40);
   ASSERT_TRUE(pair.compact.set_state(std::span(pair.small).subspan(5, 20), PersonState::compact));

@@ -1,6 +1,6 @@
-// The same people, the same bits: however the work is cut and whoever does it, on each instruction set, in whatever
-// order people come, beside whatever other world. With MOBIL_STATE_HASHES=FILE in the environment the hashes go to that
-// file as well, for builds to be compared with each other (tests/run --long).
+// The same people have the same bits for any partition and number of threads, on each instruction set, in any spawn
+// order and next to any other world. With MOBIL_STATE_HASHES=FILE in the environment the hashes are written to that
+// file as well, to compare builds (tests/run --long).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace mobil::crowd_determinism_test {
 constexpr int ticks = 120, apart = 30;
 constexpr play::Script script{.avoidance = false};
 
-/// Of everybody by number and together, every so many ticks.
+/// Hashes by person's number, and of all people together, every `apart` ticks.
 using Hashes = std::vector<std::map<int, std::uint64_t>>;
 
 Hashes run(const SimulationOptions& options, const std::vector<int>& order = play::Crowd::in_turn(script)) {
@@ -43,9 +43,9 @@ const Hashes& alone() {
   return hashes;
 }
 
-TEST(CrowdDeterminism, EverythingIsUnderWay) {
+TEST(CrowdDeterminism, AllSystemsAndPeopleAreCovered) {
   MOBIL_SLOW();
-  play::Crowd crowd({}, script);  // which makes what is shared anew
+  play::Crowd crowd({}, script);  // makes shared data itself
   Hashes seen_hashes;
   std::set<std::string_view> worked;
   std::set<int> seen;
@@ -67,14 +67,14 @@ TEST(CrowdDeterminism, EverythingIsUnderWay) {
     EXPECT_TRUE(worked.contains(system.name)) << system.name;
   EXPECT_EQ(seen.size(), static_cast<std::size_t>(script.everybody()));
   EXPECT_LT(crowd.people().size(), seen.size());
-  // what is compared below is not all the same to begin with
+  // the compared hashes are mostly different
   std::set<std::uint64_t> different;
   std::size_t count = 0;
   for (const auto& hashes : alone()) {
     for (const auto& [who, hash] : hashes) different.insert(hash);
     count += hashes.size();
   }
-  EXPECT_GT(different.size(), count * 95 / 100);  // who stands asleep is the same each quarter of a second
+  EXPECT_GT(different.size(), count * 95 / 100);  // people who stand asleep have equal hashes each quarter of a second
 }
 
 TEST(CrowdDeterminism, ThreadsDoNotMatter) {
@@ -86,7 +86,7 @@ TEST(CrowdDeterminism, ThreadsDoNotMatter) {
   }
 }
 
-TEST(CrowdDeterminism, TheCallersLoopMayCutAsItLikes) {
+TEST(CrowdDeterminism, IndependentOfTheCallersPartition) {
   MOBIL_SLOW();
   EXPECT_EQ(run(sharing({.jobs = backwards()})), alone());
   WilfulPool more_than_promised(4, 2);
@@ -104,7 +104,7 @@ TEST(CrowdDeterminism, InstructionSetsDoNotMatter) {
   if (sets < 2) GTEST_SKIP() << "this machine has " << sets << " instruction sets with fused multiply-add";
 }
 
-TEST(CrowdDeterminism, OrderOfComingDoesNotMatter) {
+TEST(CrowdDeterminism, SpawnOrderIndependent) {
   MOBIL_SLOW();
   std::mt19937 random(3);
   for (int i = 0; i < 2; ++i) {
@@ -114,8 +114,8 @@ TEST(CrowdDeterminism, OrderOfComingDoesNotMatter) {
   }
 }
 
-/// A person's bits do not depend on other people's requests or walks.
-TEST(CrowdDeterminism, CompanyDoesNotMatter) {
+/// A person's bits do not depend on other people's requests or gaits.
+TEST(CrowdDeterminism, IndependentOfOtherPeople) {
   MOBIL_SLOW();
   std::mt19937 random(5);
   for (const std::size_t size : {std::size_t{17}, std::size_t{1}}) {
@@ -130,7 +130,7 @@ TEST(CrowdDeterminism, CompanyDoesNotMatter) {
   }
 }
 
-TEST(CrowdDeterminism, TwoWorldsAtOnceDoNotMeet) {
+TEST(CrowdDeterminism, TwoWorldsAtOnceAreIndependent) {
   MOBIL_SLOW();
   WilfulPool pool(2, 4);  // the same for both
   play::Crowd a(sharing({.jobs = pool.jobs()}), script);

@@ -1,5 +1,5 @@
-// A crowd's memory: none in steady ticks, all of a world's from its caller, nothing changed where there is none left,
-// and so much a person.
+// Memory of a crowd: no allocation in steady ticks, all memory of a world from its caller, no change if an allocation
+// fails, and a bounded size a person.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +25,7 @@ MOBIL_TEST_LABELS("threads;long");
 namespace mobil::crowd_memory_test {
 using play::coarse;
 
-/// One of the effects, and their sum.
+/// One of the effects, and all together.
 struct Effects {
   bool forces = false;
   LegMuscles muscles;
@@ -45,7 +45,7 @@ std::vector<Effects> every_effect() {
   return all;
 }
 
-TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
+TEST(CrowdMemory, SteadyTicksAllocateNothingOnAnyThreads) {
   CountingMemory memory;
   const auto effects = every_effect();
   WilfulPool wilful(3);
@@ -64,7 +64,7 @@ TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
       if (i % 2 == 0) {
         EXPECT_TRUE(simulation.enable({&person, 1}, Feature::step_events));
       }
-      // a change of method fades and is over before what is counted begins
+      // a change of method has faded before counting starts
       if (i % 3 == 0) {
         EXPECT_TRUE(simulation.set_method(person, Muscle::hamstrings, {Method::statics}));
       }
@@ -80,12 +80,12 @@ TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
   }
 }
 
-TEST(CrowdMemory, AllComesFromTheCallerAndGoesBack) {
+TEST(CrowdMemory, AllMemoryIsTheCallersAndReturned) {
   CountingMemory memory;
   std::size_t people = 0;
   {
     play::Crowd crowd(sharing({.memory = &memory}), {.at_first = 20, .comers = 20});
-    // nothing of a world's own lies elsewhere: the default resource lends nothing
+    // no memory of a world is elsewhere: the default resource lends none
     std::pmr::memory_resource* before = std::pmr::set_default_resource(std::pmr::null_memory_resource());
     for (int i = 0; i < 90; ++i) crowd.tick();
     std::pmr::set_default_resource(before);
@@ -95,7 +95,7 @@ TEST(CrowdMemory, AllComesFromTheCallerAndGoesBack) {
   EXPECT_EQ(memory.lent(), 0U);
 }
 
-/// What there is: handles and state of everybody, and what the facade says of them.
+/// Returns a hash of all people: handles and state, and the facade's view of them.
 std::uint64_t all_of(const Simulation& simulation, const std::vector<Entity>& people) {
   std::uint64_t hash = hash_world(simulation);
   for (const Entity person : people) hash = fnv(hash_person(simulation, person), static_cast<std::uint32_t>(hash));
@@ -105,8 +105,8 @@ std::uint64_t all_of(const Simulation& simulation, const std::vector<Entity>& pe
 using Change = std::function<void(Simulation&, std::vector<Entity>&)>;
 enum class Refuses { resource, heap };
 
-/// Does `change` with memory for ever more requests until it succeeds; no refusal may change anything, and what
-/// comes of it at last must be what comes of it with memory enough.
+/// Runs `change` with one more allowed request each time until it succeeds. A refusal must not change anything, and the
+/// final result must equal that with sufficient memory.
 void refuse_at_every_request(const Change& change, Refuses who) {
   const auto make = [&](CountingMemory& memory, std::vector<Entity>& people) {
     SimulationOptions options;
@@ -117,7 +117,7 @@ void refuse_at_every_request(const Change& change, Refuses who) {
       join(first, sample_person(0));
       return first.muscle_library().bake();
     }();
-    EXPECT_TRUE(simulation->muscle_library().load(usual));  // and makes what else it needs itself
+    EXPECT_TRUE(simulation->muscle_library().load(usual));  // and makes other data itself
     people.reserve(32);
     for (int i = 0; i < 16; ++i) people.push_back(join(*simulation, sample_person(i), i % 4 == 0));
     for (int i = 0; i < 5; ++i) simulation->tick();
@@ -130,7 +130,7 @@ void refuse_at_every_request(const Change& change, Refuses who) {
   const std::size_t before_requests = asked();
   change(*other, others);
   const std::size_t requests = asked() - before_requests;
-  // Where templates are made the heap is asked very often: more of it with MOBIL_LONG in the environment.
+  // Making templates needs many allocations; MOBIL_LONG tests more of them.
   const std::size_t stride = requests / (std::getenv("MOBIL_LONG") != nullptr ? 60 : 20) + 1;
   other->tick();
   for (std::size_t granted = 0;; granted += stride) {
@@ -154,7 +154,7 @@ void refuse_at_every_request(const Change& change, Refuses who) {
   simulation->tick();
   ASSERT_EQ(people.size(), others.size());
   for (std::size_t i = 0; i < people.size(); ++i) {
-    EXPECT_EQ(people[i], others[i]) << "person " << i;  // no handle is lost to a refusal
+    EXPECT_EQ(people[i], others[i]) << "person " << i;  // no handle is lost by a refusal
     EXPECT_EQ(hash_person(*simulation, people[i]), hash_person(*other, others[i])) << "person " << i;
   }
 }
@@ -169,7 +169,7 @@ void add(Simulation& simulation, Entity person, const LegMuscles& choice) {
   ASSERT_TRUE(added) << added.error().message;
 }
 
-TEST(CrowdMemory, ASpawnWithoutMemoryChangesNothing) {
+TEST(CrowdMemory, SpawnWithoutMemoryChangesNothing) {
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     people.push_back(*simulation.spawn(sample_person(20).body, sample_person(20).gait));
   });
@@ -199,7 +199,7 @@ TEST(CrowdMemory, AddingEffectsWithoutMemoryChangesNothing) {
   });
 }
 
-TEST(CrowdMemory, WatchingAndPlacingWithoutMemoryChangesNothing) {
+TEST(CrowdMemory, EventsAndPlacementWithoutMemoryChangeNothing) {
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     ASSERT_TRUE(simulation.enable(people, Feature::step_events));
   });
@@ -213,7 +213,7 @@ TEST(CrowdMemory, WatchingAndPlacingWithoutMemoryChangesNothing) {
   });
 }
 
-TEST(CrowdMemory, SpawningManyWithMusclesIsAllOrNoneToo) {
+TEST(CrowdMemory, BatchSpawnWithMusclesIsAllOrNone) {
   LegMuscles far{.method = Method::modal, .modal = play::modal(12, true, false)}, near = far;
   near.modal.control_points = true;
   const std::array<LegMuscles, 4> choices = {near,
@@ -233,7 +233,7 @@ TEST(CrowdMemory, SpawningManyWithMusclesIsAllOrNoneToo) {
   });
 }
 
-TEST(CrowdMemory, GoingTakesNone) {
+TEST(CrowdMemory, DespawnAllocatesNothing) {
   CountingMemory memory;
   Simulation simulation(sharing({.memory = &memory}));
   std::vector<Entity> people;
@@ -254,7 +254,7 @@ TEST(CrowdMemory, GoingTakesNone) {
   EXPECT_EQ(rows(simulation.world()), 0U);
 }
 
-/// What is shared by bodies is on the heap, made once; what is somebody's own is in the caller's memory.
+/// Data shared by bodies is on the heap, made once. A person's own data is in the caller's memory.
 TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
   CountingMemory memory;
   Simulation simulation(sharing({.memory = &memory}));
@@ -270,11 +270,11 @@ TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
       add(simulation, people.back(), e.muscles);
     }
     simulation.tick();
-    return heap_lent - memory.lent_bytes();  // which the heap lends, too
+    return heap_lent - memory.lent_bytes();  // which the heap lends as well
   };
   const std::size_t some = grow_to(4 * effects.size()), many = grow_to(40 * effects.size());
   std::printf("%zu bytes for %zu people more\n", many - some, 36 * effects.size());
-  EXPECT_LT(many, some + 36 * effects.size() * 100);  // what counts the memory keeps some, too
+  EXPECT_LT(many, some + 36 * effects.size() * 100);  // the counting itself uses some memory
 }
 
 TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
@@ -296,12 +296,12 @@ TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
     simulation.tick();
     return static_cast<double>(memory.lent_bytes());
   };
-  // A table's memory grows by up to 2 MB at once: many enough that this is little.
+  // A table's memory grows by up to 2 MB at once, which is little for this many people.
   const double few = grow_to(1280), some = grow_to(2560), many = grow_to(5120);
   const double each = (some - few) / 1280, each_later = (many - some) / 2560;
   EXPECT_LT(each, 8192);                       // at the far tier
-  EXPECT_NEAR(each_later, each, 0.25 * each);  // tables hold room for some more
-  EXPECT_LT(many, 1.25 * each * 5120);         // what there is besides people is little
+  EXPECT_NEAR(each_later, each, 0.25 * each);  // tables have spare capacity
+  EXPECT_LT(many, 1.25 * each * 5120);         // memory independent of people is small
   while (people.size() > 1280) {
     EXPECT_EQ(simulation.despawn(people.back()), Status::ok);
     people.pop_back();

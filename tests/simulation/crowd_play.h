@@ -1,6 +1,6 @@
 #pragma once
-// A crowd that is never left alone: people of all kinds come, turn, change speed, effects and methods, and go, by a
-// script that knows each by number alone.
+// A scripted crowd under constant change: people of all kinds are spawned, turn, change speed, effects and methods, and
+// are despawned. The script depends only on each person's number.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@
 
 namespace mobil::play {
 
-// Coarse meshes, whose bases are made in no time.
+// Coarse meshes, whose bases are quickly made.
 inline constexpr Cells coarse = {2, 2, 8};
 
 inline ModalOptions modal(std::uint32_t modes, bool moving, bool seen) {
@@ -47,12 +47,12 @@ inline const std::array<MuscleMethod, 10>& every_method() {
   return all;
 }
 
-/// Numbers that depend on what they are for alone.
+/// Returns a number that depends only on its arguments.
 inline std::uint64_t mixed(std::uint64_t seed, std::uint64_t who, std::uint64_t when) {
   return mix64(mix64((seed << 48 ^ who << 24 ^ when) + 0x9e3779b97f4a7c15));
 }
 
-/// Up to three of the groups, by any method, with each effect now and then. Few templates serve them all.
+/// Returns muscles of up to three groups, by any method, with each effect in some. Few templates suffice for all.
 inline LegMuscles choice_of(std::uint64_t draw) {
   LegMuscles choice;
   choice.method = every_method()[draw % every_method().size()].method;
@@ -78,11 +78,11 @@ inline LegMuscles choice_of(std::uint64_t draw) {
 }
 
 struct Script {
-  int at_first = 40;  // people there from the beginning
-  int comers = 24;    // that come later, one every `apart` ticks
+  int at_first = 40;  // people at the start
+  int comers = 24;    // people who are spawned later, one every `apart` ticks
   int apart = 3;      // ticks
   std::uint64_t seed = 1;
-  bool avoidance = true;  // some avoid others: what they do follows from handles and company
+  bool avoidance = true;  // some avoid others: their motion depends on handles and other people
 
   int everybody() const { return at_first + comers; }
   int comes(int who) const { return who < at_first ? 0 : 1 + (who - at_first) * apart; }
@@ -93,7 +93,7 @@ struct Script {
 
 class Crowd {
  public:
-  /// `order`: in which people who come at once do so, and in which everybody is asked; all numbers once.
+  /// `order`: the order of simultaneous spawns and of requests; it contains each number once.
   Crowd(const SimulationOptions& options, const Script& script, std::vector<int> order)
       : simulation_(options), terrain_(terrain_of(simulation_, &hills)), script_(script), order_(std::move(order)) {}
   Crowd(const Crowd&) = delete;
@@ -121,7 +121,7 @@ class Crowd {
     ++now_;
   }
 
-  /// By number; everybody's together as -1.
+  /// Hashes by number. Number -1 is the hash of all people.
   std::map<int, std::uint64_t> hashes() const {
     std::map<int, std::uint64_t> all;
     all[-1] = simulation_.state_hash();
@@ -168,7 +168,7 @@ class Crowd {
     ASSERT_TRUE(added) << added.error().message;
   }
 
-  /// Who has forces follows moments where others follow the phase.
+  /// People with forces follow moments if others follow the phase.
   LegMuscles choice_for(Entity person, std::uint64_t how) const {
     LegMuscles choice = choice_of(how);
     if (choice.activation == ExcitationSource::phase && simulation_.get<JointMoments>(person))
@@ -191,7 +191,7 @@ class Crowd {
     if (what % 24 == 1) {
       EXPECT_TRUE(simulation_.set_state({&person, 1}, PersonState::asleep));
     } else if (what % 24 == 2 || (what % 24 == 0 && what / 24 % 2 == 0)) {
-      EXPECT_TRUE(simulation_.set_state({&person, 1}, PersonState::full));  // for muscles, too
+      EXPECT_TRUE(simulation_.set_state({&person, 1}, PersonState::full));  // for muscles as well
     }
     if (what % 24 == 3 || what % 24 == 4) shrink(person, what / 24);
     if (what % 24 == 5) {
@@ -206,7 +206,7 @@ class Crowd {
     }
   }
 
-  /// With muscles that may be compact, or without.
+  /// Compacts a person with muscles that allow it, or without muscles.
   void shrink(Entity person, std::uint64_t how) {
     LegMuscles choice;
     choice.muscles = how % 2 == 0 ? 1 : 9;

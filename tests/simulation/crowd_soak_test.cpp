@@ -1,6 +1,6 @@
-// A crowd that people come to and leave for as long as one likes: an hour with MOBIL_LONG in the environment
-// (tests/run --long), else a minute. Nothing grows, nothing drifts, nothing ceases to be a number, and all of it comes
-// again from the same seed.
+// A crowd with constant spawns and despawns: an hour with MOBIL_LONG in the environment (tests/run --long), else a
+// minute. Memory does not grow, positions do not drift, all values stay finite, and the same seed gives the same
+// result.
 #include <gtest/gtest.h>
 
 #include <malloc.h>
@@ -27,7 +27,7 @@ using play::mixed;
 constexpr int a_minute = 3600;  // ticks
 constexpr std::size_t crowd_size = 200, stayers = 8, kinds = 64;
 
-/// What a whole process has from the heap.
+/// Returns the bytes that the process has allocated on the heap.
 std::size_t heap_bytes() {
 #ifdef __GLIBC__
   const auto info = mallinfo2();
@@ -37,7 +37,7 @@ std::size_t heap_bytes() {
 #endif
 }
 
-/// Few deform by the dear methods.
+/// Returns muscles; few use the costly methods.
 LegMuscles muscles_of(std::uint64_t kind) {
   if (kind % 16 == 3) return play::choice_of(kind * 7);
   LegMuscles choice{.method = Method::modal, .modal = play::modal(12, true, kind % 4 == 0)};
@@ -47,7 +47,7 @@ LegMuscles muscles_of(std::uint64_t kind) {
   return choice;
 }
 
-/// Eight who walk straight on for ever, and many who come, turn, change speed, and go.
+/// Eight people who always walk straight on, and many who are spawned, turn, change speed, and are despawned.
 class Soak {
  public:
   explicit Soak(const Jobs& jobs) : simulation_({.jobs = jobs, .memory = &memory_}) {
@@ -65,7 +65,7 @@ class Soak {
     const std::size_t other = stayers + draw / 8000 % (crowd_size - stayers);
     const float part = static_cast<float>(draw / 8000000 % 1000) * 1e-3F;
     if (draw / 1000 % 4 == 1) {
-      // home, so that nobody walks out of single precision
+      // back to the origin, so that no person leaves the range of single precision
       const auto state = *simulation_.get<GaitState>(people_[other]);
       const bool far = std::hypot(state.line_x_m, state.line_z_m) > 50;
       EXPECT_TRUE(
@@ -86,7 +86,7 @@ class Soak {
     return sum;
   }
 
-  /// Everybody is there, whoever has gone is not, and where they are makes sense.
+  /// Checks that all people exist, despawned ones do not, and positions are plausible.
   void check() {
     EXPECT_EQ(simulation_.get<Pose>(gone_).error(), Status::stale_entity);
     std::size_t expected = 0;
@@ -122,7 +122,7 @@ class Soak {
     EXPECT_GT(lowest_m_, -0.03);
   }
 
-  /// How far those who walk straight on are from where their steady steps have led, as a part of the way.
+  /// Returns the deviation of straight walkers from their steady steps, relative to the distance.
   double drift() const {
     double most = 0;
     for (std::size_t i = 0; i < stayers; ++i) {
@@ -157,7 +157,7 @@ class Soak {
   double worst_foot_m_ = 0, lowest_m_ = 0;
 };
 
-TEST(CrowdSoak, NothingGrowsDriftsOrComesOtherwiseTheSecondTime) {
+TEST(CrowdSoak, NoGrowthNoDriftAndReproducible) {
   const int minutes = std::getenv("MOBIL_LONG") != nullptr ? 60 : 1;
   const int parts = std::max(10, minutes), ticks = minutes * a_minute / parts;
   std::vector<std::uint64_t> hashes;
@@ -173,8 +173,8 @@ TEST(CrowdSoak, NothingGrowsDriftsOrComesOtherwiseTheSecondTime) {
       heap.push_back(heap_bytes());
     }
     const double drift = soak.drift();
-    EXPECT_LT(drift, minutes > 1 ? 1e-3 : 2e-2);  // in a minute the first steps still count
-    if (minutes > 1) {                            // what the second third never needed the last does not either
+    EXPECT_LT(drift, minutes > 1 ? 1e-3 : 2e-2);  // in a minute the first steps still matter
+    if (minutes > 1) {                            // no growth in the last third
       const auto most = [&](const std::vector<std::size_t>& of, int from, int to) {
         return static_cast<double>(*std::max_element(of.begin() + from, of.begin() + to));
       };
@@ -186,7 +186,7 @@ TEST(CrowdSoak, NothingGrowsDriftsOrComesOtherwiseTheSecondTime) {
               << heap.back() << " B; drift " << drift << ", stance foot within " << soak.worst_foot_m() << " m\n";
   }
   Soak again(backwards());
-  const int until = std::max(2, parts / 6);  // the beginning again
+  const int until = std::max(2, parts / 6);  // repeats the beginning
   for (int part = 0; part < until; ++part) {
     for (int i = 0; i < ticks; ++i) again.tick(part * ticks + i);
     EXPECT_EQ(again.hash(), hashes[static_cast<std::size_t>(part)]) << "part " << part;

@@ -1,5 +1,4 @@
-// Threads at work on everything that a crowd does, for ThreadSanitizer to watch; what comes of it is what one thread
-// makes of it.
+// All work of a crowd on several threads, for ThreadSanitizer. The results equal those of one thread.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -37,7 +36,7 @@ const Hashes& alone() {
   return hashes;
 }
 
-TEST(CrowdThreads, WorldsOnThreadsOfTheirOwn) {
+TEST(CrowdThreads, WorldsOnSeparateThreads) {
   const Hashes& expected = alone();
   std::vector<Hashes> all(3);
   {
@@ -49,7 +48,7 @@ TEST(CrowdThreads, WorldsOnThreadsOfTheirOwn) {
   for (const Hashes& hashes : all) EXPECT_EQ(hashes, expected);
 }
 
-TEST(CrowdThreads, ManyComeAndGoAtOnce) {
+TEST(CrowdThreads, BatchSpawnAndDespawnAtOnce) {
   constexpr int many = 40;
   std::vector<SpawnRequest> requests;
   for (int i = 0; i < many; ++i) {
@@ -80,8 +79,8 @@ TEST(CrowdThreads, ManyComeAndGoAtOnce) {
   EXPECT_EQ(come_and_go({.jobs = pool.jobs()}), expected);
 }
 
-/// What simulation.h promises to readers between changes.
-TEST(CrowdThreads, ManyReadAtOnce) {
+/// Concurrent reads between changes, as simulation.h promises.
+TEST(CrowdThreads, ConcurrentReadsAtOnce) {
   play::Crowd crowd(sharing(), script);
   for (int i = 0; i < 5; ++i) crowd.tick();
   const Simulation& simulation = crowd.simulation();

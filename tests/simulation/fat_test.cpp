@@ -1,4 +1,4 @@
-// Fat that wobbles: as a mass on a damped spring would, whatever is done with who has it.
+// Fat that wobbles like a mass on a damped spring, through all changes of its person.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ float length(const Vec3<float>& v) {
   return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
-/// The mass in double precision: two thousand small steps a tick, the point going evenly.
+/// The mass in double precision: two thousand small steps a tick, with a uniformly moving anchor.
 struct Mass {
   double hz, place = 0, speed = 0;
 
@@ -40,7 +40,7 @@ struct Mass {
   }
 };
 
-/// A pose whose every segment is at the same place.
+/// Returns a pose with all segments at the same position.
 Pose<Lanes<float>> pose_at(float x_m) {
   Pose<Lanes<float>> pose{};
   for (auto& place : pose.position_m)
@@ -48,7 +48,7 @@ Pose<Lanes<float>> pose_at(float x_m) {
   return pose;
 }
 
-TEST(Fat, SwingsAsAMassOnASpringDoes) {
+TEST(Fat, SwingsAsAMassOnASpring) {
   BodySize<Lanes<float>> size;
   for (std::size_t l = 0; l < lane_count; ++l)
     put_row(BodySize<float>{1.6F + 0.02F * static_cast<float>(l), 60 + 3 * static_cast<float>(l),
@@ -70,7 +70,7 @@ TEST(Fat, SwingsAsAMassOnASpringDoes) {
       at += tick_s * pace(random);
       fat_motion(size, pose_at(static_cast<float>(at)), fat, static_cast<float>(tick_s));
       for (std::size_t l = 0; l < lane_count; ++l) {
-        if (tick < 2) mass[l].place = at, mass[l].speed = (at - before) / tick_s;  // it goes along at first
+        if (tick < 2) mass[l].place = at, mass[l].speed = (at - before) / tick_s;  // it first moves with the anchor
         if (tick >= 2) mass[l].tick(before, at, tick_s);
         const double beside = mass[l].place - at;
         largest = std::max(largest, std::abs(beside));
@@ -82,7 +82,7 @@ TEST(Fat, SwingsAsAMassOnASpringDoes) {
   }
 }
 
-TEST(Fat, IsThickerInWhoHasMoreOfIt) {
+TEST(Fat, IsThickerInHeavierPeople) {
   const auto usual = fat_thickness_m({1.75F, 75, 0});
   const auto heavy = fat_thickness_m({1.75F, 110, 0.2F}), thin = fat_thickness_m({1.75F, 55, -0.08F});
   for (std::size_t r = 0; r < fat_regions; ++r) {
@@ -92,7 +92,7 @@ TEST(Fat, IsThickerInWhoHasMoreOfIt) {
   }
 }
 
-TEST(Fat, OfWalkersShakesAndOfWhoStandsComesToRest) {
+TEST(Fat, ShakesInWalkersAndRestsInStandingPeople) {
   Simulation simulation;
   std::vector<Entity> people = {*simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.4F}),
                                 *simulation.spawn({.height_m = 1.70F, .mass_kg = 105}, {.speed_m_s = 1.4F}),
@@ -133,7 +133,7 @@ struct Shaken {
   FatWobble<float> fat() const { return *simulation.get<FatWobble>(person); }
 };
 
-TEST(Fat, GoesAlongWhereItsWalkerIsPutAndAsTheOriginShifts) {
+TEST(Fat, MovesWithPlacementAndOriginShifts) {
   Shaken stays, placed, shifted;
   const auto here = *placed.simulation.get<GaitState>(placed.person);
   ASSERT_TRUE(placed.simulation.place(placed.person, 7, -3, here.heading_rad + 1.1F));
@@ -145,14 +145,14 @@ TEST(Fat, GoesAlongWhereItsWalkerIsPutAndAsTheOriginShifts) {
       const Vec3<float> a = stays.fat().beside_m[r], b = placed.fat().beside_m[r], c = shifted.fat().beside_m[r];
       const float s = std::sin(1.1F), t = std::cos(1.1F);
       EXPECT_LT(length({a.x * t + a.z * s - b.x, a.y - b.y, a.z * t - a.x * s - b.z}), 5e-5F) << tick;
-      EXPECT_LT(length({a.x - c.x, a.y - c.y, a.z - c.z}), 5e-4F) << tick;  // 15 um at 128 m, and that a tick
+      EXPECT_LT(length({a.x - c.x, a.y - c.y, a.z - c.z}), 5e-4F) << tick;  // 15 µm at 128 m, every tick
       most = std::max(most, length(a));
     }
   }
   EXPECT_GT(most, 0.002F);
 }
 
-TEST(Fat, BeginsAtRestWhereAPosedPersonJumps) {
+TEST(Fat, RestartsAtRestWhenAPosedPersonJumps) {
   Simulation simulation;
   const Entity person = *simulation.spawn_posed({});
   ASSERT_TRUE(simulation.enable({&person, 1}, Feature::fat));
@@ -171,7 +171,7 @@ TEST(Fat, BeginsAtRestWhereAPosedPersonJumps) {
   EXPECT_EQ(go(3.0F, Arrival::moved), 0) << "nobody goes so fast";
 }
 
-TEST(Fat, IsKeptAsleepAndCompactAndBeginsAtRest) {
+TEST(Fat, IsKeptAsleepAndCompactAndRestartsAtRest) {
   Shaken asleep, compact;
   ASSERT_EQ(asleep.simulation.set_state({&asleep.person, 1}, PersonState::asleep).value(), 1U);
   ASSERT_EQ(compact.simulation.set_state({&compact.person, 1}, PersonState::compact).value(), 1U);
@@ -191,8 +191,8 @@ TEST(Fat, IsKeptAsleepAndCompactAndBeginsAtRest) {
   }
 }
 
-/// Asleep it is a tag, which is saved, switched, and goes along where its sleeper is put.
-TEST(Fat, OfSleepersIsSavedSwitchedAndPlaced) {
+/// Asleep it is a tag, which is saved, switched, and moves with the sleeper.
+TEST(Fat, IsSavedSwitchedAndPlacedForSleepers) {
   Shaken one;
   Simulation& simulation = one.simulation;
   const Entity other = *simulation.spawn({.height_m = 1.75F, .mass_kg = 90}, {.speed_m_s = 1.4F});
@@ -222,7 +222,7 @@ TEST(Fat, OfSleepersIsSavedSwitchedAndPlaced) {
   EXPECT_EQ(copy.state_hash(), simulation.state_hash());
 }
 
-TEST(Fat, IsSavedAndTakenAwayAllOrNone) {
+TEST(Fat, IsSavedAndRemovedAllOrNone) {
   Shaken shaken;
   Simulation& simulation = shaken.simulation;
   std::vector<std::byte> saved(simulation.snapshot_bytes());

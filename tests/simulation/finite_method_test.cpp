@@ -1,4 +1,4 @@
-// Muscles at finite strain in people who walk: volume, where they are shown, fibres, limits, snapshots.
+// Muscles at finite strain in walking people: volume, position, fibres, limits, snapshots.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,12 +25,12 @@ LegMuscles close_up(ExcitationSource source = ExcitationSource::phase) {
   choice.cells = close_up_cells;
   choice.activation = source;
   choice.inertia = true;
-  choice.muscles = MuscleSet(0b0110);  // quadriceps and triceps surae: making what a muscle shares takes a second
+  choice.muscles = MuscleSet(0b0110);  // quadriceps and triceps surae: shared data takes a second a muscle
   return choice;
 }
 
-/// Three people, the heaviest of whom takes the longest steps: two seconds of walking.
-TEST(FiniteMethod, KeepsVolumeAndItsLineInAWalk) {
+/// Three people walk for two seconds; the heaviest makes the longest steps.
+TEST(FiniteMethod, KeepsItsVolumeAndLineInAWalk) {
   Simulation simulation(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 3; ++i) people.push_back(join_with(simulation, sample_person(i), close_up()));
@@ -54,8 +54,8 @@ TEST(FiniteMethod, KeepsVolumeAndItsLineInAWalk) {
   EXPECT_LT(farthest, 0.025F) << "sideways";
 }
 
-/// Beside the tables of finite shapes, which are of statics: standing, relaxed and pulling, once it is still.
-TEST(FiniteMethod, StandsAsTheTablesSay) {
+/// Compares with the static tables of finite shapes: standing, relaxed and active, once at rest.
+TEST(FiniteMethod, StandingShapeMatchesTheTables) {
   for (const float pull : {0.02F, 0.5F}) {
     Simulation simulation(sharing());
     std::vector<Entity> people;
@@ -88,7 +88,7 @@ TEST(FiniteMethod, StandsAsTheTablesSay) {
   }
 }
 
-/// Area of its middle section, seen along it, m².
+/// Returns the area of the middle section, seen along the muscle, m².
 double middle_area(const Simulation& simulation, Entity muscle) {
   const auto& shape = *simulation.world().shared<MuscleTemplate>(muscle);
   const auto u = displacement(simulation, muscle);
@@ -96,7 +96,7 @@ double middle_area(const Simulation& simulation, Entity muscle) {
   return section_areas(own, {u.begin(), u.end()})[own.cells[2] / 2];
 }
 
-TEST(FiniteMethod, FibresThatPullAreFeltAtTheEndAndThicken) {
+TEST(FiniteMethod, ActiveFibresPullAtTheEndAndThicken) {
   Simulation simulation(sharing());
   const Entity person = *simulation.spawn_posed({});
   ASSERT_TRUE(simulation.set_muscles(person, close_up(ExcitationSource::host)));
@@ -113,7 +113,7 @@ TEST(FiniteMethod, FibresThatPullAreFeltAtTheEndAndThicken) {
   EXPECT_GT(middle_area(simulation, muscle), 1.01 * slack_m2);
 }
 
-TEST(FiniteMethod, RefusesWhatItCannotDo) {
+TEST(FiniteMethod, RefusesUnsupportedOptions) {
   Simulation simulation(sharing());
   const Entity person = *simulation.spawn_posed({});
   LegMuscles choice = close_up();

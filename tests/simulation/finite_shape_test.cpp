@@ -1,4 +1,4 @@
-// What is shown of bellies at finite strain: it keeps its volume, whatever the method, and goes on through changes.
+// Displayed bellies at finite strain: they keep their volume with every method, and are continuous through changes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +28,7 @@ void run(Simulation& simulation, int ticks) {
   for (int i = 0; i < ticks; ++i) simulation.tick();
 }
 
-/// Largest |volume − 1| that is shown of a person's muscles.
+/// Returns the largest |volume − 1| of a person's displayed muscles.
 double volume_off(const Simulation& simulation, Entity person) {
   double worst = 0;
   for (const Entity muscle : muscles_of(simulation, person))
@@ -36,14 +36,14 @@ double volume_off(const Simulation& simulation, Entity person) {
   return worst;
 }
 
-TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
+TEST(FiniteShape, OffLeavesPeopleUnchanged) {
   Simulation with(sharing()), without(sharing());
   const Entity asks = join_with(with, sample_person(1), finite(Method::explicit_central));
   const Entity does_not = join_with(with, sample_person(2), {});
   const Entity alone = join_with(without, sample_person(2), {});
   run(with, 60), run(without, 60);
   EXPECT_EQ(hash_person(with, does_not), hash_person(without, alone));
-  // The method knows nothing of it either.
+  // The method's own state is unaffected as well.
   LegMuscles linear = finite(Method::explicit_central);
   linear.finite_shape = false;
   Simulation plain(sharing());
@@ -55,7 +55,7 @@ TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
   EXPECT_NE(displacement(with, one), displacement(plain, other));
 }
 
-/// Without vibration within 1 %, single muscles and groups, as they walk; linear statics lose up to ten times that.
+/// Without vibration within 1 %, single muscles and groups, in a walk; linear statics lose up to ten times as much.
 TEST(FiniteShape, KeepsItsVolumeInAWalk) {
   MOBIL_SLOW();
   for (const Method method : {Method::modal, Method::statics}) {
@@ -77,7 +77,7 @@ TEST(FiniteShape, KeepsItsVolumeInAWalk) {
   }
 }
 
-/// By all methods alike but for their vibration, which dies away when the leg is still.
+/// All methods agree, except for vibration, which decays when the leg is still.
 TEST(FiniteShape, IsTheSameByEveryMethod) {
   std::vector<std::vector<float>> shown;
   for (const Method method :
@@ -103,8 +103,8 @@ TEST(FiniteShape, IsTheSameByEveryMethod) {
   }
 }
 
-/// Thicker where it pulls, and the more the harder.
-TEST(FiniteShape, BulgesAsItPulls) {
+/// The belly is thicker when active, and thicker with more activation.
+TEST(FiniteShape, BulgesWithActivation) {
   Simulation simulation(sharing());
   const Entity person = *simulation.spawn_posed({});
   LegMuscles choice = finite(Method::modal, ExcitationSource::host);
@@ -115,7 +115,7 @@ TEST(FiniteShape, BulgesAsItPulls) {
   const Entity muscle = simulation.muscle(person, soleus, Side::right);
   const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
   const BellyScale<float> scale = *simulation.get<BellyScale>(muscle);
-  const auto area = [&](bool moved) {  // of its middle section
+  const auto area = [&](bool moved) {  // of the middle section
     const auto u = displacement(simulation, muscle);
     const auto at = [&](std::uint32_t i, std::uint32_t j) {
       const std::uint32_t n = node_index(mesh.cells, i, j, 4);
@@ -143,7 +143,7 @@ TEST(FiniteShape, BulgesAsItPulls) {
   }
 }
 
-/// What is shown goes on through a change of method or of the effect itself.
+/// The displayed shape is continuous through a change of method or of the effect itself.
 TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
   const auto method = [](Method to, bool moving) {
     return MuscleMethod{to, {.modes = 12, .moving = moving, .cells = {4, 4, 16}}};
@@ -176,8 +176,8 @@ TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
   }
 }
 
-/// A fade that is over leaves the shape, and rows that snapshots know.
-TEST(FiniteShape, GoesOnAfterAFade) {
+/// A finished fade leaves the shape, and rows that snapshots support.
+TEST(FiniteShape, ContinuesAfterAFade) {
   Simulation simulation(sharing());
   LegMuscles choice = finite(Method::explicit_central);
   choice.muscles = MuscleSet(1);
@@ -199,8 +199,8 @@ TEST(FiniteShape, GoesOnAfterAFade) {
   EXPECT_TRUE(simulation.set_method(changed, Muscle::hamstrings, {Method::explicit_central}));
 }
 
-/// Who is looked at again begins with the belly's own motion, not with the shape's place as one.
-TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
+/// A muscle that is displayed again starts with the belly's own motion, without a jump of the shape's offset.
+TEST(FiniteShape, DoesNotRingWhenSwitched) {
   const MuscleMethod seen{Method::modal, {.modes = 12, .cells = {4, 4, 16}}};
   MuscleMethod unseen = seen;
   unseen.modal.modes = 4;
@@ -212,7 +212,7 @@ TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
     LegMuscles choice = finite(Method::modal, ExcitationSource::host);
     choice.modal = unseen.modal;
     choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
-    const bool stepped = to.method == Method::finite;  // which is as far from the table as its mesh is
+    const bool stepped = to.method == Method::finite;  // whose error is that of its mesh, compared with the table
     if (stepped) choice.cells = close_up_cells;
     ASSERT_TRUE(simulation.set_muscles(person, choice));
     ASSERT_TRUE(simulation.set_excitation(person, Muscle::triceps_surae, Side::right, 0.8F));
@@ -231,8 +231,8 @@ TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
   }
 }
 
-/// Turned on and off under way, for all methods.
-TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
+/// Switched on and off while walking, for all methods.
+TEST(FiniteShape, NothingJumpsWhenActivationIsSwitched) {
   for (const Method method :
        {Method::explicit_central, Method::newmark, Method::statics, Method::modal, Method::finite}) {
     Simulation simulation(sharing());
@@ -250,7 +250,7 @@ TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
       simulation.tick();
       const auto after = displacement(simulation, muscle);
       double step = 0;
-      for (std::size_t i = 0; i + 27 < before.size(); ++i)  // but for the end, which is where the tendon leaves it
+      for (std::size_t i = 0; i + 27 < before.size(); ++i)  // except the end, which follows the tendon
         step = std::max(step, std::abs(static_cast<double>(after[i] - before[i])));
       EXPECT_LT(step, 0.006) << name(method) << ": a tick's way";
       run(simulation, 25);

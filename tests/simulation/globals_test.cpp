@@ -1,4 +1,4 @@
-// Values that are state, but no entity's: in the state hash and in snapshots, where they differ from their first value.
+// State values that belong to no entity: in the state hash and in snapshots once they differ from their first value.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -22,7 +22,7 @@ bool is_sound(const Weather& weather) {
   return weather.wind_m_s >= 0 && weather.wind_m_s < 60;
 }
 
-/// The wind grows in each tick.
+/// Returns a module with a wind that grows in each tick.
 Module weather(const std::string& name = "weather", std::uint32_t version = 1) {
   return {.name = name,
           .version = version,
@@ -50,7 +50,7 @@ TEST(Globals, AreInTheHashOnceTheyChange) {
   EXPECT_EQ(windy.state_sum(), sum);
 }
 
-TEST(Globals, GoThroughSnapshots) {
+TEST(Globals, AreRestoredFromSnapshots) {
   Simulation windy({.modules = {weather()}}), other({.modules = {weather()}});
   const auto calm = saved(windy);
   windy.tick(3);
@@ -61,12 +61,12 @@ TEST(Globals, GoThroughSnapshots) {
   EXPECT_EQ(other.state_hash(), windy.state_hash());
   windy.tick(2), other.tick(2);
   EXPECT_EQ(other.state_hash(), windy.state_hash());
-  ASSERT_TRUE(other.restore(calm));  // where it was at its first value
+  ASSERT_TRUE(other.restore(calm));  // saved at its first value
   EXPECT_EQ(other.world().global<Weather>().gusts, 0U);
   EXPECT_EQ(other.world().global<Weather>().wind_m_s, 1);
 }
 
-TEST(Globals, ThatNobodyKnowsOrThatAreUnsoundAreRefused) {
+TEST(Globals, UnknownOrUnsoundOnesAreRefused) {
   Simulation windy({.modules = {weather()}}), plain, newer({.modules = {weather("weather", 2)}});
   windy.tick(2);
   auto bytes = saved(windy);
@@ -83,7 +83,7 @@ TEST(Globals, ThatNobodyKnowsOrThatAreUnsoundAreRefused) {
   EXPECT_NE(done.error().message.find("Weather"), std::string::npos) << done.error().message;
 }
 
-TEST(Globals, OfMadeUpSnapshotsDoNoHarm) {
+TEST(Globals, InForgedSnapshotsAreHarmless) {
   Simulation windy({.modules = {weather()}});
   windy.tick(2);
   const auto good = saved(windy);
@@ -99,7 +99,7 @@ TEST(Globals, OfMadeUpSnapshotsDoNoHarm) {
   EXPECT_EQ(windy.world().global<Weather>().gusts, 2U);
 }
 
-TEST(Globals, ThatNobodyNamedAreAnErrorOfTheProgram) {
+TEST(Globals, UnnamedOnesAreALogicError) {
   Simulation plain;
   try {
     (void)plain.world().global<Weather>();

@@ -1,4 +1,4 @@
-// Snapshots that ask for too much or hold NaN, and hosts that err: refused, or harmless to others.
+// Snapshots with excessive sizes or NaN, and faulty hosts: refused, or harmless to other people.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Bytes saved(const Simulation& simulation) {
   return bytes;
 }
 
-/// One person with muscles of every method, some ticks old.
+/// Spawns one person for each method with muscles, and runs some ticks.
 void people(Simulation& simulation) {
   for (const Method method : {Method::modal, Method::explicit_central, Method::newmark, Method::statics}) {
     const auto person = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
@@ -49,7 +49,7 @@ void expect_refused(const Result<void>& done, const std::string& piece) {
   EXPECT_NE(done.error().message.find(piece), std::string::npos) << done.error().message;
 }
 
-/// Where it is not the time that is tested: sanitizers take longer than the ten seconds that there are else.
+/// Used where time is not tested, because sanitizers take longer than the default of ten seconds.
 constexpr double any_time = std::numeric_limits<double>::infinity();
 
 TEST(RestoreLimitsOf, RowsAreCounted) {
@@ -63,7 +63,7 @@ TEST(RestoreLimitsOf, RowsAreCounted) {
   EXPECT_EQ(other.state_hash(), simulation.state_hash());
 }
 
-TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
+TEST(RestoreLimitsOf, MissingMeshesBeyondThemAreNotMade) {
   Simulation simulation(sharing());
   LegMuscles choice;
   choice.cells = {4, 4, 20};
@@ -73,7 +73,7 @@ TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
   ASSERT_TRUE(simulation.set_muscles(*person, choice));
   const Bytes bytes = saved(simulation);
 
-  Simulation other;  // that has nothing yet
+  Simulation other;  // without any shared data
   const std::uint64_t before = other.state_hash();
   const auto start = std::chrono::steady_clock::now();
   expect_refused(other.restore(bytes), "a mesh of 525 nodes");
@@ -103,7 +103,7 @@ TEST(RestoreLimitsOf, StepsOfATickAreCounted) {
   expect_refused(other.restore(bytes, {.seconds = any_time}), "3000 steps a tick");
   EXPECT_EQ(other.state_hash(), before);
   ASSERT_TRUE(other.restore(bytes, {.seconds = any_time, .steps = 3000}));
-  // the choice that somebody compact keeps, by which their muscles may be stepped later
+  // the stored choice of a compact person, by which muscles can be stepped later
   choice.method = Method::modal;
   choice.modal.control_points = false;
   ASSERT_TRUE(simulation.set_muscles(*person, choice));
@@ -112,8 +112,8 @@ TEST(RestoreLimitsOf, StepsOfATickAreCounted) {
   expect_refused(other.restore(saved(simulation), {.seconds = any_time}), "3000 steps a tick");
 }
 
-/// Sealed anew, any float of a row may be no number.
-TEST(RestoreLimitsOf, NumbersThatAreNotFiniteAreRefused) {
+/// In a resealed snapshot any float of a row can be NaN or infinite.
+TEST(RestoreLimitsOf, NonFiniteNumbersAreRefused) {
   Simulation simulation(sharing());
   people(simulation);
   const Bytes good = saved(simulation);
@@ -137,7 +137,7 @@ TEST(RestoreLimitsOf, NumbersThatAreNotFiniteAreRefused) {
       EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
       continue;
     }
-    // What is not looked at is no float that anything is computed from.
+    // Unchecked words are floats that no computation uses.
     for (int i = 0; i < 5; ++i) simulation.tick();
     for (const Entity person : simulation.people()) {
       EXPECT_TRUE(std::isfinite(simulation.get<Pose>(person)->position_m[0].x));
@@ -169,7 +169,7 @@ struct Throwing {
   }
 };
 
-TEST(Jobs, ThatThrowLeaveASimulationThatCanBeRestored) {
+TEST(Jobs, AfterAnExceptionTheSimulationCanBeRestored) {
   Throwing host;
   Simulation simulation(sharing({.jobs = host.jobs()})), twin(sharing());
   people(simulation);
@@ -196,7 +196,7 @@ TEST(Jobs, ThatThrowLeaveASimulationThatCanBeRestored) {
   EXPECT_TRUE(whole);
 }
 
-/// Wherever a posed person is said to be, muscles stay finite, and other people do not notice.
+/// For any pose of a posed person muscles stay finite, and other people are unaffected.
 TEST(Posed, WildPosesAreRefusedOrFinite) {
   MOBIL_SLOW();
   Simulation simulation(sharing());
@@ -258,7 +258,7 @@ TEST(Posed, WildPosesAreRefusedOrFinite) {
     };
     for (const float y : shown(simulation, wild)) {
       EXPECT_TRUE(std::isfinite(y)) << static_cast<int>(method);
-      // What rings faster than ticks the trapezoidal rule hardly damps.
+      // The trapezoidal rule hardly damps vibrations faster than the ticks.
       if (method == Method::newmark) continue;
       EXPECT_LT(std::fabs(y), 0.5F) << static_cast<int>(method);
     }

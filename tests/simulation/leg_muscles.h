@@ -1,5 +1,5 @@
 #pragma once
-// People with leg muscles of every kind, and how far apart their bellies are.
+// People with leg muscles of every kind, and the distance between their bellies.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ inline Entity join_with(Simulation& simulation, const SamplePerson& p, const Leg
   return person;
 }
 
-/// Largest nodal displacement (m) of a person's muscles, and the largest difference from another's.
+/// Largest nodal displacement (m) of a person's muscles, and largest difference from another person's.
 struct Difference {
   double most = 0, apart = 0;
 };

@@ -1,4 +1,4 @@
-// Leg muscles that change under way.
+// Changes of leg muscles while walking.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::leg_muscles_change_test {
-TEST(Change, OfMaterialMakesStepsAnewAndKeepsTheState) {
+TEST(Change, MaterialRecomputesStepsAndKeepsTheState) {
   for (const Method method : methods) {
     Simulation simulation(sharing());
     const Entity person = join_with(simulation, sample_person(6), {.method = method});
@@ -66,7 +66,7 @@ std::vector<ComponentId> key_of(const Simulation& simulation, Entity entity) {
   return {key.begin(), key.end()};
 }
 
-TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
+TEST(Change, MethodKeepsHandlesAndShapesWithoutLeftovers) {
   Simulation simulation(sharing());
   const Entity person = join_with(simulation, sample_person(9), {});
   for (int i = 0; i < 20; ++i) simulation.tick();
@@ -106,8 +106,8 @@ TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
   EXPECT_EQ(rows(world), 1U);
 }
 
-/// What drives an end is newtons before and metres after, or the other way round.
-TEST(Change, OfDriveLeavesTheBellyWhereItIs) {
+/// The drive's quantity changes from newtons to metres, or the other way round.
+TEST(Change, DriveKeepsTheBellyInPlace) {
   const LegMuscles pulled{.drive = Drive::force}, drawn{}, pulls{.activation = ExcitationSource::phase},
       close{.method = Method::finite}, pulled_close{.drive = Drive::force, .method = Method::finite};
   const std::array<std::array<LegMuscles, 2>, 6> ways = {{{pulled, pulls},
@@ -136,7 +136,7 @@ TEST(Change, OfDriveLeavesTheBellyWhereItIs) {
   }
 }
 
-TEST(Change, ARefusedChangeChangesNothing) {
+TEST(Change, RefusedChangeChangesNothing) {
   Simulation simulation(sharing());
   const Entity person = join_with(simulation, sample_person(9), {.inertia = true}),
                bare = join(simulation, sample_person(1), false);
@@ -173,7 +173,7 @@ TEST(Change, ARefusedChangeChangesNothing) {
   EXPECT_TRUE(simulation.person(person)->leg_muscles.inertia);
 }
 
-TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
+TEST(ChangingMuscles, AddsNewOnesAndKeepsExistingOnesMoving) {
   Simulation simulation(sharing());
   const Entity person = join_with(simulation, sample_person(3), {});
   for (int i = 0; i < 30; ++i) simulation.tick();

@@ -1,4 +1,4 @@
-// Leg muscles as they are chosen: every method follows the walk, in steps as asked, with and without inertia.
+// Choices of leg muscles: every method follows the walk, in the requested steps, with and without inertia.
 #include "tests/simulation/leg_muscles.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 MOBIL_TEST_LABELS("long");
 
 namespace mobil::leg_muscles_test {
-/// The same person with two sets of muscles, in two simulations.
+/// Returns the difference of the same person with two sets of muscles, in two simulations.
 Difference walk_both(const SamplePerson& p, const LegMuscles& one, const LegMuscles& other, int ticks) {
   Simulation a(sharing()), b(sharing());
   const Entity in_a = join_with(a, p, one), in_b = join_with(b, p, other);
@@ -37,7 +37,7 @@ constexpr double fine_s = 1.0 / 1920;
 
 // -------------------------------------------------------------------------------------------- methods follow the walk
 
-TEST(Methods, AgreeWhereTheStepIsShort) {
+TEST(Methods, AgreeForShortSteps) {
   MOBIL_SLOW();
   for (const int who : {0, 12}) {
     for (const bool inertia : {false, true}) {
@@ -53,7 +53,7 @@ TEST(Methods, AgreeWhereTheStepIsShort) {
   }
 }
 
-TEST(Methods, RestInTheSameShapeUnderAStandingPerson) {
+TEST(Methods, RestInTheSameShapeInAStandingPerson) {
   MOBIL_SLOW();
   for (const bool inertia : {false, true}) {
     Simulation simulation(sharing());
@@ -67,20 +67,20 @@ TEST(Methods, RestInTheSameShapeUnderAStandingPerson) {
     for (std::size_t m = 1; m < people.size(); ++m) {
       Difference d;
       compare(simulation, people[0], simulation, people[m], d);
-      const bool other_load = inertia && methods[m] == Method::implicit_central;  // by the consistent mass
+      const bool other_load = inertia && methods[m] == Method::implicit_central;  // from the consistent mass
       EXPECT_LT(d.apart, other_load ? 1e-3 : 1e-4) << name(methods[m]) << (inertia ? " with inertia" : "");
     }
   }
 }
 
-TEST(Methods, OfEveryKindFollowTheLineExactlyOrArePulled) {
+TEST(Methods, FollowTheLineExactlyOrArePulled) {
   MOBIL_SLOW();
   for (const Method method : methods) {
     for (const Element element : {Element::full, Element::bbar, Element::one_point}) {
       for (const Drive drive : {Drive::displacement, Drive::force}) {
         Simulation simulation(sharing());
         LegMuscles choice{.drive = drive, .method = method, .element = element, .inertia = true};
-        if (element != Element::full) choice.muscles = MuscleSet(0b0101);  // templates take their time
+        if (element != Element::full) choice.muscles = MuscleSet(0b0101);  // templates are slow to make
         const Entity person = join_with(simulation, sample_person(3), choice);
         double missed = 0;
         for (int i = 0; i < 40; ++i) {
@@ -106,7 +106,7 @@ TEST(Methods, OfEveryKindFollowTheLineExactlyOrArePulled) {
   }
 }
 
-TEST(Methods, OtherCellsDampingAndMassWalkToo) {
+TEST(Methods, OtherCellsDampingAndMassWalk) {
   MOBIL_SLOW();
   Simulation simulation(sharing());
   const LegMuscles choices[] = {
@@ -126,7 +126,7 @@ TEST(Methods, OtherCellsDampingAndMassWalkToo) {
 
 // ------------------------------------------------------------------------------------------------------------- steps
 
-TEST(Steps, AreTheLongestThatStayWithinNineTenthsOfEachLimit) {
+TEST(Steps, AreTheLongestWithinNineTenthsOfEachLimit) {
   Simulation simulation(sharing());
   for (const LegMuscles& choice :
        {LegMuscles{}, LegMuscles{.method = Method::implicit_central}, LegMuscles{.method = Method::finite},
@@ -146,7 +146,7 @@ TEST(Steps, AreTheLongestThatStayWithinNineTenthsOfEachLimit) {
   }
 }
 
-TEST(Steps, AreTakenAsAsked) {
+TEST(Steps, AreAsRequested) {
   Simulation simulation(sharing());
   const double tick = simulation.tick_s();
   const Entity explicitly = join_with(simulation, sample_person(0), {.dt_s = tick / 20}),
@@ -197,7 +197,7 @@ double size(const Vec3<float>& v) {
   return std::hypot(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
 }
 
-TEST(Inertia, BeginsAsAWalkThatWasUnderWay) {
+TEST(Inertia, StartsAsInAWalkInProgress) {
   for (const float speed : {0.7F, 1.5F}) {
     Simulation simulation(sharing());
     const Entity person = join_with(simulation, {{}, {.speed_m_s = speed}}, {.inertia = true});
@@ -216,7 +216,7 @@ TEST(Inertia, BeginsAsAWalkThatWasUnderWay) {
   }
 }
 
-TEST(Inertia, ShanksTurnAsFastAsTheyDo) {
+TEST(Inertia, LoadsMatchTheShanksRotation) {
   Simulation simulation(sharing());
   const Entity person = join_with(simulation, {{}, {.speed_m_s = 1.4F}}, {.method = Method::statics, .inertia = true});
   for (const Side side : {Side::right, Side::left}) {
@@ -254,7 +254,7 @@ TEST(Inertia, TenSecondsStayWithinAFewCentimetres) {
 
 // ------------------------------------------------------------------------------------------------- a choice as words
 
-TEST(LegMusclesWords, EachIsAFieldsAndComesBack) {
+TEST(LegMusclesWords, EachBelongsToAFieldAndRoundTrips) {
   const LegMuscles usual;
   const LegMusclesWords words = leg_muscles_words(usual);
   EXPECT_EQ(choice_of(words), usual);
@@ -264,15 +264,15 @@ TEST(LegMusclesWords, EachIsAFieldsAndComesBack) {
     other[i] ^= 1;
     const auto choice = choice_of(other);
     ASSERT_TRUE(choice) << i;
-    if (leg_muscles_words(*choice) != other) continue;  // a number that is left out counts for nothing
+    if (leg_muscles_words(*choice) != other) continue;  // an unset number has no effect
     ++changed;
     EXPECT_NE(*choice, usual) << i;
     EXPECT_NE(hash_of(*choice), hash_of(usual)) << i;
   }
-  EXPECT_EQ(changed, words.size() - 2);  // foundation and step are left out
+  EXPECT_EQ(changed, words.size() - 2);  // foundation and step are unset
 }
 
-TEST(LegMusclesWords, WhatNoFieldCanBeIsRefused) {
+TEST(LegMusclesWords, InvalidWordsAreRefused) {
   const LegMusclesWords words = leg_muscles_words({});
   std::size_t refused = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {

@@ -1,4 +1,4 @@
-// Posed people whose limbs have lengths of their own: bones, muscles, masses and surfaces go along.
+// Posed people with custom limb lengths: bones, muscles, masses and surfaces follow.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ using enum Segment;
 
 constexpr float degree = 0.0174532925F;
 
-/// A body with the limbs of another stature: `factor` times as long as they should be.
+/// Returns a body with limbs `factor` times as long as usual for its stature.
 BodyRequest long_limbed(float thigh, float shank, float upper_arm = 1, float forearm = 1) {
   BodyRequest request{.height_m = 1.75F, .mass_kg = 72};
   const LimbLengths<float> usual = limb_lengths(*make_body(request));
@@ -31,7 +31,7 @@ BodyRequest long_limbed(float thigh, float shank, float upper_arm = 1, float for
   return request;
 }
 
-TEST(Limbs, AreAsLongAsAskedAndMoveWhatHangsOnThem) {
+TEST(Limbs, HaveTheRequestedLengthsAndMoveDistalSegments) {
   const BodyRequest asked = long_limbed(1.15F, 0.9F, 1.2F, 1.1F);
   BodyRequest plain = asked;
   plain.limbs = {};
@@ -48,7 +48,7 @@ TEST(Limbs, AreAsLongAsAskedAndMoveWhatHangsOnThem) {
     EXPECT_NEAR(at(stands, shank_right).y - at(stands, foot_right).y, asked.limbs.shank_m, 1e-6F);
     EXPECT_NEAR(at(stands, upper_arm_right).y - at(stands, forearm_right).y, asked.limbs.upper_arm_m, 1e-6F);
     EXPECT_NEAR(at(stands, forearm_right).y - at(stands, hand_right).y, asked.limbs.forearm_m, 1e-6F);
-    // The sole stays on the ground, the kneecap at its knee.
+    // The sole stays on the ground and the kneecap at its knee.
     EXPECT_NEAR(at(stands, foot_right).y, at(stood, foot_right).y, 1e-6F);
     EXPECT_NEAR(at(stands, patella_right).y - at(stands, shank_right).y,
                 at(stood, patella_right).y - at(stood, shank_right).y, 1e-6F);
@@ -58,7 +58,7 @@ TEST(Limbs, AreAsLongAsAskedAndMoveWhatHangsOnThem) {
   EXPECT_EQ(mass, static_cast<double>(asked.mass_kg));
 }
 
-TEST(Limbs, OutOfRangeOrOfAWalkerAreRefused) {
+TEST(Limbs, OutOfRangeOrForWalkersAreRefused) {
   Simulation simulation(sharing());
   const auto says = [&](const BodyRequest& body, const char* what) {
     EXPECT_TRUE(is_refused(simulation.spawn_posed(body), what)) << what;
@@ -73,7 +73,7 @@ TEST(Limbs, OutOfRangeOrOfAWalkerAreRefused) {
   EXPECT_TRUE(simulation.people().empty());
 }
 
-/// Hips and knees bent, arms raised.
+/// Returns a pose with bent hips and knees and raised arms.
 Pose<float> crouching(const Body& body, float hip_deg, float knee_deg) {
   Pose<float> pose;
   const auto about_x = [](float deg) {
@@ -94,8 +94,8 @@ Pose<float> crouching(const Body& body, float hip_deg, float knee_deg) {
   return pose;
 }
 
-/// Without the lengths muscles would be stretched by what the bones are longer.
-TEST(Limbs, MusclesAreAtRestWhereTheirBonesAre) {
+/// Without the lengths, muscles would be stretched by the additional bone length.
+TEST(Limbs, MusclesAreAtRestOnTheirBones) {
   for (const float factor : {0.85F, 1.15F, 1.4F}) {
     Simulation simulation(sharing());
     const BodyRequest own = long_limbed(factor, factor);
@@ -123,8 +123,8 @@ TEST(Limbs, MusclesAreAtRestWhereTheirBonesAre) {
   }
 }
 
-/// Bones that are longer are no thicker, and pelvis and feet no larger: so are the places that muscles are fixed to.
-TEST(Limbs, WhatLiesAcrossABoneIsAsTheHeightHasIt) {
+/// Longer bones are not thicker, and pelvis and feet are not larger. The attachments of muscles follow.
+TEST(Limbs, TransverseSizesFollowTheHeight) {
   Simulation simulation(sharing());
   const BodyRequest own = long_limbed(1.3F, 1.2F);
   BodyRequest plain = own;
@@ -140,7 +140,7 @@ TEST(Limbs, WhatLiesAcrossABoneIsAsTheHeightHasIt) {
   EXPECT_NEAR(scale[0].across, scale[1].across, 1e-6F);
   EXPECT_NEAR(scale[0].thigh, 1.3F * scale[1].thigh, 1e-5F);
   EXPECT_NEAR(scale[0].shank, 1.2F * scale[1].shank, 1e-5F);
-  // Where the hamstrings begin is on the pelvis: as far from the hip in either body.
+  // The hamstrings start on the pelvis, at the same distance from the hip in both bodies.
   const auto from_hip = [](const Person& person) {
     const Pose<float> pose = standing_pose(person.body);
     const auto made = *make_muscle_plan(person.body, Muscle::hamstrings);
@@ -149,7 +149,7 @@ TEST(Limbs, WhatLiesAcrossABoneIsAsTheHeightHasIt) {
   EXPECT_NEAR(from_hip(people[0]), from_hip(people[1]), 0.02);
 }
 
-TEST(Limbs, TheCentreOfMassIsTheBodys) {
+TEST(Limbs, CentreOfMassIsTheBodys) {
   Simulation simulation(sharing());
   const Entity person = *simulation.spawn_posed(long_limbed(1.3F, 0.8F, 1.4F, 1.2F));
   const Body body = simulation.person(person)->body;
@@ -172,7 +172,7 @@ TEST(Limbs, TheCentreOfMassIsTheBodys) {
   }
 }
 
-TEST(Limbs, AreKeptBySnapshotsAndToldByPerson) {
+TEST(Limbs, AreKeptBySnapshotsAndReportedByPerson) {
   Simulation simulation(sharing()), other(sharing());
   const BodyRequest asked = long_limbed(1.2F, 1.1F);
   const Entity person = *simulation.spawn_posed(asked);
@@ -187,8 +187,8 @@ TEST(Limbs, AreKeptBySnapshotsAndToldByPerson) {
   EXPECT_EQ(other.person(person)->body.request.limbs.shank_m, asked.limbs.shank_m);
 }
 
-/// The bones of a skeleton of other proportions, as a game has them: joints then lie upon the game's.
-TEST(Limbs, ARetargetedSkeletonKeepsItsJoints) {
+/// Bones of a game's skeleton with other proportions: the joints coincide with the game's.
+TEST(Limbs, RetargetedSkeletonKeepsItsJoints) {
   const Body game = *make_body(long_limbed(1.2F, 1.08F, 1.1F, 0.95F));
   constexpr std::array bone = {pelvis,        T10,        head,           thigh_right,  shank_right, foot_right,
                                toes_right,    thigh_left, shank_left,     foot_left,    toes_left,   upper_arm_right,
@@ -226,7 +226,7 @@ TEST(Limbs, ARetargetedSkeletonKeepsItsJoints) {
   EXPECT_EQ(limb_lengths(without, rest)->forearm_m, 0);
 }
 
-/// Surfaces bound to a usual body, shown by one with long limbs, against those drawn for that body.
+/// Surfaces bound to a usual body, displayed on one with long limbs, compared with surfaces drawn for that body.
 TEST(Limbs, SurfacesOfUsualBodiesFit) {
   const Body usual = *make_body({.height_m = 1.70F, .mass_kg = 68});
   Simulation simulation(sharing());

@@ -1,5 +1,5 @@
-// People who change their walk: who goes beyond a limit of ground, joints or pelvis is counted and told. The poses
-// of all ticks say who does (tests/simulation/walk_watch.h).
+// People who change their gait: every violation of a limit of ground, joints or pelvis is counted and reported. The
+// poses of all ticks show the violations (tests/simulation/walk_watch.h).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,14 +23,13 @@ namespace mobil::limit_monitor_test {
 using namespace style_limits_test;
 
 struct Found {
-  std::size_t people = 0, beyond = 0;     // walked, and went beyond a limit
-  std::uint64_t seen = 0;                 // ticks in which somebody was beyond one
-  std::uint64_t missed = 0, surplus = 0;  // ticks that the count left out; ticks that it has beside those told
-  Walked worst;                           // of ticks that it left out
+  std::size_t people = 0, beyond = 0;     // people in total, people with a violation
+  std::uint64_t seen = 0;                 // ticks with a violation
+  std::uint64_t missed = 0, surplus = 0;  // ticks missed by the count, and ticks counted without a violation
+  Walked worst;                           // of missed ticks
 };
 
-/// What somebody is to do at some time: a heading, or else a speed, with a style of their own or the one that they
-/// have.
+/// A request at a time: a heading, or a speed with a new style or the current one.
 struct Change {
   double time_s;
   std::optional<float> heading_rad{}, speed_m_s{};
@@ -38,7 +37,7 @@ struct Change {
 };
 using Changes = std::vector<Change>;
 
-/// Turns of any size, stops, speeds and, where asked for, styles, a third of a second to four seconds apart.
+/// Returns turns of any size, stops, speeds and optionally styles, a third of a second to four seconds apart.
 Changes random_changes(Dice& dice, float speed_m_s, double seconds, bool styles) {
   Changes changes;
   float heading = 0;
@@ -106,7 +105,7 @@ void walk(const std::vector<Asked>& asked, const std::vector<Changes>& changes, 
   found.beyond += static_cast<std::size_t>(std::ranges::count(beyond, std::size_t{1}));
 }
 
-/// The count leaves out only who is little beyond a limit, and has nobody who is not.
+/// Expects the count to miss only small violations and to contain no false ones.
 void expect_little_missed(const Found& found) {
   std::printf("%llu of %llu ticks beyond a limit missed: by %.2f deg, %.2f m/s2 at most\n",
               static_cast<unsigned long long>(found.missed), static_cast<unsigned long long>(found.seen),
@@ -116,9 +115,9 @@ void expect_little_missed(const Found& found) {
   for (std::size_t m = 0; m < measures; ++m) EXPECT_LE(found.worst.worst[m], most[m] + a_little[m]) << measure_name[m];
 }
 
-/// Two who are known to go beyond a limit, by 7° of a hip and 11° of an ankle, and others of any style. 240 random
-/// people; 4800 with MOBIL_LONG in the environment.
-TEST(LimitMonitor, TellsOfAllWhoGoBeyondALimit) {
+/// Two people known to exceed a limit, by 7° of a hip and 11° of an ankle, and 240 random people of any style (4800
+/// with MOBIL_LONG).
+TEST(LimitMonitor, ReportsAllViolations) {
   Found found;
   std::vector<Asked> asked(2);
   asked[0] = {{.height_m = 1.278257F, .mass_kg = 35.655258F}, {.speed_m_s = 1.223403F}};
@@ -148,9 +147,9 @@ TEST(LimitMonitor, TellsOfAllWhoGoBeyondALimit) {
   EXPECT_LE(found.beyond, 2 + count / 100);
 }
 
-/// Who walks in a style near the usual one is looked at only where they turn one way and at once the other, for they
-/// keep all limits else, or all but do: of 240 people; 24 000 with MOBIL_LONG in the environment.
-TEST(LimitMonitor, NearStylesAllButKeepThem) {
+/// People with nearly usual styles are monitored only when they turn one way and directly back. They keep all limits,
+/// or exceed them slightly. 240 people; 24 000 with MOBIL_LONG.
+TEST(LimitMonitor, NearlyUsualStylesNearlyKeepLimits) {
   Dice dice{std::mt19937(12)};
   const std::size_t count = std::getenv("MOBIL_LONG") != nullptr ? 24000 : 240;
   Found found;
@@ -174,8 +173,8 @@ TEST(LimitMonitor, NearStylesAllButKeepThem) {
   expect_little_missed(found);
 }
 
-/// Far styles too, in a steady walk; people who sleep, who are posed or who are gone have no limits to be beyond.
-TEST(LimitMonitor, NobodyElseIsBeyondOne) {
+/// Unusual styles in a steady walk; sleepers, posed people and despawned people have no limits.
+TEST(LimitMonitor, SteadyWalksAndSleepersHaveNoViolations) {
   Simulation simulation;
   GaitRequest far{.speed_m_s = 2.06351F};
   far.style.double_support_scale = 0.6F;
@@ -196,7 +195,7 @@ TEST(LimitMonitor, NobodyElseIsBeyondOne) {
   EXPECT_TRUE(limit_violations(simulation.world(), Entity{}).empty());
 }
 
-TEST(LimitMonitor, SaysWhatIsBeyond) {
+TEST(LimitMonitor, DescribesViolations) {
   EXPECT_EQ(described({WalkBound::under_ground, 0.0062F}), "a foot is 6.2 mm under the ground; the limit is 5");
   EXPECT_EQ(described({WalkBound::toes_up, 1.4F}), "toes are bent up by 80.21 deg; the limit is 70");
 }

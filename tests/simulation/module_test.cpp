@@ -1,4 +1,4 @@
-// Modules: a host's own parts and systems beside the library's, and what keeps them.
+// Modules: a host's components and systems next to the library's, and how they are kept.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -16,7 +16,7 @@
 #include "tests/simulation/crowd_play.h"
 
 namespace mobil::module_test {
-/// A number of the host's on a row, one more each tick.
+/// A number of the host's on a row, incremented each tick.
 template <class F>
 struct Counter {
   UInt32<F> ticks, key;
@@ -60,7 +60,7 @@ struct Marked {
   Entity person, muscle;
 };
 
-/// A walker with coarse muscles who bears the host's parts, as does one of the muscles.
+/// A walker with coarse muscles that has the host's components, as does one of the muscles.
 Marked marked_walker(Simulation& simulation) {
   Marked made;
   made.person = *simulation.spawn({});
@@ -71,7 +71,7 @@ Marked marked_walker(Simulation& simulation) {
   return made;
 }
 
-TEST(Modules, PartsOfAHostStayThroughEveryChangeOfAMuscle) {
+TEST(Modules, HostComponentsSurviveEveryMuscleChange) {
   Simulation simulation({.modules = {counting()}});
   const Marked marked = marked_walker(simulation);
   std::uint32_t ticks = 0;
@@ -93,7 +93,7 @@ TEST(Modules, PartsOfAHostStayThroughEveryChangeOfAMuscle) {
   for (int i = 0; i < 30; ++i) run();  // fades end
 }
 
-TEST(Modules, PartsOfAHostStayWhileOthersComeAndGo) {
+TEST(Modules, HostComponentsSurviveSpawnsAndDespawns) {
   Simulation simulation({.modules = {counting()}});
   const Marked marked = marked_walker(simulation);
   const std::vector<SpawnRequest> people(100, SpawnRequest{.muscles = LegMuscles{.cells = play::coarse}});
@@ -109,7 +109,7 @@ TEST(Modules, PartsOfAHostStayWhileOthersComeAndGo) {
   }
 }
 
-TEST(Modules, SnapshotsAndRollbackKeepWhatModulesName) {
+TEST(Modules, SnapshotsAndRollbackKeepNamedComponents) {
   const auto palette = std::make_shared<const Palette>(Palette{7});
   Simulation simulation({.modules = {counting(1, palette)}});
   const Marked marked = marked_walker(simulation);
@@ -127,7 +127,7 @@ TEST(Modules, SnapshotsAndRollbackKeepWhatModulesName) {
   EXPECT_EQ(simulation.state_hash(), then);
   expect_marked(simulation, marked.muscle, 22, 1);
 
-  // In another simulation, whose resources came in another order, and where nobody ever had these parts.
+  // Another simulation creates resources in another order, and no entity has ever had these components.
   Simulation other({.modules = {counting(1, palette)}});
   ASSERT_TRUE(other.restore(bytes, RestoreLimits::none())) << other.restore(bytes).error().message;
   EXPECT_EQ(other.state_hash(), then);
@@ -156,7 +156,7 @@ TEST(Modules, SnapshotsOfOtherModulesOrVersionsAreRefused) {
   EXPECT_NE(refusal({.modules = {counting(2)}}).find("version 1 of module 'counting'"), std::string::npos);
   EXPECT_EQ(refusal({.modules = {counting()}}), "");
 
-  // A resource that no module names cannot be saved; one that is named cannot be restored without its module.
+  // A resource that no module names cannot be saved. A named one cannot be restored without its module.
   const auto palette = std::make_shared<const Palette>(Palette{7});
   const Entity person = *simulation.spawn({});
   simulation.parts().add(person, simulation.parts().share(palette));
@@ -169,7 +169,7 @@ TEST(Modules, SnapshotsOfOtherModulesOrVersionsAreRefused) {
   EXPECT_NE(refusal({.modules = {counting()}}).find("named resource"), std::string::npos);
 }
 
-TEST(Modules, ThatDoNotFitAreRefused) {
+TEST(Modules, InconsistentOnesAreRefused) {
   EXPECT_THROW(Simulation({.modules = {counting(), counting()}}), std::invalid_argument);
   EXPECT_THROW(Simulation({.modules = {Module{}}}), std::invalid_argument);
   EXPECT_THROW(Simulation({.modules = {Module{.name = "mine", .parts = {component_id<Pose>()}}}}),
@@ -179,8 +179,8 @@ TEST(Modules, ThatDoNotFitAreRefused) {
   EXPECT_THROW(Simulation({.modules = {late}}), std::invalid_argument);
 }
 
-/// However a muscle is made, and whatever it becomes: its parts are those of the one list, and each part is a module's.
-TEST(Modules, TogetherKnowEveryPartThatACrowdEverHas) {
+/// For any creation and change of a muscle, its components are in the one list, and each belongs to a module.
+TEST(Modules, CoverEveryComponentOfACrowd) {
   play::Crowd crowd(sharing(), {.seed = 5});
   std::size_t muscles = 0;
   for (int tick = 0; tick < 120; ++tick) {
@@ -198,8 +198,8 @@ TEST(Modules, TogetherKnowEveryPartThatACrowdEverHas) {
   EXPECT_GT(muscles, 1000U);
 }
 
-/// A host's phases spawn and despawn walkers within `advance`; threads do not show.
-TEST(Modules, PhasesOfAHostSpawnAndDespawn) {
+/// A host's phases spawn and despawn walkers within `advance`, on any number of threads.
+TEST(Modules, HostPhasesSpawnAndDespawn) {
   struct Arrivals {
     std::vector<Entity> all;
   };

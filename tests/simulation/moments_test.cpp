@@ -1,4 +1,4 @@
-// Muscles that follow the moments at their joints, in the engine.
+// Muscles that follow joint moments, in the simulation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,8 +34,8 @@ double off(const Pair& of) {
   return std::sqrt(error / all);
 }
 
-/// Activation takes 10 to 40 ms to follow, so they are a little late.
-TEST(Moments, MusclesMakeThoseOfTheWalk) {
+/// Activation follows with a lag of 10 to 40 ms, so the moments are slightly late.
+TEST(Moments, MusclesMakeTheMomentsOfTheWalk) {
   Simulation simulation(sharing());
   const Entity person = walker(simulation);
   ASSERT_TRUE(simulation.enable(person, Feature::forces));
@@ -84,8 +84,8 @@ TEST(Moments, NeedForces) {
   EXPECT_TRUE(simulation.set_muscles(person, following()));
 }
 
-/// The parts that they are asked by come and go with them, and with the forces that they are of.
-TEST(Moments, ComeAndGo) {
+/// Components for following moments are added and removed with the choice, and with the forces they depend on.
+TEST(Moments, CanBeSwitched) {
   Simulation simulation(sharing());
   const Entity person = walker(simulation);
   ASSERT_TRUE(simulation.enable(person, Feature::forces));
@@ -110,7 +110,7 @@ TEST(Moments, ComeAndGo) {
   EXPECT_FALSE(simulation.get<MomentReserve>(person));
 }
 
-TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
+TEST(Moments, PeopleUnableToFollowStayAsleepOrCompact) {
   Simulation simulation(sharing());
   LegMuscles plain = following(Method::modal);
   plain.activation = ExcitationSource::none;
@@ -133,7 +133,7 @@ TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
   }
 }
 
-TEST(Moments, GoOnFromASnapshot) {
+TEST(Moments, ContinueFromASnapshot) {
   Simulation simulation(sharing()), other(sharing());
   const Entity person = walker(simulation);
   ASSERT_TRUE(simulation.enable(person, Feature::forces));
@@ -147,8 +147,8 @@ TEST(Moments, GoOnFromASnapshot) {
   EXPECT_EQ(simulation.state_hash(), other.state_hash());
 }
 
-/// A posed person's moments are a tick late; who stands still needs calves more than shins.
-TEST(Moments, OfPosedPeopleToo) {
+/// A posed person's moments are a tick late. Standing needs calves more than shins.
+TEST(Moments, FollowPosedPeople) {
   Simulation simulation(sharing());
   Simulation walking(sharing());
   const Entity model = walker(walking);

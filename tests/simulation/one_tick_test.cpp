@@ -1,5 +1,4 @@
-// A game calls `advance` and nothing else: level of detail, avoidance and the ground are part of each tick, and what
-// they remember is state.
+// A game calls only `advance`: level of detail, avoidance and terrain are part of each tick, and their memory is state.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +28,7 @@ void hills(std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
     out[i] = {0.4F * std::sin(0.3F * at[i].x_m), 0.12F * std::cos(0.3F * at[i].x_m), 0};
 }
 
-/// What a host gives, which is no state; the camera goes round and round.
+/// Sets a host's inputs, which are not state. The camera goes round and round.
 void look(Simulation& simulation) {
   const float yaw = 0.4F * static_cast<float>(simulation.time_s());
   Viewpoint camera{.position_m = {0, 1.7F, 0}, .forward = {std::sin(yaw), 0, std::cos(yaw)}};
@@ -51,7 +50,7 @@ std::unique_ptr<Simulation> equipped(int threads = 1) {
   return simulation;
 }
 
-/// A third avoids others, a third walks on hills, and everybody is managed.
+/// Spawns a crowd: a third avoids others, a third walks on hills, and all are managed.
 void populate(Simulation& simulation) {
   std::vector<SpawnRequest> requests(crowd_size);
   for (std::size_t i = 0; i < crowd_size; ++i) {
@@ -70,7 +69,7 @@ void populate(Simulation& simulation) {
   ASSERT_TRUE(simulation.terrain().manage(std::span(people).subspan(crowd_size / 3, crowd_size / 3)));
 }
 
-/// Frames of uneven length, and requests by the tick's number alone.
+/// Advances in frames of uneven length, with requests determined by the tick's number.
 void play(Simulation& simulation, std::uint32_t to_tick) {
   while (simulation.ticks() < to_tick) {
     look(simulation);
@@ -91,7 +90,7 @@ std::vector<std::byte> saved(const Simulation& simulation) {
   return bytes;
 }
 
-TEST(OneTick, ASnapshotGoesOnAsIfNothingHadBeen) {
+TEST(OneTick, SnapshotContinuesUndisturbed) {
   MOBIL_SLOW();
   const auto undisturbed = equipped();
   populate(*undisturbed);
@@ -103,7 +102,7 @@ TEST(OneTick, ASnapshotGoesOnAsIfNothingHadBeen) {
   play(*undisturbed, 840);
   play(*other, 840);
   EXPECT_EQ(other->state_hash(), undisturbed->state_hash());
-  // And back, in the simulation that went on.
+  // Also back, in the simulation that continued.
   const std::uint64_t after = undisturbed->state_hash();
   ASSERT_TRUE(undisturbed->restore(bytes));
   play(*undisturbed, 840);
@@ -135,7 +134,7 @@ TEST(OneTick, RollsBack) {
   EXPECT_EQ(first, second);
 }
 
-TEST(OneTick, EverybodyIsServed) {
+TEST(OneTick, AllFeaturesAreUsed) {
   MOBIL_SLOW();
   const auto simulation = equipped();
   populate(*simulation);
@@ -163,8 +162,8 @@ TEST(OneTick, EverybodyIsServed) {
   EXPECT_GT(asleep, 1000U);
 }
 
-/// Reports are of all ticks of one call.
-TEST(OneTick, AFrameOfSeveralTicksReportsAllOfThem) {
+/// Reports cover all ticks of one call.
+TEST(OneTick, FrameOfSeveralTicksReportsAll) {
   const auto one = equipped(), other = equipped();
   for (Simulation* simulation : {one.get(), other.get()}) populate(*simulation);
   std::size_t evaluated = 0, chose = 0, asked = 0;
@@ -182,7 +181,7 @@ TEST(OneTick, AFrameOfSeveralTicksReportsAllOfThem) {
   EXPECT_EQ(other->state_hash(), one->state_hash());
 }
 
-TEST(OneTick, ChoosingLessOftenIsChoosingLessOften) {
+TEST(OneTick, EvaluationIntervalIsRespected) {
   Simulation simulation(sharing());
   ASSERT_TRUE(simulation.lod().set_options({.stagger = 1, .every = 4}));
   ASSERT_TRUE(simulation.lod().set_scene({.muscles = MuscleSet(1), .tolerance_m = 0.002F}));
@@ -196,8 +195,8 @@ TEST(OneTick, ChoosingLessOftenIsChoosingLessOften) {
   EXPECT_FALSE(simulation.lod().set_options({.every = 0}));
 }
 
-/// A phase that throws stops time, and nothing of it is lost.
-TEST(OneTick, TimeThatDidNotRunIsRunLater) {
+/// A phase that throws stops time, and no time is lost.
+TEST(OneTick, MissedTimeRunsLater) {
   int left = 0;
   Module failing{.name = "failing", .before = {{"failing", [&](const Frame& frame) {
                                                   if (frame.tick.index == 2 && left-- > 0)
@@ -211,8 +210,8 @@ TEST(OneTick, TimeThatDidNotRunIsRunLater) {
   EXPECT_EQ(simulation.ticks(), 12U);
 }
 
-/// A phase may restore a snapshot: the tick under way goes on with the phases behind it.
-TEST(OneTick, APhaseMayRestoreButNotTick) {
+/// A phase can restore a snapshot: the current tick continues with the phases after it.
+TEST(OneTick, PhaseCanRestoreButNotTick) {
   Simulation* running = nullptr;
   std::vector<std::byte> bytes;
   int calls = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// A crowd whose every member is another, by number; and what muscles share, made once for all tests of a process.
+// Different people by number, and a library of shared muscle data for all tests of a process.
 
 #include <cmath>
 
@@ -10,15 +10,15 @@
 
 namespace mobil {
 
-/// `options`, with a library that all who ask here have in common. Not for tests of how what is shared is made,
-/// counted, restored or refused.
+/// Returns `options` with a common library. It is unsuitable for tests of how shared data is made, counted, restored or
+/// refused.
 inline SimulationOptions sharing(SimulationOptions options = {}) {
   static const Simulation library;
   options.library_of = &library;
   return options;
 }
 
-/// From the least to the most that a real body of that height weighs, kg: `part` 0 to 1.
+/// Returns the mass of a real body of that height, kg: `part` 0 is the minimum, 1 the maximum.
 inline float living_mass(float height_m, double part) {
   const auto [low, high] = living_mass_kg(static_cast<double>(height_m));
   return static_cast<float>(low + part * (high - low));
@@ -29,9 +29,9 @@ struct SamplePerson {
   GaitRequest gait;
 };
 
-/// SamplePerson `i` of a crowd: the same for ever, unlike the others, and able to walk as asked.
+/// Returns person `i` of a crowd: always the same, different from the others, and able to walk as requested.
 inline SamplePerson sample_person(int i) {
-  // Golden-ratio steps through [0, 1), another stride for each quantity.
+  // Golden-ratio steps through [0, 1), with another stride for each quantity.
   const auto part = [i](int stride) {
     const double x = (i + 1) * stride * 0.6180339887498949;
     return static_cast<float>(x - std::floor(x));

@@ -1,4 +1,4 @@
-// What each call does to people of each state: the table of systems/states/README.md, walked through.
+// Effect of each call on people of each state: checks the table of systems/states/README.md.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -25,7 +25,7 @@ std::string trimmed(const std::string& cell) {
   return first == std::string::npos ? std::string() : cell.substr(first, last - first + 1);
 }
 
-/// By call, what becomes of somebody of each state.
+/// Returns the table: by call, the resulting state for each initial state.
 std::map<std::string, std::vector<std::string>> table() {
   std::ifstream file(std::string(MOBIL_SOURCE_DIR) + "/systems/states/README.md");
   std::map<std::string, std::vector<std::string>> rows;
@@ -46,8 +46,8 @@ std::string word(const std::optional<PersonState>& state) {
   return state ? states[static_cast<std::size_t>(*state)] : "gone";
 }
 
-/// A simulation with somebody who has been walking for four seconds (or standing, to step aside) and is of that state
-/// now. Muscles of somebody compact have no activation, and terrain manages nobody compact.
+/// A simulation with a person who has walked for four seconds (or stood, for a step aside) and has the given state now.
+/// Muscles of a compact person have no activation, and terrain manages no compact person.
 struct Stage {
   Simulation simulation{sharing()};
   Entity person;
@@ -106,7 +106,7 @@ const std::map<std::string, Call>& calls() {
       {"change_gait_many",
        [](Simulation& s, Entity p) {
          const WalkChange change{.person = p, .heading_rad = 0.5F};
-         return s.change_gait(std::span(&change, 1)).has_value();  // which counts who cannot
+         return s.change_gait(std::span(&change, 1)).has_value();  // it counts people who cannot
        }},
       {"step_aside", [](Simulation& s, Entity p) { return s.step_aside(p, 0.1F, 0).has_value(); }},
       {"place", [](Simulation& s, Entity p) { return s.place(p, 3, 4, 0.5F).has_value(); }},
@@ -151,7 +151,7 @@ const std::map<std::string, Call>& calls() {
   return all;
 }
 
-TEST(PersonStates, AreWhatTheTableSaysAfterEachCall) {
+TEST(PersonStates, MatchTheTableAfterEachCall) {
   const auto rows = table();
   ASSERT_EQ(rows.size(), calls().size());
   for (const auto& [name, call] : calls()) {
@@ -172,8 +172,8 @@ TEST(PersonStates, AreWhatTheTableSaysAfterEachCall) {
   }
 }
 
-/// Each call goes on as it should: nobody is lost in the ticks that follow.
-TEST(PersonStates, GoOnAfterEachCall) {
+/// The ticks after each call run correctly for all people.
+TEST(PersonStates, ContinueAfterEachCall) {
   for (const auto& [name, call] : calls()) {
     for (std::size_t s = 0; s < states.size(); ++s) {
       Stage stage(static_cast<PersonState>(s), name);

@@ -1,4 +1,4 @@
-// People who are put elsewhere at once: they go on as if the world had been moved under them.
+// Placement: people continue as if the world had been moved under them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ LegMuscles with_inertia(Method method) {
       .muscles = MuscleSet(3), .method = method, .modal = {.cells = {2, 2, 8}}, .inertia = true, .line_motion = true};
 }
 
-/// Of a walker who was put elsewhere, and of one who was not: the way between them.
+/// The transform between a walker who was placed elsewhere and one who was not.
 struct Way {
   Vec3<float> from, to;
   Quat<float> turn;
@@ -46,7 +46,7 @@ void expect_along(const Way& way, const Simulation& here, Entity stays, const Si
       within_m);
 }
 
-TEST(Place, PoseAndMusclesGoAlongAndWalkOn) {
+TEST(Place, PoseAndMusclesMoveAlongAndWalkOn) {
   std::mt19937 random(9);
   auto draw = [&](float low, float high) { return low + (high - low) * static_cast<float>(random() % 1000) / 1000; };
   for (const Method method : {Method::explicit_central, Method::modal}) {
@@ -69,7 +69,7 @@ TEST(Place, PoseAndMusclesGoAlongAndWalkOn) {
       here.tick();
       there.tick();
     }
-    // The line of the one who stayed has gone on since, and so has the other's.
+    // Both lines have continued since.
     expect_along(way, here, stays, there, placed, 2e-3);
     Difference difference;
     compare(here, stays, there, placed, difference);
@@ -78,8 +78,8 @@ TEST(Place, PoseAndMusclesGoAlongAndWalkOn) {
   }
 }
 
-/// A pose far away, without inertia; the same as a jump, and as a way of ten metres in a tick.
-TEST(Place, APosedPersonFeelsAWayAndNoJump) {
+/// A distant pose, without inertia; then as a jump, and as a motion of ten metres in a tick.
+TEST(Place, PosedPersonFeelsMotionButNoJump) {
   for (const auto arrival : {Arrival::jumped, Arrival::moved}) {
     Simulation simulation(sharing());
     const Entity person = simulation.spawn_posed(sample_person(2).body).value();
@@ -108,7 +108,7 @@ TEST(Place, APosedPersonFeelsAWayAndNoJump) {
   }
 }
 
-TEST(Place, WhatIsNoPlaceIsRefused) {
+TEST(Place, InvalidPlacesAreRefused) {
   Simulation simulation(sharing());
   const Entity walker = join(simulation, sample_person(1), false),
                posed = simulation.spawn_posed(sample_person(2).body).value();
@@ -127,8 +127,8 @@ TEST(Place, WhatIsNoPlaceIsRefused) {
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
-/// Who is put somewhere is who was spawned there, to the bit, and stays so; whole, compact and asleep.
-TEST(Place, IsAsIfSpawnedThere) {
+/// A placed person equals one spawned there, to the bit and permanently: full, compact and asleep.
+TEST(Place, EqualsASpawnThere) {
   Simulation there(sharing()), placed(sharing());
   std::vector<SpawnRequest> requests(12), at_origin(12);
   std::vector<PlaceRequest> to(12);
@@ -160,8 +160,8 @@ TEST(Place, IsAsIfSpawnedThere) {
   EXPECT_EQ(there.state_hash(), placed.state_hash());
 }
 
-/// Asleep and awake, in the middle of a walk: to the bit where they walk steadily, else within what places hold.
-TEST(Place, SleepersGoAlong) {
+/// Asleep and awake, in mid-walk: to the bit for steady walkers, else within the precision of positions.
+TEST(Place, SleepersMoveAlong) {
   Simulation awake(sharing()), asleep(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 8; ++i) {
@@ -182,7 +182,7 @@ TEST(Place, SleepersGoAlong) {
   put(25);
   for (int t = 0; t < 50; ++t) awake.tick(), asleep.tick();
   for (const Entity person : people) EXPECT_TRUE(walk_alike(awake, person, asleep, person));
-  // Now some turn and some stop, and are put elsewhere at once, on the way and after.
+  // Some turn and some stop, and are placed at once, on the way and after.
   for (const Entity person : people) {
     for (Simulation* const simulation : {&awake, &asleep}) {
       if (person.index % 2 == 0) {
@@ -214,7 +214,7 @@ TEST(Place, SleepersGoAlong) {
   }
 }
 
-TEST(Place, ManyOrNobody) {
+TEST(Place, BatchIsAllOrNone) {
   Simulation simulation(sharing());
   std::vector<PlaceRequest> to;
   for (int i = 0; i < 6; ++i) {
@@ -239,8 +239,8 @@ TEST(Place, ManyOrNobody) {
   EXPECT_NE(refused({last, 0, 0, 0}).find("person 3"), std::string::npos);
 }
 
-/// The world's origin moves: nobody notices.
-TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
+/// Shifting the world's origin changes no motion.
+TEST(ShiftOrigin, MotionIsUnchanged) {
   Simulation here(sharing()), there(sharing());
   std::vector<Entity> walkers;
   for (int i = 0; i < 3; ++i) {
@@ -284,8 +284,8 @@ TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
   EXPECT_EQ(there.state_hash(), before);
 }
 
-/// A hundred kilometres on, by an origin that goes along: feet stand and bones are as long as at home.
-TEST(ShiftOrigin, AHundredKilometresOnNothingIsLost) {
+/// A hundred kilometres with an origin that moves along: feet stand still and bones keep their length.
+TEST(ShiftOrigin, PrecisionIsKeptAfterAHundredKilometres) {
   Simulation home(sharing()), far(sharing());
   const SamplePerson who = sample_person(1);
   const Entity stays = join_with(home, who, with_inertia(Method::modal)),
@@ -299,10 +299,10 @@ TEST(ShiftOrigin, AHundredKilometresOnNothingIsLost) {
   ASSERT_EQ(*far.set_state({&sleeper, 1}, PersonState::asleep), 1U);
   ASSERT_EQ(*far.set_state({&small, 1}, PersonState::compact), 1U);
   double gone_m = 0, worst_m = 0, slipped_m = 0, behind_m = 0;
-  Vec3<float> stood{};  // beside the same heel at home
+  Vec3<float> stood{};  // relative to the same heel at home
   std::uint32_t stance = 0;
   for (int leg = 0; leg < 100; ++leg) {
-    // Everybody is taken a kilometre on, and the origin with them.
+    // All people are moved by a kilometre, and the origin with them.
     std::vector<PlaceRequest> to;
     for (const Entity one : {goes, sleeper, small}) {
       const auto at = *far.get<GaitState>(one);
@@ -317,7 +317,7 @@ TEST(ShiftOrigin, AHundredKilometresOnNothingIsLost) {
     for (int t = 0; t < 12; ++t) {
       const auto side = far.get<GaitState>(goes)->stance_side;
       const auto heel = far.get<Feet>(goes)->heel_m[side] - home.get<Feet>(stays)->heel_m[side];
-      // Before the first tick feet are those that were a kilometre from the origin.
+      // Before the first tick feet are those computed a kilometre from the origin.
       if (t > 1 && side == stance) slipped_m = std::max(slipped_m, static_cast<double>(geometry::length(heel - stood)));
       stood = heel;
       stance = side;

@@ -1,4 +1,4 @@
-// Poses in bulk: of any people, at any instant of a tick, in any host's layout.
+// Poses of any people in bulk, at any instant of a tick, in any host's layout.
 #include <mobil/pose_writer.h>
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ Rows write(const World& world, std::span<const Entity> people, double ahead_s, c
   return out;
 }
 
-/// Walkers who start, stop, turn, step aside and change their speed, and some whom a host animates.
+/// Walkers who start, stop, turn, step aside and change speed, and some people animated by the host.
 struct Scene {
   Simulation simulation;
   std::vector<Entity> people;
@@ -64,7 +64,7 @@ struct Scene {
           EXPECT_TRUE(simulation.change_gait(people[i], {.speed_m_s = 0.0F}));
           break;
         default:
-          simulation.step_aside(people[i], 0.2F * dice, 0);  // refused where somebody walks
+          simulation.step_aside(people[i], 0.2F * dice, 0);  // refused for walkers
       }
     }
   }
@@ -73,7 +73,7 @@ struct Scene {
   }
 };
 
-TEST(PoseWriter, AfterATickWritesWhatTheTablesHold) {
+TEST(PoseWriter, AfterATickWritesTheTablesPoses) {
   Scene scene(1.0 / 60);
   scene.ticks(50);
   std::vector<Entity> some = {scene.people[30], scene.people[3], scene.people[3], scene.people[0], scene.people[17]};
@@ -88,8 +88,8 @@ TEST(PoseWriter, AfterATickWritesWhatTheTablesHold) {
   }
 }
 
-/// Coarse ticks, looked at between them, are fine ticks: whatever people are asked, strikes and turns on the way.
-TEST(PoseWriter, BetweenTicksPeopleAreWhereFinerTicksPutThem) {
+/// Interpolated coarse ticks equal fine ticks, for any requests, through strikes and turns.
+TEST(PoseWriter, BetweenTicksMatchesFinerTicks) {
   constexpr int finer = 8;
   Scene coarse(1.0 / 60), fine(1.0 / (60 * finer));
   double furthest_m = 0, max_turned = 0;
@@ -117,8 +117,8 @@ TEST(PoseWriter, BetweenTicksPeopleAreWhereFinerTicksPutThem) {
   EXPECT_LT(max_turned, 2e-3);
 }
 
-/// Against matrices in double precision: M R Mᵀ, M p.
-TEST(PoseWriter, AxesUnitsAndFormsAreAsSaid) {
+/// Compared with matrices in double precision: M R Mᵀ, M p.
+TEST(PoseWriter, AxesUnitsAndFormsAreAsRequested) {
   Scene scene(1.0 / 60, 9);
   scene.ticks(70);
   struct Axes {
@@ -199,7 +199,7 @@ TEST(PoseWriter, WritesChosenSegmentsAtTheirStridesAndNothingElse) {
   EXPECT_EQ(out, expected);
 }
 
-TEST(PoseWriter, ThreadsAndTheWorldAreTheSame) {
+TEST(PoseWriter, ThreadedWritesMatchTheWorld) {
   Scene scene(1.0 / 60, 100);
   scene.ticks(33);
   const std::uint64_t before = scene.simulation.state_hash();
@@ -210,7 +210,7 @@ TEST(PoseWriter, ThreadsAndTheWorldAreTheSame) {
   EXPECT_EQ(scene.simulation.state_hash(), before);
 }
 
-TEST(PoseWriter, NeedsNoHeapOnceThereHaveBeenAsMany) {
+TEST(PoseWriter, AllocatesNothingForKnownCounts) {
   Scene scene(1.0 / 60);
   PoseWriter writer;
   Rows out(scene.people.size() * segment_count * 7);

@@ -1,4 +1,4 @@
-// What the ground does to people whose host animates them, known from their poses alone.
+// Ground forces on people animated by their host, computed from poses only.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using geometry::operator-;
 
 constexpr float gravity = 9.81F;
 
-/// Root of the mean square of what one says of a person and another does, over all, and of that itself.
+/// Root mean square of a difference, absolute and relative to the reference.
 struct Apart {
   double square = 0, whole = 0, count = 0;
   void add(float is, float should) {
@@ -30,8 +30,8 @@ Pose<float> moved(Pose<float> pose, const Vec3<float>& by) {
   return pose;
 }
 
-/// A walker's own forces follow from the step; the puppet's from what the puppet is seen to do, a tick later.
-TEST(PosedForces, AWalkersPosesGiveTheWalkersForces) {
+/// A walker's forces follow from the step; the puppet's from its observed motion, a tick later.
+TEST(PosedForces, WalkersPosesGiveTheWalkersForces) {
   for (const float speed : {0.9F, 1.3F, 1.8F}) {
     Simulation walking, posed;
     const SamplePerson who = sample_person(1);
@@ -77,8 +77,8 @@ TEST(PosedForces, AWalkersPosesGiveTheWalkersForces) {
   }
 }
 
-/// The weight, at once and for good, between the feet; whatever the height of the floor.
-TEST(PosedForces, WhoStandsIsBorneByBothFeet) {
+/// The weight acts at once and permanently between the feet, at any height of the floor.
+TEST(PosedForces, StandingLoadIsOnBothFeet) {
   for (const float floor_m : {0.0F, 3.0F, -2.0F}) {
     Simulation simulation;
     const SamplePerson who = sample_person(2);
@@ -100,7 +100,7 @@ TEST(PosedForces, WhoStandsIsBorneByBothFeet) {
         EXPECT_LT(ground.centre_m[side].z, feet.tip_m[side].z);
         EXPECT_NEAR(ground.centre_m[side].x, feet.heel_m[side].x, 0.05F);
       }
-      // Above the centre of pressure is the centre of mass.
+      // The centre of mass is above the centre of pressure.
       if (tick == 0) continue;
       const float share = on_right / weight;
       EXPECT_NEAR(share * ground.centre_m[Side::right].z + (1 - share) * ground.centre_m[Side::left].z,
@@ -112,8 +112,8 @@ TEST(PosedForces, WhoStandsIsBorneByBothFeet) {
   }
 }
 
-/// Who stands on one leg is borne by it, whatever the other one does.
-TEST(PosedForces, AFootInTheAirBearsNothing) {
+/// A person on one leg is supported by it, whatever the other leg does.
+TEST(PosedForces, FootInTheAirHasNoLoad) {
   Simulation simulation;
   const SamplePerson who = sample_person(2);
   const Entity puppet = *simulation.spawn_posed(who.body);
@@ -130,7 +130,7 @@ TEST(PosedForces, AFootInTheAirBearsNothing) {
   }
 }
 
-/// A jump through the world is not felt; one through the air is.
+/// A teleport has no inertia; a jump into the air has.
 TEST(PosedForces, JumpsAndFalls) {
   Simulation simulation;
   const SamplePerson who = sample_person(0);
@@ -163,8 +163,8 @@ TEST(PosedForces, JumpsAndFalls) {
   }
 }
 
-/// An elevator that starts presses harder, in the proportion of its acceleration.
-TEST(PosedForces, WhatAcceleratesPressesHarder) {
+/// A starting elevator increases the load in proportion to its acceleration.
+TEST(PosedForces, AccelerationIncreasesTheLoad) {
   Simulation simulation;
   const SamplePerson who = sample_person(0);
   const Entity puppet = *simulation.spawn_posed(who.body);
@@ -183,8 +183,8 @@ TEST(PosedForces, WhatAcceleratesPressesHarder) {
   }
 }
 
-/// The past is state: it is saved, restored and shifted with the world.
-TEST(PosedForces, GoOnAfterASnapshotAndAShiftOfTheOrigin) {
+/// The pose history is state: it is saved, restored and shifted with the world.
+TEST(PosedForces, ContinueAfterASnapshotAndAnOriginShift) {
   Simulation walking, posed, other, shifted;
   const SamplePerson who = sample_person(4);
   const Entity walker = *walking.spawn(who.body, {.speed_m_s = 1.4F});

@@ -1,4 +1,4 @@
-// People whose host animates them: their muscles follow, nothing of gait or kinematics is theirs.
+// People animated by their host: their muscles follow, and they have no gait or kinematics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,8 +40,8 @@ TEST(Posed, StandsInTheAnatomicalPosition) {
   }
 }
 
-/// One number that no skeleton can have, in any segment: the pose stays.
-TEST(Posed, APoseThatIsNoneIsRefused) {
+/// One invalid number in any segment: the pose stays.
+TEST(Posed, InvalidPoseIsRefused) {
   Simulation simulation(sharing());
   const Entity person = pose_person(simulation, 0);
   const auto sound = *simulation.get<Pose>(person);
@@ -64,7 +64,7 @@ TEST(Posed, APoseThatIsNoneIsRefused) {
   EXPECT_EQ(std::memcmp(&now, &sound, sizeof now), 0);
 }
 
-/// A walker, and somebody of the same body who is handed the walker's poses.
+/// A walker, and a person of the same body who receives the walker's poses.
 struct Couple {
   Simulation walking{sharing()}, posed{sharing()};
   Entity walker, puppet;
@@ -94,7 +94,7 @@ const std::vector<LegMuscles>& choices() {
   return all;
 }
 
-TEST(Posed, HandedAWalkersPosesHasTheWalkersMuscles) {
+TEST(Posed, WithAWalkersPosesHasTheWalkersMuscles) {
   for (const LegMuscles& choice : choices()) {
     Couple two(4, choice);
     for (int i = 0; i < 40; ++i) two.tick();
@@ -107,7 +107,7 @@ TEST(Posed, HandedAWalkersPosesHasTheWalkersMuscles) {
   }
 }
 
-TEST(Posed, WithInertiaTheWalkersPastIsSoonForgotten) {
+TEST(Posed, WithInertiaConvergesToTheWalkersLoads) {
   for (LegMuscles choice : choices()) {
     choice.inertia = true;
     if (choice.method == Method::none) continue;
@@ -126,7 +126,7 @@ TEST(Posed, WithInertiaTheWalkersPastIsSoonForgotten) {
   }
 }
 
-TEST(Posed, BeginsWithGravityAloneWhateverItsHostDoesLater) {
+TEST(Posed, StartsWithGravityOnly) {
   Simulation simulation(sharing());
   const Entity person = pose_person(simulation, 2);
   ASSERT_TRUE(simulation.set_muscles(person, {.inertia = true}));
@@ -201,7 +201,7 @@ TEST(Posed, WithChangedMethodsHasTheWalkersMusclesAtEveryTick) {
   }
 }
 
-/// Of a standing person, when methods have come and gone and all is at rest again.
+/// A standing person, after several changes of method and at rest again.
 TEST(Posed, StandingComesToTheSameRestAfterAnyMethods) {
   Simulation changed(sharing()), steady(sharing());
   const Entity a = pose_person(changed, 5), b = pose_person(steady, 5);

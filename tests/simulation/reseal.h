@@ -1,5 +1,5 @@
 #pragma once
-// A snapshot that was altered on purpose, as an adversary would: its seal fits.
+// A modified snapshot with a valid seal, as an adversary would make it.
 
 #include <cstddef>
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace mobil {
 
-/// Seals anew; false where it is not laid out as a snapshot.
+/// Seals a snapshot again. Returns false if it does not have a snapshot's layout.
 inline bool reseal_snapshot(std::span<std::byte> snapshot) {
   constexpr std::size_t parts_at = 32;  // front, world and blocks in the header
   SnapshotLayout layout;

@@ -1,4 +1,4 @@
-// A belly that is not finite begins anew, is counted, and ends where it would have been; nobody else is touched.
+// A belly that is not finite restarts, is counted, and converges to its undisturbed state. Other people are unaffected.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace mobil {
 namespace {
 namespace restart {
 
-/// A muscle's end is driven for one tick by what is here, unless that is 0.
+/// Drives a muscle's end for one tick by this value, unless it is 0.
 template <class F>
 struct Poison {
   F value;
@@ -71,7 +71,7 @@ std::vector<Way> ways() {
   return all;
 }
 
-/// Three people alike, so that their muscles share blocks; a muscle of the first alone is ever poisoned.
+/// Three equal people, whose muscles share blocks. Only a muscle of the first is poisoned.
 struct Scene {
   Simulation simulation{sharing({.threads = 2, .modules = {poisoning()}})};
   std::vector<Entity> people;
@@ -122,7 +122,7 @@ float largest_difference(const std::vector<float>& a, const std::vector<float>& 
   return most;
 }
 
-/// One number of the belly's state, away from its faces.
+/// Writes one number of the belly's state, away from its faces.
 template <class Tag>
 void write_state(Scene& scene, std::mt19937& random, float value) {
   const auto width = scene.simulation.world().get<Tag>(scene.muscle());
@@ -136,7 +136,7 @@ void write_state(Scene& scene, std::mt19937& random, float value) {
 constexpr float no_numbers[] = {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(),
                                 3e38F};
 
-/// A report has numbers in the tick of a restart too, and so has what is saved then.
+/// The report and a snapshot are finite in the tick of a restart as well.
 void expect_reported_and_saved(Scene& scene, const std::string& what) {
   const auto report = scene.simulation.get<BellyReport>(scene.muscle());
   ASSERT_TRUE(report);
@@ -150,8 +150,8 @@ void expect_reported_and_saved(Scene& scene, const std::string& what) {
   EXPECT_TRUE(restored) << what << ": " << restored.error().message;
 }
 
-/// Within three ticks all is finite, and it was counted; in three seconds the belly comes to where its twin is.
-/// `numbers`: what the host wrote is gone after a tick.
+/// Expects all values to be finite within three ticks and the restart to be counted; after three seconds the belly
+/// matches its twin. `numbers`: also checks the report and a snapshot in each of the three ticks.
 void expect_restarted(Scene& scene, Scene& twin, const std::string& what, bool numbers) {
   const std::uint64_t before = scene.simulation.report().total_restarted_bellies;
   for (int i = 0; i < 3; ++i) {
@@ -170,8 +170,8 @@ void expect_restarted(Scene& scene, Scene& twin, const std::string& what, bool n
   EXPECT_EQ(twin.simulation.report().total_restarted_bellies, 0U);
 }
 
-/// A number of its state is none; then its end is driven by none.
-TEST(Restart, ABellyThatIsNotFiniteBeginsAnew) {
+/// First a number of its state is not finite, then its end drive.
+TEST(Restart, NonFiniteBellyRestarts) {
   std::mt19937 random(1);
   for (const Way& way : ways()) {
     Scene scene(way.choice), twin(way.choice);

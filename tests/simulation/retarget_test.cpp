@@ -1,4 +1,4 @@
-// Games' skeletons that drive people: built from walkers, whose pose must come out again.
+// Game skeletons that drive people: made from walkers, whose pose must be recovered.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,14 @@ namespace mobil::retarget_test {
 using namespace geometry;
 using enum Segment;
 
-/// Which segment each bone of a game's skeleton of 22 lies in; the spine has three bones and a neck.
+/// Segments of the bones of a game's skeleton of 22, whose spine has three bones and a neck, by number:
+///
+///                                 5 head
+///                                 4
+///     hand 9 --- 8 --- 7 --- 6 -- 3 -- 14 --- 15 --- 16 --- 17 hand
+///     right                       2                         left
+///                                 1
+///             thigh 10 ---------- 0 ---------- 18 thigh; 11 to 13 and 19 to 21: shank, foot, toes
 constexpr std::array carried = {
     pelvis,        L3,         T10,         T4,          C5,         head,       clavicle_right, upper_arm_right,
     forearm_right, hand_right, thigh_right, shank_right, foot_right, toes_right, clavicle_left,  upper_arm_left,
@@ -38,7 +45,7 @@ SkeletonBones numbers() {
   return bones;
 }
 
-/// Each bone's own axes point somewhere else.
+/// Returns random axes for each bone.
 std::vector<Quat<float>> odd_axes() {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -72,7 +79,7 @@ std::vector<BonePlace> bones_of(const Pose<float>& pose, const BoneUnits& units)
   return bones;
 }
 
-/// Arms sideways, all of it turned and elsewhere.
+/// Returns a pose with the arms sideways, turned and moved as a whole.
 Pose<float> t_pose(const Body& body) {
   const float half = std::sqrt(0.5F);
   const Quat<float> facing{0, std::sin(0.6F), 0, std::cos(0.6F)};
@@ -91,13 +98,13 @@ Pose<float> t_pose(const Body& body) {
   return pose;
 }
 
-/// Angle between two rotations, degrees.
+/// Returns the angle between two rotations, degrees.
 double apart_deg(const Quat<float>& a, const Quat<float>& b) {
   const Quat<double> between = product(conjugate(to_double(a)), to_double(b));
   return 2 * std::atan2(length(Vec{between.x, between.y, between.z}), std::abs(between.w)) * 180 / M_PI;
 }
 
-TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
+TEST(Retarget, WalkersBonesGiveTheWalkersPose) {
   for (const PoseAxes axes : {PoseAxes::y_up, PoseAxes::y_up_left_handed, PoseAxes::z_up, PoseAxes::z_up_left_handed,
                               PoseAxes::y_up_z_back}) {
     const BoneUnits units{axes, axes == PoseAxes::y_up ? 1.0F : 100.0F};
@@ -122,7 +129,7 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
         const bool arm = s >= index(clavicle_right) && s != index(fingers_right) && s != index(thumb_right) &&
                          s != index(fingers_left) && s != index(thumb_left);
         const bool followed = leg || arm || s == 0 || s == index(head);
-        // Walkers' lowest vertebrae stand upright on a pelvis that tilts; fingers have no bones here.
+        // A walker's lowest vertebrae are upright on a tilting pelvis. Fingers have no bones here.
         const double allowed_deg = followed ? 0.1 : s < index(thigh_right) ? 12 : 90;
         EXPECT_LT(apart_deg(pose->rotation[s], was.rotation[s]), allowed_deg) << segment_name[s];
         const double off_m = length(to_double(pose->position_m[s]) - to_double(was.position_m[s]));
@@ -141,7 +148,7 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
   }
 }
 
-/// What a pose alone tells of joints, soles and the centre of mass is what walkers have.
+/// Joint angles, soles and centre of mass computed from a pose match those of walkers.
 TEST(Retarget, PosedPeopleHaveAnglesSolesAndACentreOfMass) {
   Simulation walking(sharing()), posed(sharing());
   const Entity walker = *walking.spawn(sample_person(2).body, {.speed_m_s = 1.5F});
@@ -170,7 +177,7 @@ TEST(Retarget, PosedPeopleHaveAnglesSolesAndACentreOfMass) {
   }
 }
 
-TEST(Retarget, SkeletonsThatAreNoneAreRefused) {
+TEST(Retarget, InvalidSkeletonsAreRefused) {
   Simulation simulation(sharing());
   const Body body = simulation.person(*simulation.spawn_posed({}))->body;
   const std::vector<BonePlace> rest = bones_of(t_pose(body), {});
@@ -212,7 +219,7 @@ TEST(Retarget, SkeletonsThatAreNoneAreRefused) {
 }
 
 /// A game without arms, toes or head bones, and with a single bone of the spine.
-TEST(Retarget, AFewBonesAreEnough) {
+TEST(Retarget, FewBonesSuffice) {
   Simulation simulation(sharing());
   const Entity puppet = *simulation.spawn_posed({});
   const Body body = simulation.person(puppet)->body;

@@ -23,7 +23,7 @@ std::vector<Entity> fill(Simulation& simulation, int count, const LegMuscles& ch
   return people;
 }
 
-/// What is asked at a tick, by its number alone.
+/// Makes the requests of a tick, determined by its number.
 void steer(Simulation& simulation, const std::vector<Entity>& people) {
   const std::uint64_t draw = play::mixed(3, simulation.ticks(), 0);
   const Entity one = people[draw % people.size()];
@@ -35,7 +35,7 @@ void steer(Simulation& simulation, const std::vector<Entity>& people) {
   }
 }
 
-TEST(Rollback, GoneBackAnyNumberOfTicksItRunsAgainWithTheSameBits) {
+TEST(Rollback, RerunsWithTheSameBitsFromAnyTick) {
   Simulation simulation(sharing());
   const auto people = fill(simulation, 7, play::choice_of(4));
   Rollback window(8);
@@ -60,7 +60,7 @@ TEST(Rollback, GoneBackAnyNumberOfTicksItRunsAgainWithTheSameBits) {
   });
 }
 
-TEST(Rollback, FartherThanWasKeptIsRefused) {
+TEST(Rollback, BeyondTheWindowIsRefused) {
   Simulation simulation(sharing());
   const auto people = fill(simulation, 2, play::choice_of(5));
   Rollback window(3);
@@ -79,7 +79,7 @@ TEST(Rollback, FartherThanWasKeptIsRefused) {
   EXPECT_FALSE(window.back(simulation, 1));
 }
 
-TEST(Rollback, KeepingAndGoingBackTakesNoMemoryWithTheSamePeople) {
+TEST(Rollback, SavingAndRestoringAllocatesNothing) {
   Simulation simulation(sharing());
   fill(simulation, 5, play::choice_of(4));
   Rollback window(4);
@@ -96,7 +96,7 @@ TEST(Rollback, KeepingAndGoingBackTakesNoMemoryWithTheSamePeople) {
   EXPECT_EQ(heap_requests, before);
 }
 
-TEST(Rollback, ChoosingOfMethodsGoesBackWithIt) {
+TEST(Rollback, LevelOfDetailIsRolledBack) {
   Simulation simulation;
   Lod lod = lod_of(simulation, {.switches = 3, .stagger = 3, .machine_factor = 1});
   for (int i = 0; i < 40; ++i) {

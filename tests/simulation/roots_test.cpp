@@ -1,4 +1,4 @@
-// Root motion: smooth along the line, at any instant, of anybody; its ways add up to where people go.
+// Root motion of any person: smooth along the line, at any instant, and consistent with the distance walked.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ Root root(const Simulation& simulation, Entity person, double ahead_s = 0) {
   return out;
 }
 
-/// Frames that end with a tick leave rounding over, of which a clock would have too many units.
-TEST(Roots, AnInstantAfterTheTickIsTheTick) {
+/// Frames that end with a tick leave rounding errors, which must not count as units of the clock.
+TEST(Roots, InstantAfterATickIsTheTick) {
   Simulation simulation;
   const Entity person = *simulation.spawn({});
   for (int frame = 0; frame < 50; ++frame) {
@@ -61,8 +61,8 @@ TEST(Roots, SteadyWalkersGoStraightAtTheirSpeed) {
   }
 }
 
-/// Through turns, a stop, steps where one stands and a start: near the hips, without a jerk, and the ways add up.
-TEST(Roots, GoSmoothlyThroughTurnsAndStops) {
+/// Through turns, a stop, steps in place and a start: near the hips, without a jerk, and motions add up.
+TEST(Roots, AreSmoothThroughTurnsAndStops) {
   for (int i = 0; i < 4; ++i) {
     Simulation simulation;
     const SamplePerson who = sample_person(i);
@@ -110,7 +110,7 @@ TEST(Roots, GoSmoothlyThroughTurnsAndStops) {
   }
 }
 
-TEST(Roots, BetweenTicksAreThoseOfFinerTicks) {
+TEST(Roots, BetweenTicksMatchFinerTicks) {
   Simulation coarse, fine({.tick_s = tick_s / 8});
   const Entity a = *coarse.spawn({}, {.speed_m_s = 1.5F}), b = *fine.spawn({}, {.speed_m_s = 1.5F});
   double most = 0;
@@ -129,7 +129,7 @@ TEST(Roots, BetweenTicksAreThoseOfFinerTicks) {
   EXPECT_LT(most, 1e-4);
 }
 
-TEST(Roots, CompactPeopleAndSleepersAreWhereTheOthersAre) {
+TEST(Roots, CompactPeopleAndSleepersMatchFullOnes) {
   Simulation whole, mixed;
   std::vector<Entity> people;
   for (int i = 0; i < 30; ++i) {
@@ -173,7 +173,7 @@ TEST(Roots, PosedPeopleHaveTheirPelvis) {
   EXPECT_NEAR(static_cast<double>(at.heading_rad), 0.8, 1e-6);
 }
 
-TEST(Roots, WhatCannotBeAskedIsRefused) {
+TEST(Roots, InvalidRequestsAreRefused) {
   Simulation simulation;
   const Entity person = *simulation.spawn({});
   std::array<Root, 2> out{};

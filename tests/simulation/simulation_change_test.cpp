@@ -1,4 +1,4 @@
-// Requests to people under way: what a change costs, who refuses it, and when it shows.
+// Requests to walking people: cost of a change, refusals, and when it takes effect.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ TEST(Change, StaleHandlesChangeNothing) {
   const Entity muscle = simulation.muscle(stays, Muscle::quadriceps, Side::left);
   ASSERT_TRUE(simulation.world().alive(muscle));
   const auto before = hash_world(simulation);
-  for (const Entity bad : {gone, Entity{}, Entity{~0U, 1}, muscle}) {  // a muscle lives, but walks nowhere
+  for (const Entity bad : {gone, Entity{}, Entity{~0U, 1}, muscle}) {  // a muscle is alive, but is not a walker
     EXPECT_TRUE(is_refused(simulation.change_gait(bad, {.speed_m_s = 1.0F})));
     EXPECT_FALSE(simulation.turn_to(bad, 1));
     EXPECT_EQ(simulation.enable(bad, Feature::forces), Status::stale_entity);
@@ -75,7 +75,7 @@ TEST(Change, RequestsOutOfRangeChangeNothing) {
   }
   EXPECT_EQ(simulation.world().tables().size(), tables);
 
-  // Nor does it show later.
+  // It has no later effect either.
   Simulation unasked;
   const Entity same = join(unasked, sample_person(2)), beside = join(unasked, sample_person(3), false);
   unasked.tick(45);
@@ -87,7 +87,7 @@ TEST(Change, RequestsOutOfRangeChangeNothing) {
 
 // ------------------------------------------------------------------------------------------------------- costs
 
-TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
+TEST(Change, ForcesCostNothingUnlessEnabled) {
   Simulation simulation;
   const Entity person = join(simulation, sample_person(0), false), other = join(simulation, sample_person(1), false);
   const auto bare = simulation.world().find(person).table;
@@ -115,13 +115,13 @@ TEST(Change, SteadyWalkersAreNotSolvedAgain) {
   Simulation simulation;
   std::vector<Entity> crowd;
   for (int i = 0; i < 40; ++i) crowd.push_back(join(simulation, sample_person(i), false));
-  simulation.tick(120);  // the first step was solved at spawn; one may show that the next is like it
+  simulation.tick(120);  // the first step was solved at spawn; another can confirm that the next equals it
   EXPECT_LE(solved(simulation), 2 * crowd.size());
   auto before = solved(simulation);
   simulation.tick(300);
   EXPECT_EQ(solved(simulation), before);
 
-  // One who changes is solved a few times: as many steps as the change takes, and one to find that it is done.
+  // A walker who changes is solved a few times: as many steps as the change takes, and one to confirm that it is done.
   for (const float speed : {1.9F, 0.6F, 0.0F, 1.3F}) {
     ASSERT_TRUE(simulation.change_gait(crowd[11], {.speed_m_s = speed}));
     before = solved(simulation);
@@ -132,7 +132,7 @@ TEST(Change, SteadyWalkersAreNotSolvedAgain) {
     simulation.tick(300);
     EXPECT_EQ(solved(simulation), before) << speed;
   }
-  // Who turns is solved step by step, for steps that turn are nearer to the usual ones; not who walks as is usual.
+  // A turning walker is solved at every step, because turning steps are nearer to usual ones; usual walkers are not.
   EXPECT_TRUE(simulation.turn_to(crowd[11], 2));
   simulation.tick(600);
   EXPECT_GE(solved(simulation), before + 4);
@@ -153,7 +153,7 @@ TEST(Change, SteadyWalkersAreNotSolvedAgain) {
   EXPECT_LE(solved(simulation), before + 4);
 }
 
-TEST(Change, ARequestShowsFromTheNextStepOn) {
+TEST(Change, RequestTakesEffectFromTheNextStep) {
   Simulation changed, unchanged;
   const Entity a = join(changed, sample_person(4), false), b = join(unchanged, sample_person(4), false);
   changed.tick(50);

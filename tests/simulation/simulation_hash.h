@@ -1,5 +1,5 @@
 #pragma once
-// What a simulation holds, in one number; and people who join one.
+// A simulation's content as one number, and people who are added to one.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ inline std::uint64_t fnv(std::uint64_t hash, std::uint32_t word) {
   return (hash ^ word) * 0x100000001b3;
 }
 
-/// Every word of an entity's row, whatever it is made of; who owns a muscle (a handle) left out.
+/// Hashes every word of an entity's row, except the owner (a handle) of a muscle.
 inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t hash) {
   const auto place = world.find(entity);
   if (!place) return fnv(hash, 0xdead);
@@ -36,7 +36,7 @@ inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t h
 
 inline std::uint64_t hash_person(const Simulation& simulation, Entity person) {
   std::uint64_t hash = hash_row(simulation.world(), person, 0xcbf29ce484222325);
-  if (simulation.state(person) == PersonState::asleep) {  // whose row stays as it is
+  if (simulation.state(person) == PersonState::asleep) {  // its row stays in place
     const GaitState<float> state = *simulation.get<GaitState>(person);
     std::uint32_t words[sizeof(state) / 4];
     std::memcpy(words, &state, sizeof(state));
@@ -66,7 +66,7 @@ std::size_t rows_with(const World& world) {
   return rows_with(world, type_id<C<float>>());
 }
 
-/// Everything there is, handles too, table by table.
+/// Hashes all entities, including handles, table by table.
 inline std::uint64_t hash_world(const Simulation& simulation) {
   std::uint64_t hash = fnv(0xcbf29ce484222325, static_cast<std::uint32_t>(rows(simulation.world())));
   for (const Table& table : simulation.world().tables()) {
@@ -83,7 +83,7 @@ bool same_parts(const Simulation& a, Entity in_a, const Simulation& b, Entity in
   const auto same = [](const auto& x, const auto& y) { return x && y && std::memcmp(&*x, &*y, sizeof(*x)) == 0; };
   return (same(a.get<C>(in_a), b.get<C>(in_b)) && ...);
 }
-/// Whether two people's walks are the same, to the bit.
+/// Returns true if two people's gaits are equal to the bit.
 inline bool walk_alike(const Simulation& a, Entity in_a, const Simulation& b, Entity in_b) {
   return same_parts<Gait, GaitState, StepPlan, Pose, JointAngles, Feet, CentreOfMass, BodySize, Physique>(a, in_a, b,
                                                                                                           in_b);

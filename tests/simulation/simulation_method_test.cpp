@@ -1,5 +1,5 @@
-// Methods of single muscles that change under way: what is shown goes on, errors change nothing, nobody pays for what
-// they have not asked for.
+// Changes of single muscles' methods while walking: the display is continuous, errors change nothing, and unused
+// features have no cost.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -45,7 +45,7 @@ double apart(const std::vector<float>& a, const std::vector<float>& b) {
 
 // ------------------------------------------------------------------------------------------------- continuity
 
-/// A crowd in short ticks that is switched about, and a twin that is not.
+/// A crowd in short ticks with changes of methods, and an unchanged twin.
 struct Twins {
   static constexpr double tick_s = 1.0 / 960;
   static constexpr int people = 4;
@@ -74,9 +74,9 @@ Twins& twins(bool inertia) {
   return both[inertia ? 1 : 0];
 }
 
-/// The modes' own static answer is another method than their motion, though they are the same modes; and methods
-/// may change twice between two ticks.
-TEST(Switching, FromMotionToItsOwnStaticAnswerAndOnInOneTickShowsNoJump) {
+/// The static solution of the modes is another method than their motion, with the same modes. Methods can change twice
+/// between two ticks.
+TEST(Switching, MotionToStaticAndBackInOneTickHasNoJump) {
   Twins& t = twins(false);
   const auto at = [&] {
     return displacement(t.switched, t.switched.muscle(t.who[0], Muscle::hamstrings, Side::right));
@@ -85,7 +85,7 @@ TEST(Switching, FromMotionToItsOwnStaticAnswerAndOnInOneTickShowsNoJump) {
     ASSERT_TRUE(t.switched.set_method(t.who[0], Muscle::hamstrings, to));
   };
   change(modal(12, true, true));
-  double step = 0;  // of a tick, unswitched
+  double step = 0;  // of a tick, without a change
   for (int i = 0; i < 400; ++i) {
     const auto before = at();
     t.tick();
@@ -108,13 +108,13 @@ TEST(Switching, FromMotionToItsOwnStaticAnswerAndOnInOneTickShowsNoJump) {
   }
 }
 
-RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
+RC_GTEST_PROP(Switching, HasNoJumpOfDisplacementOrVelocity, ()) {
   const bool inertia = *rc::gen::arbitrary<bool>();
   Twins& t = twins(inertia);
   const auto person = *rc::gen::inRange<std::size_t>(0, Twins::people);
   const Muscle muscle = *rc::gen::element(Muscle::hamstrings, Muscle::tibialis_anterior);
   const MuscleMethod to = *rc::gen::elementOf(every_method());
-  t.tick(*rc::gen::inRange(0, 300));  // now and then while the last change still fades
+  t.tick(*rc::gen::inRange(0, 300));  // sometimes while the last change still fades
 
   // Ticks 0 to 3, the change, ticks 4 to 6.
   constexpr std::size_t last = 3;
@@ -145,11 +145,11 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
     record(frame);
   }
   for (const Side side : {Side::right, Side::left}) {
-    // A static answer has the velocity of its load, which changes as it likes.
+    // A static solution has the velocity of its load, which can be arbitrary.
     const bool still = to.method == Method::statics || (to.method == Method::modal && !to.modal.moving);
     if (!seen || still || shown[side][last].empty()) continue;
-    // Change of velocity about the change, and what the methods' own motion makes of it before, then and later. (What
-    // earlier changes left in an implicit method can ring at a few ticks a period.)
+    // Change of velocity at the change, and the part explained by the methods' own motion before, then and later.
+    // (Remains of earlier changes can ring in an implicit method at a few ticks a period.)
     double jump = 0, explained = 0;
     for (std::size_t i = 0; i < shown[side][last].size(); ++i) {
       const auto kink = [i](const Frames& u, std::size_t k) {
@@ -167,7 +167,7 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
   }
 }
 
-TEST(Switching, IsForgottenAfterTheFade) {
+TEST(Switching, LeavesNoStateAfterTheFade) {
   Simulation simulation(sharing()), whole(sharing());
   const Entity person = join_with(simulation, sample_person(5), {}),
                same = join_with(whole, sample_person(5), {.method = Method::statics});
@@ -186,7 +186,7 @@ TEST(Switching, IsForgottenAfterTheFade) {
   EXPECT_EQ(rows_with(simulation.world(), type_id<ShownDisplacement>()), 0U);
   Difference d;
   compare(simulation, person, whole, same, d);
-  EXPECT_LT(d.apart, 2e-5);  // what the solver leaves
+  EXPECT_LT(d.apart, 2e-5);  // the solver's error
   EXPECT_GT(d.most, 1e-3);
 }
 
@@ -215,7 +215,7 @@ TEST(Switching, PlacingControlPointsChangesNoState) {
   }
 }
 
-TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
+TEST(Switching, FromNoneStartsOnTheLine) {
   for (const bool inertia : {false, true}) {
     Simulation simulation(sharing());
     const Entity person = join_with(simulation, sample_person(2), {.inertia = inertia});
@@ -235,7 +235,7 @@ TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
 
 // ----------------------------------------------------------------------------------------------------- refusals
 
-TEST(SetMethod, ARefusedChangeChangesNothing) {
+TEST(SetMethod, RefusedChangeChangesNothing) {
   Simulation simulation(sharing());
   const Entity person = join_with(simulation, sample_person(9),
                                   {.method = Method::newmark, .inertia = true, .dt_s = 1.0 / 60}),
@@ -269,7 +269,7 @@ TEST(SetMethod, ARefusedChangeChangesNothing) {
   EXPECT_EQ(simulation.method(bare, Muscle::hamstrings).method, Method::none);
 }
 
-TEST(SetMethod, IsForgottenByAChangeOfLegMuscles) {
+TEST(SetMethod, IsResetByAChangeOfLegMuscles) {
   Simulation simulation(sharing());
   const Entity person = join_with(simulation, sample_person(8), {});
   for (int i = 0; i < 10; ++i) simulation.tick();
@@ -291,7 +291,7 @@ TEST(SetMethod, IsForgottenByAChangeOfLegMuscles) {
 
 // --------------------------------------------------------------------------------------------------------- costs
 
-/// Entities that systems whose names begin so worked on in the last tick; no time where there are none.
+/// Returns the entities that systems with that prefix processed in the last tick; without such entities their time is 0.
 std::uint64_t worked(const Simulation& simulation, std::string_view begins) {
   std::uint64_t sum = 0;
   for (const SystemReport& system : simulation.report().systems) {
@@ -304,7 +304,7 @@ std::uint64_t worked(const Simulation& simulation, std::string_view begins) {
   return sum;
 }
 
-TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
+TEST(Cost, DisabledFeaturesCostNothing) {
   Simulation simulation(sharing());
   std::vector<Entity> crowd;
   for (int i = 0; i < 5; ++i) crowd.push_back(join(simulation, sample_person(i), false));
@@ -349,7 +349,7 @@ TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
   EXPECT_EQ(simulation.report().ticks, 5U);
 }
 
-TEST(Cost, LinesAreTheSameWhateverTheBelliesDo) {
+TEST(Cost, LinesAreIndependentOfBellies) {
   Simulation all(sharing()), none(sharing());
   const Entity a = join_with(all, sample_person(3), {.line_motion = true}),
                b = join_with(none, sample_person(3), {.method = Method::none, .line_motion = true});
@@ -364,7 +364,7 @@ TEST(Cost, LinesAreTheSameWhateverTheBelliesDo) {
   }
 }
 
-TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
+TEST(Cost, UnseenMuscleNeedsFewBytes) {
   std::map<std::string, std::uint32_t> bytes;
   for (const bool inertia : {false, true}) {
     Simulation simulation(sharing());
@@ -382,8 +382,7 @@ TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
   EXPECT_LT(4 * bytes["modal 12 unseen"], bytes["explicit-central"]);
 }
 
-/// What fades is no motion: handed over from change to change it grew until it was no number, within a quarter of a
-/// second.
+/// A fade is not a motion: passed from change to change, it once grew to NaN within a quarter of a second.
 TEST(Switching, InEveryTickStaysStable) {
   Simulation simulation(sharing());
   const Entity person = join_with(simulation, sample_person(2), {.modal = {.cells = {2, 2, 8}}});

@@ -1,4 +1,4 @@
-// The facade: bodies and gaits of all kinds, effects that come and go without a trace, time, memory.
+// The facade: bodies and gaits of all kinds, effects that are added and removed without a trace, time, memory.
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>
@@ -28,7 +28,7 @@ double length(const Vec3<float>& a, const Vec3<float>& b) {
                     static_cast<double>(a.z) - static_cast<double>(b.z));
 }
 
-/// Angle between two rotations, rad.
+/// Returns the angle between two rotations, rad.
 double turn(const Quat<float>& a, const Quat<float>& b) {
   const auto d = [](float x, float y) { return static_cast<double>(x) * static_cast<double>(y); };
   const double dot = std::abs(d(a.x, b.x) + d(a.y, b.y) + d(a.z, b.z) + d(a.w, b.w));
@@ -44,8 +44,8 @@ void check_muscles(const Simulation& simulation, const Person& person) {
       RC_ASSERT(std::abs(static_cast<double>(report.elongation_m) - asked) < 1e-5);
       RC_ASSERT(report.volume_ratio > 0.5F && report.volume_ratio < 1.7F);
       RC_ASSERT(report.kinetic_energy_j >= 0 && report.kinetic_energy_j < 15);
-      // (Of explicit steps the strain energy is that between two of them, below 0 where displacements change their sign
-      // in between; what is positive is both energies' sum.)
+      // (The strain energy of explicit steps is evaluated between two steps, and is below 0 if displacements change
+      // their sign in between. Only the sum of both energies is positive.)
       RC_ASSERT(report.strain_energy_j + report.kinetic_energy_j > -0.01F && report.strain_energy_j < 20);
       RC_ASSERT(std::isfinite(report.reaction_n) && std::abs(report.reaction_n) < 2000);
       const NodalView nodes = nodal_displacement(simulation.world(), muscle);
@@ -56,7 +56,7 @@ void check_muscles(const Simulation& simulation, const Person& person) {
   }
 }
 
-/// Three poses a tick apart. In the oddest of styles feet turn by 70° in a tick.
+/// Checks three poses a tick apart. With extreme styles feet turn by 70° in a tick.
 void check_step(const Pose<float>& first, const Pose<float>& before, const Pose<float>& now, const Gait<float>& gait) {
   const double furthest = (8 * static_cast<double>(gait.speed_m_s) + 10) / 60;
   for (std::size_t s = 0; s < segment_count; ++s) {
@@ -69,7 +69,7 @@ void check_step(const Pose<float>& first, const Pose<float>& before, const Pose<
   }
 }
 
-/// Somebody within the ranges of body and gait; not everybody of those can walk as asked.
+/// Returns a person within the ranges of body and gait. Some of them cannot walk as requested.
 SamplePerson any_person() {
   const auto uniform = [](double low, double high) {
     return static_cast<float>(low +
@@ -99,7 +99,7 @@ TEST(Simulation, BodiesOfAllKindsWalkAndTheirMusclesFollow) {
     RC_PRE(person.has_value());
     const auto added = simulation.set_muscles(*person);
     if (!added) RC_FAIL(added.error().message);
-    const bool clamped = simulation.get<StepPlan>(*person)->clamped != 0;  // what is reported as no walk
+    const bool clamped = simulation.get<StepPlan>(*person)->clamped != 0;  // reported as impossible gait
     Pose<float> first = *simulation.get<Pose>(*person), before = first;
     for (int i = 0; i < 90; ++i) {
       simulation.tick();
@@ -113,7 +113,7 @@ TEST(Simulation, BodiesOfAllKindsWalkAndTheirMusclesFollow) {
   }));
 }
 
-TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
+TEST(Simulation, PulledBellyStaysFiniteAndLagsItsLine) {
   Simulation simulation(sharing());
   for (const int who : {0, 7, 19}) {
     const auto person = *simulation.spawn(sample_person(who).body, sample_person(who).gait);
@@ -159,7 +159,7 @@ TEST(Effects, EveryBodyInRangeGetsMuscles) {
   }
 }
 
-TEST(Effects, MusclesComeAndGoWithTheirRows) {
+TEST(Effects, MusclesAreAddedAndRemovedWithTheirRows) {
   Simulation simulation(sharing());
   const Entity person = join(simulation, sample_person(0), false);
   const Entity other = join(simulation, sample_person(1), false);
@@ -192,7 +192,7 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
   }
 }
 
-TEST(Effects, MusclesDoNotChangeTheWalkNorATickBefore) {
+TEST(Effects, MusclesDoNotChangeTheGait) {
   Simulation simulation(sharing());
   const Entity with = join(simulation, sample_person(5)), without = join(simulation, sample_person(5), false);
   for (int i = 0; i < 40; ++i) simulation.tick();
@@ -202,7 +202,7 @@ TEST(Effects, MusclesDoNotChangeTheWalkNorATickBefore) {
   EXPECT_EQ(hash_row(simulation.world(), with, 1), hash_row(simulation.world(), without, 1));
 }
 
-TEST(Effects, TheSameMusclesAgainChangeNothing) {
+TEST(Effects, RepeatedRequestChangesNothing) {
   Simulation simulation(sharing());
   const Entity person = join(simulation, sample_person(2));
   for (int i = 0; i < 10; ++i) simulation.tick();
@@ -223,7 +223,7 @@ TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
   EXPECT_TRUE(simulation.set_muscles(person));
 }
 
-TEST(Handles, OfTheGoneAreStaleEverywhere) {
+TEST(Handles, OfDespawnedPeopleAreStaleEverywhere) {
   Simulation simulation(sharing());
   const Entity person = join(simulation, sample_person(0)), other = join(simulation, sample_person(1));
   const Entity muscle = simulation.muscle(person, Muscle::hamstrings, Side::right);
@@ -231,7 +231,7 @@ TEST(Handles, OfTheGoneAreStaleEverywhere) {
   ASSERT_EQ(simulation.despawn(person), Status::ok);
   EXPECT_EQ(rows(simulation.world()), 1 + 2 * muscle_group_count);
   EXPECT_EQ(hash_person(simulation, other), before);
-  const Entity next = join(simulation, sample_person(2));  // takes the place of the first
+  const Entity next = join(simulation, sample_person(2));  // reuses the first one's index
   for (const Entity gone : {person, Entity{}, Entity{~0U, 1}}) {
     EXPECT_EQ(simulation.despawn(gone), Status::stale_entity);
     EXPECT_EQ(simulation.set_muscles(gone, std::nullopt), Status::stale_entity);
@@ -243,7 +243,7 @@ TEST(Handles, OfTheGoneAreStaleEverywhere) {
   EXPECT_EQ(simulation.get<BellyReport>(muscle).error(), Status::stale_entity);
   EXPECT_EQ(nodal_displacement(simulation.world(), muscle).first, nullptr);
   EXPECT_FALSE(simulation.person(muscle));
-  // A muscle is no person, though it lives.
+  // A live muscle is not a person.
   const Entity alive = simulation.muscle(next, Muscle::hamstrings, Side::left);
   ASSERT_TRUE(simulation.world().alive(alive));
   EXPECT_FALSE(simulation.person(alive));

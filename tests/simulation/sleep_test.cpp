@@ -1,4 +1,4 @@
-// Sleepers: who has slept is, to the bit, where those are who never did; muscles are within what is promised.
+// Sleepers match people who never slept to the bit; muscles match within the promised error.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@
 namespace mobil::sleep_test {
 namespace {
 
-/// The same people in two simulations: in one of them some sleep.
+/// Equal people in two simulations. In one of them some sleep.
 struct Twins {
   explicit Twins(std::size_t count, int threads = 1, bool muscles = false)
       : dozing({.threads = threads}), waking({.threads = threads}) {
@@ -60,7 +60,7 @@ struct Twins {
   void tick(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  /// What the crowd's people do next.
+  /// Makes the next change of a crowd's person.
   void change(std::size_t i) {
     const CrowdChange change = crowd_change(7, i, changes[i]++, changes[i] % 5 == 4);
     if (change.speed_m_s >= 0) {
@@ -84,7 +84,7 @@ struct Twins {
   std::vector<std::uint32_t> changes;
 };
 
-TEST(Sleep, WhoHasSleptIsWhereWhoNeverDidIs) {
+TEST(Sleep, WokenPeopleMatchNeverSleepingOnes) {
   Twins twins(160);
   std::mt19937 random(5);
   twins.tick(50);
@@ -123,11 +123,11 @@ TEST(Sleep, WhoHasSleptIsWhereWhoNeverDidIs) {
   EXPECT_GT(read, 1000U);
 }
 
-TEST(Sleep, WhoHasWokenBeforeWakesWithoutTheHeap) {
+TEST(Sleep, RepeatedWakingAllocatesNothing) {
   Twins twins(200);
   Simulation& simulation = twins.dozing;
   twins.tick(200);
-  const auto tired = std::span(twins.dozers).first(20);  // tables that shrink by much give memory back
+  const auto tired = std::span(twins.dozers).first(20);  // large shrinks of tables return memory
   for (int round = 0; round < 4; ++round) {
     ASSERT_GT(simulation.set_state(tired, PersonState::asleep).value(), 10U);
     const std::size_t before = heap_requests;
@@ -147,7 +147,7 @@ struct Mark {
   UInt32<F> count;
 };
 
-TEST(Sleep, AHostsOwnPartsStay) {
+TEST(Sleep, HostComponentsStay) {
   Simulation simulation({.modules = {{.name = "marks", .parts = {component_id<Mark>()}}}});
   const Entity person = *simulation.spawn({});
   ASSERT_TRUE(simulation.parts().add(person, Mark<float>{2.5F, 7}));
@@ -161,7 +161,7 @@ TEST(Sleep, AHostsOwnPartsStay) {
   EXPECT_EQ(simulation.get<Mark>(person)->count, 8U);
 }
 
-TEST(Sleep, ForcesAndMusclesComeBack) {
+TEST(Sleep, ForcesAndMusclesAreRestored) {
   Simulation simulation(sharing());
   const Entity person = *simulation.spawn({});
   LegMuscles choice;
@@ -186,7 +186,7 @@ TEST(Sleep, ForcesAndMusclesComeBack) {
   EXPECT_EQ(simulation.method(person, Muscle::hamstrings).method, Method::modal);
 }
 
-/// One who sleeps, and one alike who never does, with muscles.
+/// A person who sleeps, and an equal one who never does, with muscles.
 struct MuscleTwins {
   Simulation dozes{sharing()}, wakes{sharing()};
   Entity sleeper, waker;
@@ -202,7 +202,7 @@ struct MuscleTwins {
   void tick(int count) {
     for (int i = 0; i < count; ++i) dozes.tick(), wakes.tick();
   }
-  /// How far apart a control point is at most, m.
+  /// Returns the largest distance between control points, m.
   double off_m() const {
     double most = 0;
     for (const MuscleRef& own : wakes.muscles(waker)) {
@@ -225,7 +225,7 @@ SpawnRequest with_muscles(std::uint64_t number, Method method) {
   return request;
 }
 
-TEST(Sleep, MusclesThatBeginAtRestOnWakingAreSoonThoseOfWhoNeverSlept) {
+TEST(Sleep, MusclesAtRestOnWakingConverge) {
   MuscleTwins twins(with_muscles(1, Method::modal));
   ASSERT_TRUE(twins.dozes.set_state({&twins.sleeper, 1}, PersonState::full, 1));
   EXPECT_GT(twins.off_m(), 1e-4);
@@ -238,7 +238,7 @@ TEST(Sleep, MusclesThatBeginAtRestOnWakingAreSoonThoseOfWhoNeverSlept) {
   EXPECT_LT(twins.off_m(), 2e-5);
 }
 
-TEST(Sleep, MusclesWarmUpToWhatIsAsked) {
+TEST(Sleep, MusclesWarmUpToTheRequestedError) {
   for (const std::uint64_t number : {2U, 8U}) {
     for (const float within_m : {0.005F, 0.001F, 4e-6F}) {
       MuscleTwins twins(with_muscles(number, Method::modal));
@@ -249,13 +249,13 @@ TEST(Sleep, MusclesWarmUpToWhatIsAsked) {
       EXPECT_LT(twins.off_m(), 1.5 * first + 1e-6) << "person " << number;
     }
   }
-  // Any method: here the whole mesh, step by step.
+  // With any method: here the full mesh, step by step.
   MuscleTwins twins(with_muscles(4, Method::explicit_central));
   ASSERT_TRUE(twins.dozes.set_state({&twins.sleeper, 1}, PersonState::full, 0.001F));
   EXPECT_LT(twins.off_m(), 0.001);
 }
 
-TEST(Sleep, ASnapshotHasSleepersInIt) {
+TEST(Sleep, SnapshotsIncludeSleepers) {
   Twins twins(64);
   twins.tick(60);
   ASSERT_TRUE(twins.dozing.set_state(twins.dozers, PersonState::asleep));
@@ -275,7 +275,7 @@ TEST(Sleep, ASnapshotHasSleepersInIt) {
   EXPECT_LT(bytes.size(), 64U * 400);
 }
 
-TEST(Sleep, WhoCannotSleepStaysAwake) {
+TEST(Sleep, PeopleUnableToSleepStayAwake) {
   Simulation simulation(sharing());
   const Entity posed = *simulation.spawn_posed({});
   GaitRequest limps;
@@ -300,7 +300,7 @@ TEST(Sleep, WhoCannotSleepStaysAwake) {
   EXPECT_NE(simulation.state(turning), PersonState::asleep);
 }
 
-TEST(Sleep, WhatASleeperCannotFollowWakesThem) {
+TEST(Sleep, UnsupportedRequestsWakeSleepers) {
   Simulation simulation(sharing());
   const auto asleep = [&] {
     const Entity person = *simulation.spawn({}, {.speed_m_s = 0.0F});
@@ -311,7 +311,7 @@ TEST(Sleep, WhatASleeperCannotFollowWakesThem) {
   ASSERT_TRUE(simulation.step_aside(person, 0.1F, 0));
   EXPECT_NE(simulation.state(person), PersonState::asleep);
   person = asleep();
-  ASSERT_TRUE(simulation.place(person, 3, 4, 1));  // this they follow
+  ASSERT_TRUE(simulation.place(person, 3, 4, 1));  // sleepers can be placed
   EXPECT_EQ(simulation.state(person), PersonState::asleep);
   person = asleep();
   GaitChange lopsided;
@@ -321,7 +321,7 @@ TEST(Sleep, WhatASleeperCannotFollowWakesThem) {
   person = asleep();
   ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 1.2F}));
   EXPECT_EQ(simulation.state(person), PersonState::asleep);
-  ASSERT_TRUE(simulation.turn_to(person, 1));  // at once: still the same request
+  ASSERT_TRUE(simulation.turn_to(person, 1));  // at once: part of the same request
   EXPECT_EQ(simulation.state(person), PersonState::asleep);
   simulation.tick();
   ASSERT_TRUE(simulation.turn_to(person, 2));

@@ -1,4 +1,4 @@
-// Snapshots in files that survive whatever happens to the program.
+// Snapshot files that survive any end of the program.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -37,7 +37,7 @@ void fill(Simulation& simulation) {
   }
 }
 
-TEST_F(SnapshotFile, AnotherSimulationGoesOnFromIt) {
+TEST_F(SnapshotFile, AnotherSimulationContinuesFromIt) {
   Simulation first(sharing()), second(sharing({.threads = 2}));
   fill(first);
   first.tick();
@@ -52,7 +52,7 @@ TEST_F(SnapshotFile, AnotherSimulationGoesOnFromIt) {
   EXPECT_EQ(folder_.files(), 1U);
 }
 
-TEST_F(SnapshotFile, CutAlteredOrMissingItIsRefusedByName) {
+TEST_F(SnapshotFile, CutAlteredOrMissingFileIsRefusedByName) {
   Simulation simulation(sharing());
   fill(simulation);
   const std::uint64_t state = simulation.state_hash();
@@ -73,7 +73,7 @@ TEST_F(SnapshotFile, CutAlteredOrMissingItIsRefusedByName) {
   expect_refused();
 }
 
-TEST_F(SnapshotFile, WhereItCannotBeWrittenWhatWasThereStays) {
+TEST_F(SnapshotFile, FailedWritesKeepTheOldFile) {
   Simulation simulation(sharing());
   fill(simulation);
   EXPECT_TRUE(is_refused(save_file(simulation, folder_.path / "none" / "crowd.snapshot"), "none"));
@@ -83,7 +83,7 @@ TEST_F(SnapshotFile, WhereItCannotBeWrittenWhatWasThereStays) {
   EXPECT_EQ(folder_.files(), 1U);
 }
 
-TEST_F(SnapshotFile, KilledAtAnyMomentTheLastGoodOneIsThere) {
+TEST_F(SnapshotFile, KillAtAnyTimeKeepsTheLastGoodFile) {
   Simulation simulation(sharing());
   fill(simulation);
   ASSERT_TRUE(save_file(simulation, file()));
@@ -106,10 +106,10 @@ TEST_F(SnapshotFile, KilledAtAnyMomentTheLastGoodOneIsThere) {
     ASSERT_TRUE(WIFSIGNALED(status));
     const auto done = restore_file(simulation, file());
     ASSERT_TRUE(done) << done.error().message;
-    // A machine on which a child gets nowhere is given longer.
+    // A machine on which children make no progress gets more time.
     if (!ticks.insert(simulation.ticks()).second) longest_us = std::min(longest_us + longest_us / 2, 900000U);
   }
-  EXPECT_GT(ticks.size(), 3U);  // children got somewhere
+  EXPECT_GT(ticks.size(), 3U);  // children made progress
 }
 
 }  // namespace mobil::snapshot_file_test

@@ -40,7 +40,7 @@ void restore(Simulation& simulation, const Bytes& bytes) {
   ASSERT_TRUE(done) << done.error().message;
 }
 
-/// What happens to those who are there at a tick: depends on the tick and the seed, and on handles alone.
+/// Makes the changes of a tick, determined by the tick, the seed and handles.
 void disturb(Simulation& simulation, std::vector<Entity>& people, std::uint64_t seed) {
   const std::uint64_t what = play::mixed(seed, simulation.ticks(), 1), how = play::mixed(seed, simulation.ticks(), 2);
   if (what % 3 == 0) {
@@ -88,7 +88,7 @@ Told run(Simulation& simulation, std::vector<Entity> people, int ticks, std::uin
   return told;
 }
 
-TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
+TEST(Snapshot, ContinuesWithTheSameBitsAndHandlesAnywhere) {
   Simulation simulation(sharing({.threads = 2}));
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     std::vector<Entity> people = simulation.people();
@@ -106,7 +106,7 @@ TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
     EXPECT_EQ(again.hashes, first.hashes);
     EXPECT_EQ(again.people, first.people);
 
-    Simulation fresh;  // which makes what is shared anew
+    Simulation fresh;  // makes shared data itself
     restore(fresh, bytes);
     EXPECT_EQ(fresh.state_hash(), before);
     const Told elsewhere = run(fresh, people, 20, seed + 10);
@@ -115,7 +115,7 @@ TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
   }
 }
 
-/// A few people with muscles of every method, one of whom fades.
+/// Spawns a few people with muscles of every method. One muscle fades.
 std::vector<Entity> few(Simulation& simulation) {
   std::vector<Entity> people;
   for (int i = 0; i < 9; ++i) {
@@ -128,7 +128,7 @@ std::vector<Entity> few(Simulation& simulation) {
   return people;
 }
 
-TEST(Snapshot, TimeFedGoesWithIt) {
+TEST(Snapshot, IncludesUnspentTime) {
   Simulation simulation(sharing());
   few(simulation);
   simulation.advance(0.03);
@@ -140,7 +140,7 @@ TEST(Snapshot, TimeFedGoesWithIt) {
   EXPECT_EQ(first.alpha, again.alpha);
 }
 
-TEST(Snapshot, HandlesOfThoseWhoCameLaterAreStaleAfterGoingBack) {
+TEST(Snapshot, LaterHandlesAreStaleAfterRestoring) {
   Simulation simulation(sharing());
   const auto people = few(simulation);
   const Bytes bytes = saved(simulation);
@@ -154,7 +154,7 @@ TEST(Snapshot, HandlesOfThoseWhoCameLaterAreStaleAfterGoingBack) {
   EXPECT_TRUE(simulation.world().alive(simulation.muscle(people[3], Muscle::hamstrings, Side::left)));
 }
 
-/// Refused in one line, and nothing has changed.
+/// Expects a refusal in one line that changes nothing.
 void expect_refused(Simulation& simulation, std::span<const std::byte> bytes, const std::string& about = "") {
   const std::uint64_t world = hash_world(simulation), state = simulation.state_hash();
   EXPECT_TRUE(is_refused(simulation.restore(bytes, RestoreLimits::none()), "restore: ", about));
@@ -162,7 +162,7 @@ void expect_refused(Simulation& simulation, std::span<const std::byte> bytes, co
   EXPECT_EQ(simulation.state_hash(), state);
 }
 
-TEST(Snapshot, OneBitMoreOrLessIsRefused) {
+TEST(Snapshot, AlteredBitIsRefused) {
   Simulation simulation(sharing());
   few(simulation);
   Bytes bytes = saved(simulation);
@@ -181,7 +181,7 @@ TEST(Snapshot, OneBitMoreOrLessIsRefused) {
   restore(simulation, bytes);
 }
 
-TEST(Snapshot, CutOrPaddedItIsRefused) {
+TEST(Snapshot, CutOrPaddedBytesAreRefused) {
   Simulation simulation(sharing());
   few(simulation);
   Bytes bytes = saved(simulation);
@@ -208,7 +208,7 @@ TEST(Snapshot, OtherVersionsAndByteOrdersAreRefusedByName) {
   expect_refused(simulation, bytes, "byte order");
 }
 
-TEST(Snapshot, TooLittleRoomAndOtherTicksAreRefused) {
+TEST(Snapshot, SmallBuffersAndOtherTicksAreRefused) {
   Simulation simulation(sharing());
   few(simulation);
   Bytes bytes = saved(simulation);
@@ -217,7 +217,7 @@ TEST(Snapshot, TooLittleRoomAndOtherTicksAreRefused) {
   expect_refused(faster, bytes, "tick_s");
 }
 
-TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
+TEST(Snapshot, DifferingResourcesAreRefused) {
   Simulation simulation(sharing()), fresh;
   few(simulation);
   Bytes bytes = saved(simulation);
@@ -230,9 +230,9 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
   EXPECT_EQ(fresh.people().size(), 0U);
 }
 
-/// Control points of modal muscles are left out, and made again with their bits: also of muscles that have just begun
+/// Control points of modal muscles are left out and reproduced bit-exactly, also for muscles that have just been added
 /// or changed, before any tick.
-TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
+TEST(Snapshot, ControlPointsAreOmittedAndReproduced) {
   Simulation simulation(sharing());
   std::vector<Entity> people;
   for (int i = 0; i < 20; ++i) {
@@ -273,7 +273,7 @@ TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
 }
 
 /// A snapshot is refused if it marks a stored column as left out, or the left-out column as stored.
-TEST(Snapshot, OnlyWhatIsMadeAgainMayBeLeftOut) {
+TEST(Snapshot, OnlyReproducibleColumnsCanBeOmitted) {
   Simulation simulation(sharing());
   const Entity one = *simulation.spawn(sample_person(1).body, sample_person(1).gait);
   LegMuscles choice;

@@ -1,4 +1,4 @@
-// People spawned by one call are bit for bit who they would be one by one; and all of them come, or none.
+// People spawned by one call equal people spawned singly, bit for bit. All of them are spawned, or none.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -22,7 +22,7 @@ MOBIL_TEST_LABELS("threads;long");
 namespace mobil::spawn_batch_test {
 LegMuscles muscles_of_kind(int kind) {
   LegMuscles choice;
-  choice.muscles = 0b1010;  // two will do
+  choice.muscles = 0b1010;  // two suffice
   choice.method = kind == 0 ? Method::none : kind == 3 ? Method::explicit_central : Method::modal;
   choice.modal.cells = {2, 2, 8};
   choice.modal.modes = 6;
@@ -50,7 +50,7 @@ Entity spawn_alone(Simulation& simulation, const SpawnRequest& request) {
   return person.value_or(Entity{});
 }
 
-/// Empty worlds, which keep the bases that are dear to make.
+/// Returns an empty world that keeps the costly bases.
 Simulation& empty_world(bool by_threads) {
   static Simulation threads(sharing({.threads = 2})), jobs(sharing({.jobs = backwards(2)}));
   Simulation& of = by_threads ? threads : jobs;
@@ -59,7 +59,7 @@ Simulation& empty_world(bool by_threads) {
   return of;
 }
 
-/// Of persons 0 to 35 after some ticks, each alone in the world.
+/// Returns the hash of persons 0 to 35 after some ticks, each alone in the world.
 std::uint64_t hash_alone(int i) {
   static Simulation simulation(sharing());
   static std::map<int, std::uint64_t> known;
@@ -72,7 +72,7 @@ std::uint64_t hash_alone(int i) {
   return known[i];
 }
 
-RC_GTEST_PROP(SpawnBatch, EverybodyIsWhoTheyWouldBeAloneInAnyOrderByAnyJobs, ()) {
+RC_GTEST_PROP(SpawnBatch, MatchesSingleSpawnsInAnyOrderOnAnyJobs, ()) {
   const auto who = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 36));
   Simulation& simulation = empty_world(*rc::gen::arbitrary<bool>());
   std::vector<SpawnRequest> people;
@@ -84,7 +84,7 @@ RC_GTEST_PROP(SpawnBatch, EverybodyIsWhoTheyWouldBeAloneInAnyOrderByAnyJobs, ())
   for (std::size_t i = 0; i < who.size(); ++i) RC_ASSERT(hash_person(simulation, made[i]) == hash_alone(who[i]));
 }
 
-TEST(SpawnBatch, PeopleStandWhereAndAsTheyWereAsked) {
+TEST(SpawnBatch, PeopleHaveTheirRequestedPlacesAndGaits) {
   Simulation simulation(sharing());
   std::vector<SpawnRequest> people(40);
   for (std::size_t i = 0; i < people.size(); ++i) {
@@ -108,7 +108,7 @@ TEST(SpawnBatch, PeopleStandWhereAndAsTheyWereAsked) {
   }
 }
 
-TEST(SpawnBatch, OneWhoCannotBeKeepsAllAwayAndIsNamed) {
+TEST(SpawnBatch, OneInvalidRequestRefusesAllAndIsNamed) {
   Simulation simulation(sharing());
   std::vector<SpawnRequest> people(70);
   for (std::size_t i = 0; i < people.size(); ++i) people[i] = request(static_cast<int>(i % 3));
@@ -150,7 +150,7 @@ TEST(SpawnBatch, OneWhoCannotBeKeepsAllAwayAndIsNamed) {
   EXPECT_EQ(hash_world(simulation), before);
 }
 
-TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
+TEST(SpawnBatch, StaleOrRepeatedHandlesAreNotDespawned) {
   Simulation simulation(sharing());
   std::vector<SpawnRequest> people(20);
   for (std::size_t i = 0; i < people.size(); ++i) people[i] = request(static_cast<int>(i % 3));
@@ -167,7 +167,7 @@ TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
   }
 }
 
-TEST(SpawnBatch, PreparingChangesNobodysBits) {
+TEST(SpawnBatch, PreparingChangesNoBits) {
   for (const int kind : {2, 3}) {
     Simulation simulation(sharing({.threads = 2}));
     ASSERT_TRUE(simulation.muscle_library().prepare(muscles_of_kind(kind)));
@@ -194,7 +194,7 @@ TEST(SpawnBatch, NothingIsPreparedForAChoiceOutOfRange) {
   EXPECT_FALSE(simulation.muscle_library().prepare(wrong));
 }
 
-RC_GTEST_PROP(SpawnBatch, ComingAndGoingLeavesThoseWhoStayAlone, ()) {
+RC_GTEST_PROP(SpawnBatch, SpawnsAndDespawnsLeaveOthersUnchanged, ()) {
   Simulation& simulation = empty_world(*rc::gen::arbitrary<bool>());
   std::vector<std::pair<Entity, int>> here;
   for (int round = 0; round < 5; ++round) {

@@ -1,4 +1,4 @@
-// One number of everybody's state.
+// One number for the state of all people.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -17,7 +17,7 @@
 MOBIL_TEST_LABELS("threads");
 
 namespace mobil::state_hash_test {
-/// People 0 to count − 1 with muscles, come in that order.
+/// Spawns people 0 to count − 1 with muscles in that order.
 std::vector<Entity> come(Simulation& simulation, const std::vector<int>& order) {
   std::vector<Entity> people(order.size());
   for (const int who : order) {
@@ -35,7 +35,7 @@ std::vector<int> numbers(int count) {
   return all;
 }
 
-TEST(StateHash, SaysWhenTimePassesAndWhenAnyoneDiffers) {
+TEST(StateHash, ChangesWithTimeAndWithAnyPerson) {
   Simulation simulation(sharing());
   const auto people = come(simulation, numbers(5));
   std::set<std::uint64_t> seen;
@@ -51,11 +51,11 @@ TEST(StateHash, SaysWhenTimePassesAndWhenAnyoneDiffers) {
   EXPECT_TRUE(is_new());
   ASSERT_EQ(simulation.despawn(sixth), Status::ok);
   EXPECT_TRUE(is_new());
-  world_of(simulation).create(BodySize<float>{1, 2, 0});  // nobody's
+  world_of(simulation).create(BodySize<float>{1, 2, 0});  // without an owner
   EXPECT_TRUE(is_new());
 }
 
-/// Words that say whose a row is.
+/// Returns true for words that contain the owner of a row.
 bool is_handle(const Table& table, std::uint32_t word) {
   const std::uint32_t owner = table.column(type_id<MuscleOwner<float>>());
   return owner != Table::no_column && word >= owner && word < owner + 2;
@@ -83,7 +83,7 @@ TEST(StateHash, EveryBitOfEveryWordOfStateCounts) {
   });
 }
 
-TEST(StateHash, LanesWithoutARowDoNotCount) {
+TEST(StateHash, EmptyLanesDoNotCount) {
   Simulation simulation(sharing());
   come(simulation, {0, 1, 2});
   const std::uint64_t before = simulation.state_hash();

@@ -1,5 +1,4 @@
-// Events of steps: each once, at its instant, where the foot stands; whoever is watched, whatever the threads and the
-// length of a tick.
+// Step events: each once, at its instant, at the position of the foot, for any watched people, threads and tick length.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,9 +26,9 @@ namespace mobil::step_events_test {
 using geometry::operator-;
 
 constexpr double tick_s = 1.0 / 60;
-constexpr double fine_s = 1.0 / 240;  // feet lie flat for some hundredths of a second
+constexpr double fine_s = 1.0 / 240;  // feet are flat for some hundredths of a second
 
-/// Ten seconds and more: faster, turns, a stop, a turn where one stands, a step aside, a start.
+/// Requests over more than ten seconds: faster, turns, a stop, a turn in place, a step aside, a start.
 void ask(Simulation& simulation, Entity person, int tick) {
   const auto at = [&](double seconds) { return tick == static_cast<int>(std::lround(seconds / fine_s)); };
   Result<void> done;
@@ -44,7 +43,7 @@ void ask(Simulation& simulation, Entity person, int tick) {
 }
 constexpr int play_ticks = 16 * 240;
 
-/// A pose between two ticks.
+/// Returns a pose between two ticks.
 Pose<float> pose_at(const Simulation& simulation, Entity person, double ahead_s) {
   struct Placed {
     float at[3], turn[4];
@@ -69,7 +68,7 @@ bool flat(const Feet<float>& feet, Side side) {
 Vec3<float> ankle(const Pose<float>& pose, Side side) {
   return pose.position_m[index(side == Side::right ? Segment::foot_right : Segment::foot_left)];
 }
-/// Where a foot that lies flat points.
+/// Returns the heading of a flat foot.
 double points(const Feet<float>& feet, Side side) {
   const Vec3<float> along = feet.tip_m[side] - feet.heel_m[side];
   return std::atan2(along.x, along.z);
@@ -80,13 +79,13 @@ struct Told {
   double place_m = 0, heading_rad = 0, down_m = 0, off_m = 0, lifted_m = 1;
 };
 
-/// A walk, and the same a tick behind: there poses are asked for at the events' instants.
+/// Watches a walk, and the same walk a tick behind, in which poses are evaluated at the events' instants.
 Told watch(const SamplePerson& who) {
   Simulation now({.tick_s = fine_s}), before({.tick_s = fine_s});
   const Entity person = *now.spawn(who.body, who.gait), twin = *before.spawn(who.body, who.gait);
   EXPECT_TRUE(now.enable({&person, 1}, Feature::step_events));
   Told told;
-  std::array<std::optional<StepEvent>, 2> down;  // and not looked at while flat yet
+  std::array<std::optional<StepEvent>, 2> down;  // not yet compared while flat
   std::array<bool, 2> in_air{};
   std::uint32_t steps = 0;
   for (int t = 0; t < play_ticks; ++t) {
@@ -142,7 +141,7 @@ Told watch(const SamplePerson& who) {
   return told;
 }
 
-TEST(StepEvents, EachIsToldOnceWhereTheFootStands) {
+TEST(StepEvents, EachIsReportedOnceAtTheFootsPlace) {
   for (int i = 0; i < 6; ++i) {
     const Told told = watch(sample_person(i));
     std::printf(
@@ -161,7 +160,7 @@ TEST(StepEvents, EachIsToldOnceWhereTheFootStands) {
   }
 }
 
-TEST(StepEvents, TheInstantIsTheClocks) {
+TEST(StepEvents, InstantMatchesTheClock) {
   Simulation simulation;
   const Entity person = *simulation.spawn({}, {.speed_m_s = 1.3F});
   ASSERT_TRUE(simulation.enable({&person, 1}, Feature::step_events));
@@ -175,7 +174,7 @@ TEST(StepEvents, TheInstantIsTheClocks) {
       const double at_s = (event.tick - 1 + static_cast<double>(event.part)) * tick_s;
       if (event.kind != StepEventKind::heel_strike) continue;
       ++strikes;
-      // What the clock has passed since.
+      // Time on the clock since the strike.
       EXPECT_NEAR(static_cast<double>(simulation.get<GaitState>(person)->time_s), simulation.time_s() - at_s, 1e-8);
       if (last) most = std::max(most, std::abs(at_s - *last - static_cast<double>(plan.duration_s)));
       last = at_s;
@@ -193,7 +192,7 @@ std::vector<Line> lines(std::span<const StepEvent> events) {
   return all;
 }
 
-/// A crowd that is asked for something now and then; what its events report.
+/// A crowd with occasional requests, and the events that it reports.
 struct Watched {
   explicit Watched(const SimulationOptions& options, int count = 70, bool watched = true) : simulation(options) {
     std::vector<SpawnRequest> requests(static_cast<std::size_t>(count));
@@ -233,7 +232,7 @@ struct Watched {
   std::vector<Line> told;
 };
 
-TEST(StepEvents, TheSameWhateverTheThreadsAndWhoLooks) {
+TEST(StepEvents, SameOnAnyThreadsAndForAnyWatchedPeople) {
   WilfulPool wilful(3);
   Watched one({.threads = 1}), two({.threads = 2}), cut({.jobs = wilful.jobs()}), nobody({}, 70, false);
   for (Watched* const crowd : {&one, &two, &cut, &nobody}) crowd->tick(300);
@@ -249,7 +248,7 @@ TEST(StepEvents, TheSameWhateverTheThreadsAndWhoLooks) {
   }
 }
 
-TEST(StepEvents, AFrameTellsOfAllItsTicks) {
+TEST(StepEvents, FrameReportsAllItsTicks) {
   Watched ticks({.max_frame_s = 1}), frames({.max_frame_s = 1});
   std::vector<Line> told;
   for (int i = 0; i < 20; ++i) {
@@ -267,7 +266,7 @@ TEST(StepEvents, AFrameTellsOfAllItsTicks) {
   EXPECT_TRUE(frames.simulation.events().empty());
 }
 
-/// Strikes and toe-offs of somebody, in order: when and where.
+/// Returns a person's strikes or toe-offs in order: time and place.
 std::vector<std::array<double, 3>> feet_of(double length_s, const std::vector<StepEvent>& told, StepEventKind kind) {
   std::vector<std::array<double, 3>> all;
   for (const StepEvent& e : told)
@@ -277,7 +276,7 @@ std::vector<std::array<double, 3>> feet_of(double length_s, const std::vector<St
   return all;
 }
 
-TEST(StepEvents, TicksOfAnyLengthTellTheSame) {
+TEST(StepEvents, TicksOfAnyLengthReportTheSame) {
   const auto walk = [](double length_s) {
     Simulation simulation({.tick_s = length_s, .max_frame_s = 2});
     const Entity person = *simulation.spawn({}, {.speed_m_s = 1.1F});
@@ -289,7 +288,7 @@ TEST(StepEvents, TicksOfAnyLengthTellTheSame) {
         told.insert(told.end(), simulation.events().begin(), simulation.events().end());
       }
     };
-    // Asked in the middle of a step, so that all begin the same ones.
+    // Requested in the middle of a step, so that all start the same step.
     run(4.8);
     EXPECT_TRUE(simulation.change_gait(person, {.speed_m_s = 0.0F}));
     run(9.6);
@@ -312,7 +311,7 @@ TEST(StepEvents, TicksOfAnyLengthTellTheSame) {
   }
 }
 
-TEST(StepEvents, CompactPeopleAreToldOfAndSleepersNot) {
+TEST(StepEvents, CompactPeopleHaveEventsAndSleepersNone) {
   Watched whole({}, 40), mixed({}, 40);
   const std::span small = std::span(mixed.people).first(20), sleepers = std::span(mixed.people).subspan(20, 10);
   for (Watched* const crowd : {&whole, &mixed}) crowd->simulation.tick();
@@ -338,7 +337,7 @@ TEST(StepEvents, CompactPeopleAreToldOfAndSleepersNot) {
   EXPECT_EQ(mixed.simulation.state_hash(), whole.simulation.state_hash());
 }
 
-TEST(StepEvents, AreNoStateButGoOnFromASnapshot) {
+TEST(StepEvents, AreNotStateButContinueFromASnapshot) {
   Watched crowd({}, 30);
   ASSERT_EQ(*crowd.simulation.set_state(std::span(crowd.people).first(5), PersonState::asleep), 5U);
   crowd.tick(100);
@@ -361,7 +360,7 @@ TEST(StepEvents, AreNoStateButGoOnFromASnapshot) {
   EXPECT_EQ(crowd.told, first);
 }
 
-TEST(StepEvents, WhoCannotBeWatchedIsRefusedWithAll) {
+TEST(StepEvents, OneInvalidPersonRefusesTheBatch) {
   Watched crowd({}, 4, false);
   Simulation& simulation = crowd.simulation;
   const Entity posed = *simulation.spawn_posed({});

@@ -1,5 +1,5 @@
-// Muscles stay where their lines are: beside each one drawn evenly along its line, whatever the method and the joints
-// do.
+// Muscles stay near their lines, compared with bellies drawn uniformly along the line, for every method and joint
+// angles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using namespace geometry;
 
 constexpr BodyRequest somebody{.height_m = 1.75F, .mass_kg = 75};
 
-/// Both legs bent alike, degrees.
+/// Returns a pose with both legs bent equally, degrees.
 Pose<float> bent(const Body& body, float hip, float knee, float ankle) {
   using enum Segment;
   Pose<float> pose = standing_pose(body);
@@ -49,7 +49,7 @@ Pose<float> bent(const Body& body, float hip, float knee, float ankle) {
   return pose;
 }
 
-/// What people show with one choice, by name of the piece.
+/// Displayed vertices of people with one choice, by name of the piece.
 struct Shown {
   Simulation simulation{sharing()};
   std::vector<Entity> people;
@@ -79,7 +79,7 @@ struct Shown {
   }
 };
 
-/// Keeps how far each piece's vertices ever were from where the line alone would have them, mm.
+/// Keeps the largest distance of each piece's vertices from their positions by the line alone, mm.
 using Farthest = std::map<std::string, double>;
 void keep(const Shown& shown, Entity person, const Shown& lines, Entity same, Farthest& farthest) {
   const auto is = shown.vertices(person), should = lines.vertices(same);
@@ -107,9 +107,9 @@ std::vector<LegMuscles> every_choice(Method method) {
   return all;
 }
 
-/// At the ends of what joints allow and between, at rest: each angle of a joint with each angle of any other joint.
-/// With MOBIL_LONG all triples of angles.
-TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
+/// At the ends and in the middle of the joints' ranges, at rest: each angle of a joint with each angle of any other
+/// joint. With MOBIL_LONG all triples of angles.
+TEST(Stray, MusclesStayNearTheirLinesInAnyPose) {
   MOBIL_SLOW();
   const bool longer = std::getenv("MOBIL_LONG") != nullptr;
   constexpr std::array hips = {-20.0F, 45.0F, 115.0F}, knees = {0.0F, 65.0F, 130.0F}, ankles = {-40.0F, 0.0F, 20.0F};
@@ -142,8 +142,8 @@ TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
   }
 }
 
-/// In a walk, where they swing as well.
-TEST(Stray, NoMuscleLeavesItsLineInAWalk) {
+/// In a walk, with vibration.
+TEST(Stray, MusclesStayNearTheirLinesInAWalk) {
   for (const Method method : {Method::explicit_central, Method::modal, Method::finite}) {
     for (const LegMuscles& choice : every_choice(method)) {
       Shown shown(choice), lines({.muscles = choice.muscles, .method = Method::none});

@@ -1,5 +1,5 @@
-// Walks of any style in range stay within the limits of ground, joints and pelvis. Where a request would break one, its
-// style is changed, and the changes are reported. The tests look at the pose of every tick.
+// Walks of any style in range stay within the limits of ground, joints and pelvis. If a request would exceed one, its
+// style is changed, and the changes are reported. The tests check the pose of every tick.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -28,7 +28,7 @@ MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::style_limits_test {
 
-/// Some hundred; ten thousand with MOBIL_LONG in the environment.
+/// 240 people; ten thousand with MOBIL_LONG.
 TEST(StyleLimits, WalksOfAnyStyleKeepThem) {
   MOBIL_SLOW();
   const std::size_t count = std::getenv("MOBIL_LONG") != nullptr ? 10000 : 240;
@@ -50,12 +50,12 @@ TEST(StyleLimits, WalksOfAnyStyleKeepThem) {
   for (std::size_t m = 0; m < measures; ++m)
     std::printf("%zu walks: %.2f %s at most\n", count, worst.worst[m], measure_name[m]);
   if (count <= 1000) {
-    EXPECT_GT(moved, count / 5);  // else this shows little
+    EXPECT_GT(moved, count / 5);  // otherwise the test shows little
   }
 }
 
-/// Usual walks of all bodies and speeds are far enough from the limits to be what they always were.
-RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
+/// Usual walks of all bodies and speeds are far from the limits and unchanged.
+RC_GTEST_PROP(StyleLimits, UsualWalksAreUnchanged, (unsigned seed)) {
   Dice dice{std::mt19937(seed)};
   Asked asked = anyone(dice, 0, false);
   asked.gait.style = {};
@@ -63,7 +63,7 @@ RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
   RC_ASSERT(walk({asked}, 2).front().keeps_limits());
 }
 
-TEST(StyleLimits, UsualWalksStopStartAndTurnWithinThem) {
+TEST(StyleLimits, UsualWalksKeepThemInStopsStartsAndTurns) {
   MOBIL_SLOW();
   Dice dice{std::mt19937(5)};
   std::vector<Asked> asked;
@@ -80,9 +80,9 @@ TEST(StyleLimits, UsualWalksStopStartAndTurnWithinThem) {
   });
 }
 
-/// Of any style nearly all do: in steps that turn or change speed it is nearer to the usual one, and styles far from it
-/// keep more clear of limits. No foot in the air is bent up far. Some hundred; 4800 with MOBIL_LONG in the environment.
-TEST(StyleLimits, NearlyAllWalksStopStartAndTurnWithinThem) {
+/// Nearly all walks of any style do: turning steps and changes of speed are nearer to the usual style, and unusual
+/// styles keep a larger distance from limits. No foot in the air is bent far up. 240 people; 4800 with MOBIL_LONG.
+TEST(StyleLimits, NearlyAllWalksKeepThemInStopsStartsAndTurns) {
   MOBIL_SLOW();
   Dice dice{std::mt19937(6)};
   std::vector<Asked> asked;
@@ -104,7 +104,7 @@ TEST(StyleLimits, NearlyAllWalksStopStartAndTurnWithinThem) {
     furthest = std::max(furthest, simulation.get<JointAngles>(person)->ankle_dorsiflexion[other]);
     ASSERT_LT(furthest, 44 * degree) << name << ": " << told(asked[i], {});
   });
-  EXPECT_GT(furthest, 33 * degree);  // else nobody came near
+  EXPECT_GT(furthest, 33 * degree);  // otherwise no foot was near the limit
   ASSERT_EQ(walked.size(), 6U);
   const std::map<std::string, std::size_t> at_most = {{"walks", 0}, {"starts", 0},    {"slows down", 1},
                                                       {"turns", 1}, {"speeds up", 1}, {"stops", 1}};
@@ -116,8 +116,8 @@ TEST(StyleLimits, NearlyAllWalksStopStartAndTurnWithinThem) {
   }
 }
 
-/// Who has turned far and changed speed walks in their own style again.
-TEST(StyleLimits, StylesComeBack) {
+/// After far turns and changes of speed, people walk in their own style again.
+TEST(StyleLimits, StylesAreResumed) {
   Dice dice{std::mt19937(8)};
   for (unsigned i = 0; i < 40; ++i) {
     Asked asked = anyone(dice, i % 6, false);
@@ -151,9 +151,8 @@ TEST(StyleLimits, StylesComeBack) {
   }
 }
 
-/// Who turns on the spot, or stops as soon as a step or two are made, stands on feet that are alike, and is solved no
-/// more.
-TEST(StyleLimits, WhoStandsOnCalmFeetEvensThem) {
+/// People who turn in place, or stop after a step or two, stand on even feet and are not solved again.
+TEST(StyleLimits, StandingAfterCalmStepsBecomesEven) {
   const BodyRequest body{.height_m = 1.75F, .mass_kg = 75};
   GaitStyle style;
   style.toe_out_deg = 20;
@@ -183,7 +182,7 @@ TEST(StyleLimits, WhoStandsOnCalmFeetEvensThem) {
   }
 }
 
-TEST(StyleLimits, WhoStandsInAnotherStyleStandsAsItHasFeet) {
+TEST(StyleLimits, StandingStyleChangeMovesTheFeet) {
   Simulation simulation;
   const Entity person = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 0});
   simulation.tick(60);
@@ -200,7 +199,7 @@ TEST(StyleLimits, WhoStandsInAnotherStyleStandsAsItHasFeet) {
   EXPECT_EQ(simulation.set_state({&person, 1}, PersonState::asleep).value(), 1U);
 }
 
-/// Steps that turn far last as long as each other, right and left, whatever the style's halting.
+/// Steps that turn far have equal durations, right and left, with any time asymmetry of the style.
 TEST(StyleLimits, CalmStepsAreEven) {
   Simulation simulation;
   const Entity person = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.style = {.time_asymmetry = 0.2F}});
@@ -216,9 +215,8 @@ TEST(StyleLimits, CalmStepsAreEven) {
   for (const float one : lasts) EXPECT_NEAR(one, lasts.front(), 1e-5F);
 }
 
-/// The reported style is the one that is walked. It does not depend on who else is spawned, in which order, on which
-/// thread.
-TEST(StyleLimits, AreTheSameForOneAndForMany) {
+/// The reported style is the walked one. It is independent of other people, spawn order and threads.
+TEST(StyleLimits, AreIndependentOfOtherPeople) {
   Dice dice{std::mt19937(3)};
   std::vector<Asked> asked;
   for (unsigned i = 0; i < 40; ++i) asked.push_back(anyone(dice, i % 6, i % 4 == 0));
@@ -254,7 +252,7 @@ TEST(StyleLimits, AreTheSameForOneAndForMany) {
     if (step_m) {
       EXPECT_EQ(walks->step_length_m, step_m);
     }
-    // Who comes another way to the same walk, walks it so.
+    // A person who reaches the same gait another way walks in the same style.
     const Entity one = *alone.spawn(asked[i].body);
     ASSERT_TRUE(alone.set_gait(one, asked[i].gait));
     EXPECT_TRUE(same_style(alone.gait_request(one)->style, expected));
@@ -262,8 +260,8 @@ TEST(StyleLimits, AreTheSameForOneAndForMany) {
   EXPECT_GT(moved, 20U);
 }
 
-/// Where all is well with the pelvis' tilt or the double support as usual, no other number is touched.
-TEST(StyleLimits, OneNumberMovesWhereThatIsEnough) {
+/// If the usual pelvis tilt or the usual double support suffices, no other parameter changes.
+TEST(StyleLimits, OneParameterChangesIfThatSuffices) {
   Dice dice{std::mt19937(21)};
   constexpr std::array numbers = {&GaitStyle::pelvis_tilt_deg, &GaitStyle::double_support_scale};
   std::size_t found = 0;
@@ -288,8 +286,8 @@ TEST(StyleLimits, OneNumberMovesWhereThatIsEnough) {
   EXPECT_GT(found, 5U);
 }
 
-/// Where the estimate says that a style keeps all limits, a walk of it at 240 instants a second keeps them.
-TEST(StyleLimits, AreKeptWhereTheEstimateIsSure) {
+/// If the estimate reports that a style keeps all limits, a walk of it keeps them at 240 instants a second.
+TEST(StyleLimits, AreKeptIfTheEstimateIsSure) {
   Dice dice{std::mt19937(8)};
   std::vector<BodySize<float>> sizes;
   std::vector<Gait<float>> gaits;
@@ -330,7 +328,7 @@ TEST(StyleLimits, AreKeptWhereTheEstimateIsSure) {
   }
 }
 
-/// Who walks otherwise asleep does as who is awake.
+/// A gait change during sleep gives the same style as awake.
 TEST(StyleLimits, HoldForSleepers) {
   const BodyRequest body{.height_m = 1.8F, .mass_kg = 75};
   const GaitRequest slow{.speed_m_s = 0.6F, .style = {.foot_flat_cycle = 0.06F}};

@@ -1,4 +1,4 @@
-// Bellies that tension stiffens and damps, in people.
+// Bellies stiffened and damped by tension, in people.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,13 +53,13 @@ TEST(TunedPeople, WithoutActivationItIsRefused) {
   tuned.modal.tuned = true;
   EXPECT_FALSE(simulation.set_method(person, Muscle::quadriceps, tuned));
   EXPECT_EQ(simulation.state_hash(), before);
-  tuned.modal.moving = false;  // nothing that tension could stiffen
+  tuned.modal.moving = false;  // no motion to stiffen
   EXPECT_TRUE(simulation.set_method(person, Muscle::quadriceps, tuned));
 }
 
-/// Of modes on the paper's mesh of 81 nodes extrapolation made the tension of some motions negative, and their
-/// stiffness with it: control points were no numbers from the first pull on.
-TEST(TunedPeople, CoarseMeshesPullAsWell) {
+/// With modes on the paper's mesh of 81 nodes, extrapolation once made the tension and stiffness of some motions
+/// negative. Control points were then NaN from the first activation.
+TEST(TunedPeople, CoarseMeshesStayFinite) {
   for (const std::uint32_t modes : {4U, 8U, 12U}) {
     Simulation simulation(sharing());
     const Entity person = *simulation.spawn_posed({});
@@ -84,7 +84,7 @@ TEST(TunedPeople, CoarseMeshesPullAsWell) {
   }
 }
 
-/// How far a jolt throws the calf of someone who stands, and what is left of it a quarter of a second later.
+/// Amplitude of a standing person's calf after a jolt, and the remainder a quarter of a second later.
 struct Shaken {
   double max_m = 0, left_m = 0;
 };
@@ -116,7 +116,7 @@ Shaken shaken(bool tuned, float level) {
   return all;
 }
 
-TEST(TunedPeople, WhoPullsIsShakenLessAndForAShorterTime) {
+TEST(TunedPeople, ActiveMusclesShakeLessAndShorter) {
   const Shaken plain = shaken(false, 1), relaxed = shaken(true, 0), pulls = shaken(true, 1);
   EXPECT_LT(relaxed.left_m / relaxed.max_m, 0.7 * plain.left_m / plain.max_m);
   EXPECT_LT(pulls.max_m, 0.8 * relaxed.max_m);
@@ -124,8 +124,8 @@ TEST(TunedPeople, WhoPullsIsShakenLessAndForAShorterTime) {
   EXPECT_NEAR(shaken(false, 0).max_m / plain.max_m, 1, 0.1) << "without, nothing but the shape tells who pulls";
 }
 
-/// Tension stiffens a belly against gravity, so a new one begins where its own activation has it at rest.
-TEST(TunedPeople, WhoJoinsIsAtRest) {
+/// Tension stiffens a belly against gravity, so a new one starts at rest for its own activation.
+TEST(TunedPeople, NewBelliesAreAtRest) {
   for (const bool seen : {true, false}) {
     Simulation simulation(sharing());
     LegMuscles choice = pulling(true);
@@ -149,13 +149,13 @@ TEST(TunedPeople, WhoJoinsIsAtRest) {
   }
 }
 
-TEST(TunedPeople, NothingJumpsWhereItComesAndGoes) {
+TEST(TunedPeople, NothingJumpsWhenSwitched) {
   for (const bool inertia : {false, true}) {
     Simulation simulation(sharing());
     const Entity person = join_with(simulation, sample_person(6), pulling(false, inertia));
     const Entity muscle = simulation.muscle(person, Muscle::quadriceps, Side::right);
     run(simulation, 30);
-    double usual_m = 0, changed_m = 0;  // a tick's way
+    double usual_m = 0, changed_m = 0;  // motion per tick
     const auto tick = [&](double& max_m) {
       const auto before = displacement(simulation, muscle);
       simulation.tick();

@@ -1,6 +1,5 @@
 #pragma once
-// Walks of any style, and what of them is beyond a limit of ground, joints or pelvis: the pose of every tick is looked
-// at.
+// Walks of any style, and their violations of limits of ground, joints or pelvis, found in the pose of every tick.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +30,8 @@ struct Asked {
   GaitRequest gait;
 };
 
-/// One number at an end, two of them, three anywhere, all anywhere, all at their ends, all a part of the way there.
+/// Returns a style with one parameter at an end, two at ends, three anywhere, all anywhere, all at ends, or all
+/// partway.
 inline GaitStyle any_style(Dice& dice, unsigned kind) {
   GaitStyle style;
   const auto end = [&](const GaitParameter& p) { return dice(0, 1) < 0.5 ? p.low : p.high; };
@@ -48,7 +48,7 @@ inline GaitStyle any_style(Dice& dice, unsigned kind) {
   return kind == 5 ? random_style(dice, part) : style;
 }
 
-/// Any body, at any speed that it may be asked; `steps`: now and then with steps of any length or frequency, too.
+/// Returns any body at any allowed speed. With `steps` some have a step length or frequency as well.
 inline Asked anyone(Dice& dice, unsigned kind, bool steps) {
   for (;;) {
     Asked asked{random_body(dice), {.style = any_style(dice, kind)}};
@@ -62,7 +62,7 @@ inline Asked anyone(Dice& dice, unsigned kind, bool steps) {
   }
 }
 
-/// What a walk may not do, and how far it went.
+/// Quantities that a walk must bound, and the largest values reached.
 enum Measure { under_mm, slides_mm, shaken_m_s2, joint_deg, measures };
 inline constexpr std::array<const char*, measures> measure_name = {"mm under the ground", "mm slid in a tick",
                                                                    "m/s2 of the pelvis", "deg beyond a joint's limit"};
@@ -85,7 +85,7 @@ struct Walked {
   }
 };
 
-/// Looks at one walker tick by tick.
+/// Observes one walker tick by tick.
 class Watch {
  public:
   Watch(const Simulation& simulation, Entity who) : simulation_(simulation), who_(who) {
@@ -113,7 +113,7 @@ class Watch {
 
  private:
   Quat<double> of(Segment s) const { return to_double(pose_.rotation[index(s)]); }
-  /// The pelvis as in the anatomical position.
+  /// Returns the rotation of the pelvis in the anatomical position.
   Quat<double> level_pelvis() const {
     return product(of(pelvis), {std::sin(-neutral_tilt / 2), 0, 0, std::cos(neutral_tilt / 2)});
   }
@@ -137,7 +137,7 @@ class Watch {
     const double pitch = std::asin(std::clamp(ahead.y, -1.0, 1.0)), level = std::hypot(ahead.x, ahead.z);
     Sole& before = sole_[side];
     if (planted && before.planted) {
-      // On its heel a foot rolls, else its tips stand.
+      // A foot on its heel rolls; otherwise its tips stand.
       const double rolled = height_ * fraction::heel_radius * (pitch - before.pitch) / level;
       const double heel = std::hypot(rim.x - before.rim.x + rolled * ahead.x, rim.z - before.rim.z + rolled * ahead.z);
       const double toes = std::hypot(tip.x - before.tip.x, tip.z - before.tip.z);
@@ -167,7 +167,7 @@ class Watch {
     out.joint_at("elbow flexion", double{angles_.elbow_flexion[side]} / degree, 0, 150);
   }
 
-  /// Bending; turns are left out (mobil/systems/limits/walk_limits.h).
+  /// Checks bending; rotation is excluded (mobil/systems/limits/walk_limits.h).
   void column(Walked& out) const {
     Quat<double> below = level_pelvis();
     for (std::size_t v = 0; v < vertebra_limits.size(); ++v) {
@@ -230,7 +230,8 @@ inline std::string told(const Asked& asked, const Walked& walked) {
   return text + " (" + walked.joint + ")";
 }
 
-/// People who stop, stand, start again, turn, slow down and speed up, as a crowd's do; each phase by itself.
+/// Runs people through stops, standing, starts, turns, slowing down and speeding up, as in a crowd, one phase at a
+/// time.
 template <class Look>
 void play(const std::vector<Asked>& asked, Look look) {
   Simulation simulation({.tick_s = tick});

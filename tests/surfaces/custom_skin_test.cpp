@@ -1,4 +1,4 @@
-// A skin mesh of somebody's own moves with the skin of their body.
+// A custom skin mesh moves with the skin of its body.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using skin_test::Placed;
 
 constexpr float top_m = 0.80F, seam_m = 0.06F;
 
-/// The right leg of a coarser skin, up to there, pushed out by so much; `from`: its vertices in that skin.
+/// The right leg of a coarser skin up to a height, pushed out by a distance. `from`: its vertices in that skin.
 struct Leg {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> from;
@@ -76,7 +76,7 @@ struct Followed {
   CustomSkin own;
 };
 
-TEST(CustomSkin, StandsWhereItWasAndComesToTheBodysAtItsTop) {
+TEST(CustomSkin, KeepsItsPlaceAndMeetsTheBodyAtItsTop) {
   const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0.012F);
   const Placed at = one.follow(one.skin.standing);
   const std::size_t count = one.leg.mesh.position.size();
@@ -88,7 +88,7 @@ TEST(CustomSkin, StandsWhereItWasAndComesToTheBodysAtItsTop) {
     const auto off = static_cast<double>(length(right - own));
     if (own.y < top_m - seam_m - 0.02F) furthest = std::max(furthest, off);
     if (own.y > top_m - 0.004F) max_top = std::max(max_top, std::abs(off - 0.012));
-    // The body's skin has not the same triangles on both sides.
+    // The body's skin has different triangles on the two sides.
     EXPECT_NEAR(left.x, -right.x, 0.003F);
     EXPECT_NEAR(left.y, right.y, 0.005F);
     EXPECT_NEAR(length(at.normal[v]), 1, 1e-3F);
@@ -97,8 +97,8 @@ TEST(CustomSkin, StandsWhereItWasAndComesToTheBodysAtItsTop) {
   EXPECT_LT(max_top, 0.004) << "drawn in by what it stood off";
 }
 
-/// In files a leg of one's own hangs as the skin does that it was cut out of, which is left out there.
-TEST(CustomSkin, HangsInFilesAsTheBodysSkinDoes) {
+/// In files a custom leg is bound like the skin that it was cut out of, which is omitted there.
+TEST(CustomSkin, IsBoundInFilesAsTheBodySkin) {
   const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0);
   const Placed at = one.follow(one.skin.standing);
   const SkinnedSurface own = recorded_custom_skin(one.skin, one.own, at.position, at.normal, 4);
@@ -122,8 +122,8 @@ TEST(CustomSkin, HangsInFilesAsTheBodysSkinDoes) {
   EXPECT_LT(left, all);
 }
 
-/// A leg in two pieces, cut through at the knee, follows as it does in one: only the leg's top is a seam.
-TEST(CustomSkin, MayComeInPieces) {
+/// A leg cut into two pieces at the knee moves as in one piece: only its top is a seam.
+TEST(CustomSkin, CanHaveSeveralPieces) {
   const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0.012F);
   const SurfaceMesh& whole = one.leg.mesh;
   std::array<SurfaceMesh, 2> pieces;
@@ -148,8 +148,8 @@ TEST(CustomSkin, MayComeInPieces) {
   }
 }
 
-/// A coarser mesh of the same skin is where that skin itself would be, in poses up to a knee of 110 degrees.
-TEST(CustomSkin, MovesAsTheBodysSkinDoes) {
+/// A coarser mesh of the same skin matches that skin's positions, in poses up to a knee of 110 degrees.
+TEST(CustomSkin, MovesAsTheBodySkin) {
   for (const BodyRequest& request : {BodyRequest{.height_m = 1.75F, .mass_kg = 75},
                                      BodyRequest{.height_m = 1.62F, .mass_kg = 70, .sex = Sex::woman}}) {
     const Followed one(request, 0);
@@ -171,8 +171,8 @@ TEST(CustomSkin, MovesAsTheBodysSkinDoes) {
   }
 }
 
-/// Of the body's skin nothing is left in its place, and all of the rest.
-TEST(CustomSkin, TakesThePlaceOfTheLegsAlone) {
+/// The replaced part of the body's skin is removed completely, and the rest stays.
+TEST(CustomSkin, ReplacesOnlyTheLegs) {
   const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0);
   const SkinMesh& mesh = skin_mesh(one.skin.sex, one.skin.detail);
   ASSERT_EQ(one.own.first_left[skin_parts], one.own.left.size() / 3);
@@ -195,7 +195,7 @@ TEST(CustomSkin, TakesThePlaceOfTheLegsAlone) {
   EXPECT_LT(shown, mesh.triangle.size() / 3);
 }
 
-/// A leg that is stouter than its shorts does not come out of them.
+/// A leg that is thicker than its shorts stays inside them.
 TEST(CustomSkin, StaysUnderShorts) {
   const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0.03F);
   const SkinMesh& mesh = skin_mesh(one.skin.sex, one.skin.detail);

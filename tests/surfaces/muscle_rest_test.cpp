@@ -1,4 +1,4 @@
-// Muscles as they are drawn at rest: not in each other, and not outside of the leg's skin.
+// Muscles drawn at rest: they neither overlap nor extend outside the leg's skin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Body body_of(const Person& person) {
   return *make_body(request);
 }
 
-/// Where a horizontal plane cuts a closed mesh: pairs of points (x, z).
+/// The intersection of a horizontal plane with a closed mesh: pairs of points (x, z).
 using Cut = std::vector<std::array<std::pair<double, double>, 2>>;
 Cut cut_at(const SurfaceMesh& mesh, double y) {
   Cut cut;
@@ -66,13 +66,13 @@ bool is_within(const Cut& cut, double x, double z) {
   return within;
 }
 
-TEST(MusclesAtRest, DoNotLieInEachOther) {
+TEST(MusclesAtRest, DoNotOverlap) {
   for (const Person& person : people) {
     const Body body = body_of(person);
     const std::vector<GroupSurface> muscles = make_muscle_surfaces(body);
     const LegFrame leg = leg_frame(body);
     constexpr double step_m = 0.002;
-    double once = 0, twice = 0;  // points in one, and in more
+    double once = 0, twice = 0;  // points in one muscle, and in several
     for (double level = 0.12; level < 1.9; level += 0.05) {
       std::vector<Cut> cuts;
       for (const GroupSurface& muscle : muscles)
@@ -91,11 +91,11 @@ TEST(MusclesAtRest, DoNotLieInEachOther) {
   }
 }
 
-TEST(MusclesAtRest, LieWithinTheSkin) {
+TEST(MusclesAtRest, AreWithinTheSkin) {
   for (const Person& person : people) {
     const Body body = body_of(person);
     const LegFrame leg = leg_frame(body);
-    const bool strong = person.constitution == Constitution::athletic;  // whose skin gives way
+    const bool strong = person.constitution == Constitution::athletic;  // the skin yields
     const LegProfile skin(body_measures(body.request));
     double farthest_m = -1;
     for (const GroupSurface& muscle : make_muscle_surfaces(body)) {
@@ -110,7 +110,7 @@ TEST(MusclesAtRest, LieWithinTheSkin) {
     }
     std::printf("[ rest ] %.2f m %.0f kg: muscles reach to %.1f mm beneath the skin\n",
                 static_cast<double>(person.height_m), static_cast<double>(person.mass_kg), -1e3 * farthest_m);
-    EXPECT_LT(farthest_m, strong ? 0.012 : 0.006);  // tendons at the knee of who is thin, beside the bone
+    EXPECT_LT(farthest_m, strong ? 0.012 : 0.006);  // thin people's knee tendons, next to the bone
   }
 }
 

@@ -1,4 +1,4 @@
-// A skin's atlas: the same triangles over a texture, nowhere folded much, the same for every detail.
+// A skin's atlas: the same triangles over a texture, with few folds, and equal for every detail.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using namespace geometry;
 
 constexpr std::array every_detail = {SkinDetail::hero, SkinDetail::near, SkinDetail::far, SkinDetail::distant};
 
-TEST(SkinAtlas, ChartsLieBesideEachOtherInTheSquare) {
+TEST(SkinAtlas, ChartsAreDisjointInTheSquare) {
   for (std::size_t i = 0; i < skin_charts; ++i) {
     const ChartBox a = chart_box(static_cast<SkinChart>(i));
     EXPECT_GE(std::min(a.left, a.top), 0) << i;
@@ -39,7 +39,7 @@ TEST(SkinAtlas, ChartsLieBesideEachOtherInTheSquare) {
   }
 }
 
-TEST(SkinAtlas, HasTheMeshsTrianglesEachWithinItsChart) {
+TEST(SkinAtlas, HasTheMeshTrianglesEachWithinItsChart) {
   for (const Sex sex : {Sex::man, Sex::woman}) {
     for (const SkinDetail detail : every_detail) {
       const SkinMesh& mesh = skin_mesh(sex, detail);
@@ -62,7 +62,7 @@ TEST(SkinAtlas, HasTheMeshsTrianglesEachWithinItsChart) {
   }
 }
 
-/// The greatest and the least stretch of a triangle on its way into the square, and whether it is turned over.
+/// Largest and smallest stretch of a triangle mapped into the square, and whether it is turned over.
 struct Stretch {
   double most, least;
   bool folded;
@@ -113,7 +113,7 @@ TEST(SkinAtlas, IsStretchedAndFoldedLittle) {
   }
 }
 
-/// How much of a detail's atlas, by vertices looked at, lies elsewhere than a man's finest one.
+/// Compares sampled vertices of a detail's atlas with a man's finest one.
 void expect_one_texture(Sex sex, SkinDetail detail) {
   const SkinMesh &fine = skin_mesh(Sex::man, SkinDetail::hero), &coarse = skin_mesh(sex, detail);
   const SkinAtlas &fine_atlas = skin_atlas(Sex::man, SkinDetail::hero), &coarse_atlas = skin_atlas(sex, detail);
@@ -142,7 +142,7 @@ void expect_one_texture(Sex sex, SkinDetail detail) {
   EXPECT_LT(apart, compared / 8) << "where charts of coarse triangles end";
 }
 
-/// Where two details have a vertex at one place of the body, in one chart, it is at one place of the texture.
+/// Vertices of two details at one place of the body and in one chart are at one place of the texture.
 TEST(SkinAtlas, OneTextureFitsEveryDetail) {
   for (const Sex sex : {Sex::man, Sex::woman})
     for (const SkinDetail detail : {SkinDetail::hero, SkinDetail::near, SkinDetail::far, SkinDetail::distant}) {
@@ -151,7 +151,7 @@ TEST(SkinAtlas, OneTextureFitsEveryDetail) {
     }
 }
 
-TEST(SkinAtlas, TangentsPointToTheRightAndAreNoNormals) {
+TEST(SkinAtlas, TangentsPointToTheRightAndAreNotNormals) {
   for (const SkinDetail detail : {SkinDetail::near, SkinDetail::distant}) {
     const BodySkin skin = *make_body_skin(*make_body({.height_m = 1.68F, .mass_kg = 62, .sex = Sex::woman}), detail);
     const SkinAtlas& atlas = skin_atlas(skin.sex, detail);
@@ -172,7 +172,7 @@ TEST(SkinAtlas, TangentsPointToTheRightAndAreNoNormals) {
         const Vec up = static_cast<double>(tangent[from][3]) * cross(to_double(skin.normal[atlas.vertex[from]]), t);
         const double right = static_cast<double>(atlas.place[to].right) - static_cast<double>(atlas.place[from].right);
         const double rise = static_cast<double>(atlas.place[from].down) - static_cast<double>(atlas.place[to].down);
-        // Of the two the greater one, whose sign is sure.
+        // Uses the larger component, whose sign is certain.
         const double same = std::abs(right) > std::abs(rise) ? right * dot(edge, t) : rise * dot(edge, up);
         agrees += same > 0 ? length(edge) : 0;
         all += length(edge);

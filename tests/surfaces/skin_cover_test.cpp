@@ -1,4 +1,4 @@
-// Skin over muscles that move: nothing comes through, in walks and in any pose that joints allow.
+// Skin over moving muscles: no muscle comes through, in walks and in any pose of the joints' ranges.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ constexpr std::array<Somebody, 6> people = {{{1.75F, 75, Sex::man},
                                              {1.75F, 58, Sex::man},
                                              {1.70F, 95, Sex::man}}};
 
-/// Which triangles of a closed surface a ray along x may meet.
+/// Candidate triangles of a closed surface for rays along x.
 class Rays {
  public:
   Rays(const std::vector<Vec3<float>>& position, const std::vector<std::uint32_t>& triangle)
@@ -82,7 +82,7 @@ class Rays {
     return crossings != 0;
   }
 
-  /// How far a point is from the surface, m; 0.05 where it is farther.
+  /// Returns the distance of a point from the surface, m; at most 0.05.
   double distance(const Vec3<float>& p) const {
     constexpr double far = 0.05;
     double nearest = far;
@@ -97,7 +97,8 @@ class Rays {
   }
 
  private:
-  /// How far the origin is from a triangle: from its plane if it lies over it, else from its nearest edge.
+  /// Returns the distance of the origin from a triangle: from its plane if it is above the triangle, else from the
+  /// nearest edge.
   static double from_origin(const Vec& a, const Vec& b, const Vec& c) {
     const Vec n = cross(b - a, c - a);
     const double area = length(n);
@@ -119,7 +120,7 @@ class Rays {
   std::map<std::pair<int, int>, std::vector<std::uint32_t>> bucket_;
 };
 
-/// How much of a person's muscles is outside of their skin.
+/// Share of a person's muscles outside the skin.
 struct Outside {
   std::size_t all = 0, without = 0, outside = 0, beyond = 0;  // vertices; without cover, with it, by more than 2 mm
   double worst_m = 0, max_lift_m = 0;
@@ -134,7 +135,7 @@ struct Outside {
   }
 };
 
-/// One person's muscles as they are drawn, and the skin over them.
+/// One person's drawn muscles and the skin over them.
 class Watched {
  public:
   Watched(Simulation& simulation, Entity person, double detail)
@@ -203,7 +204,7 @@ void expect_covered(const Outside& found, double max_beyond, double max_m, doubl
   EXPECT_LT(found.max_lift_m, max_lift_m);
 }
 
-TEST(SkinCover, HoldsTheMusclesThroughAStride) {
+TEST(SkinCover, CoversTheMusclesThroughAStride) {
   for (const Somebody& somebody : people) {
     Simulation simulation(sharing());
     SpawnRequest walker;
@@ -223,7 +224,7 @@ TEST(SkinCover, HoldsTheMusclesThroughAStride) {
 }
 
 /// A thousand poses with MOBIL_LONG=1.
-TEST(SkinCover, HoldsTheMusclesInAnyPose) {
+TEST(SkinCover, CoversTheMusclesInAnyPose) {
   const int poses = std::getenv("MOBIL_LONG") != nullptr ? 167 : 12;  // each
   std::mt19937 random(4);
   const auto within = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };

@@ -1,4 +1,4 @@
-// Skin over fat that wobbles: each region's moves as it says, and nothing else does.
+// Skin over wobbling fat: each region moves by its displacement, and no other vertex moves.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,14 +21,14 @@ namespace {
 
 using skin_test::place;
 
-/// The part of a region's way that a vertex goes.
+/// Returns the fraction of a region's displacement that a vertex follows.
 float part_of(const FatPlace& at, FatRegion region) {
   float part = 0;
   for (std::size_t k = 0; k < at.part.size(); ++k) part += at.region[k] == index(region) ? at.part[k] : 0;
   return part;
 }
 
-TEST(SkinFat, LiesWhereItIsNamedAndNowhereElse) {
+TEST(SkinFat, IsOnlyInItsRegions) {
   for (const Sex sex : {Sex::man, Sex::woman}) {
     const SkinMesh& mesh = skin_mesh(sex, SkinDetail::near);
     const BodySkin skin = *make_body_skin(*make_body(skin_body(sex)), SkinDetail::near);
@@ -56,7 +56,7 @@ TEST(SkinFat, LiesWhereItIsNamedAndNowhereElse) {
   }
 }
 
-TEST(SkinFat, MovesEachVertexByItsPartOfTheWay) {
+TEST(SkinFat, MovesEachVertexByItsShare) {
   for (const Sex sex : {Sex::man, Sex::woman}) {
     const Body body = *make_body(skin_body(sex));
     const SkinMesh& mesh = skin_mesh(sex, SkinDetail::far);
@@ -88,7 +88,7 @@ TEST(SkinFat, MovesEachVertexByItsPartOfTheWay) {
   }
 }
 
-TEST(SkinFat, IsShownOfWhoHasItAndIsAwakeAndWhole) {
+TEST(SkinFat, IsDisplayedOnlyForFullPeopleWithFat) {
   Simulation simulation;
   const BodyRequest body{.height_m = 1.75F, .mass_kg = 100};
   const std::array people = {*simulation.spawn(body, {.speed_m_s = 1.5F}),

@@ -1,4 +1,4 @@
-// Skin in lanes: what plain code comes to, and the same bits on every instruction set.
+// Skin in lanes: equal to plain code, and the same bits on every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ double length_of(const Vec3<double>& v) {
   return std::sqrt(dot(v, v));
 }
 
-TEST(SkinLanes, IsWhatOneVertexAtATimeComesTo) {
+TEST(SkinLanes, MatchesOneVertexAtATime) {
   Simulation simulation(sharing());
   const Entity one = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.6F});
   ASSERT_TRUE(simulation.set_muscles(one));
@@ -72,8 +72,8 @@ TEST(SkinLanes, IsWhatOneVertexAtATimeComesTo) {
   EXPECT_GT(max_lift, 0.005);
 }
 
-/// Either leg, bent far or not, larger than its skin, with vertices that are no numbers or far away among the others.
-TEST(SkinLanes, CoversEitherLegInAnyPoseAsPlainCodeDoes) {
+/// Either leg, bent slightly or far, larger than its skin, with NaN and distant vertices among the others.
+TEST(SkinLanes, CoversEitherLegInAnyPoseAsPlainCode) {
   const Body body = *make_body({.height_m = 1.75F, .mass_kg = 75});
   const BodySkin skin = *make_body_skin(body, SkinDetail::distant);
   std::mt19937 random(8);
@@ -99,7 +99,7 @@ TEST(SkinLanes, CoversEitherLegInAnyPoseAsPlainCodeDoes) {
     SkinCover cover, oracle;
     cover_muscles(skin, pose, lengths, side, cloud, cover.lift_m[side]);
     skin_oracle::cover(skin, pose, lengths, side, plain, oracle.lift_m[side]);
-    std::size_t off = 0;  // vertices on the border of two rings may fall into either
+    std::size_t off = 0;  // vertices on the border of two rings can be in either
     for (std::size_t n = 0; n < leg_grid_points; ++n) {
       ASSERT_TRUE(std::isfinite(cover.lift_m[side][n]));
       off += std::abs(cover.lift_m[side][n] - oracle.lift_m[side][n]) > 2e-5F ? 1 : 0;
@@ -118,7 +118,7 @@ TEST(SkinLanes, HoldsTheSameBitsOnEveryInstructionSet) {
   const BodySkin skin = *make_body_skin(simulation.person(one)->body, SkinDetail::far);
   std::mt19937 random(5);
   std::uniform_real_distribution<float> near(-0.15F, 0.15F);
-  std::vector<Vec3<float>> cloud(501);  // round the shank and the knee
+  std::vector<Vec3<float>> cloud(501);  // around the shank and the knee
   for (Vec3<float>& p : cloud)
     p = pose.position_m[index(Segment::shank_right)] + Vec3<float>{near(random), 2 * near(random), near(random)};
   std::vector<Placed> all;

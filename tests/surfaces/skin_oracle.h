@@ -1,5 +1,5 @@
 #pragma once
-// Skin one vertex at a time, as plain code: what the kernels of systems/surfaces are held to.
+// Skin one vertex at a time, in plain code: reference for the kernels of systems/surfaces.
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ inline float eased(float t) {
   return t * t * (3 - 2 * t);
 }
 
-/// The angle of (x, z) from the z axis towards the x axis in turns, 0 to 1, to 10⁻⁴ of one.
+/// Returns the angle of (x, z) from the z axis towards the x axis in turns, 0 to 1, to 10⁻⁴ turns.
 inline float turn_of(float x, float z) {
   const float ax = std::abs(x), az = std::abs(z);
   const float r = std::min(ax, az) / std::max({ax, az, 1e-20F}), s = r * r;
@@ -37,7 +37,7 @@ inline float turn_of(float x, float z) {
   return (x < 0 ? tau - angle : angle) / tau;
 }
 
-/// `share` of the way from a to b, the short way round.
+/// Returns the rotation at `share` of the shorter way from a to b.
 template <class F>
 Quat<F> blended(const Quat<F>& a, const Quat<F>& b, std::type_identity_t<F> share) {
   const F p = 1 - share, q = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -share : share;
@@ -46,7 +46,13 @@ Quat<F> blended(const Quat<F>& a, const Quat<F>& b, std::type_identity_t<F> shar
   return {scale * sum.x, scale * sum.y, scale * sum.z, scale * sum.w};
 }
 
-/// A joint's rings: the first as the segment below, the last as the one above.
+/// Rings of a joint, from the segment below to the segment above; shown for a bent knee:
+///
+///     |  above  |
+///     +---------+       ring `steps` at height `high`, with the axes of the segment above
+///      `         `      rings between, with blended axes
+///       +---------+     ring 0 at height `low`, with the axes of the segment below
+///        `  below  `
 struct Bend {
   Vec3<float> centre;
   float low, high, angle;
@@ -67,11 +73,11 @@ struct Bend {
     const float t = (y - low) / (high - low);
     return t <= 0 || t >= 1 ? 0 : angle * 6 * t * (1 - t) / (high - low);
   }
-  /// A point in one ring: to the left, up, to the front.
+  /// Returns a point in the axes of one ring: left, up, front.
   Vec3<float> in(std::size_t k, const Vec3<float>& p) const {
     return {dot(axes[k][0], p - centre), dot(axes[k][1], p - centre), dot(axes[k][2], p - centre)};
   }
-  /// In the first ring where its height is not above the ring's own.
+  /// Returns a point in the first ring whose height is not below the point's.
   Vec3<float> in(const Vec3<float>& p) const {
     std::size_t k = 1;
     while (k < steps && in(k, p).y > height(k)) ++k;
@@ -81,7 +87,7 @@ struct Bend {
   }
 };
 
-/// The leg as its skin has it: straight along thigh and shank, turning at its joints.
+/// The leg in its skin's coordinates: straight along thigh and shank, turning at its joints.
 class Rings {
  public:
   Rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side)
@@ -111,11 +117,11 @@ class Rings {
     return place(at, 2 - at.y / shank_m_);
   }
 
-  /// By how much a bend is hollow at a station and an angle, rad/m; below 0 outside of it.
+  /// Returns the curvature of a bend's hollow at a station and an angle, rad/m; below 0 on its outer side.
   float hollow(std::size_t station, std::size_t angle) const {
     return -curved(station) * std::cos(tau * static_cast<float>(angle) / leg_angles);
   }
-  /// How far from the line a bent joint has room for skin, m; large elsewhere.
+  /// Returns the distance from the line up to which a bent joint has room for skin, m; large elsewhere.
   float room(std::size_t station, std::size_t angle) const {
     const float in = hollow(station, angle);
     return in > 0.05F && std::abs(curved(station)) > 0.1F ? 0.92F / in : 1;
@@ -150,7 +156,7 @@ class Rings {
   float thigh_m_, shank_m_, out_ = 1;
 };
 
-/// Each point a little nearer to the mean of its four neighbours.
+/// Moves each point slightly towards the mean of its four neighbours.
 inline void smooth(std::array<float, leg_grid_points>& grid, int rounds) {
   std::array<float, leg_grid_points> next;
   for (int round = 0; round < rounds; ++round) {
@@ -167,7 +173,7 @@ inline void smooth(std::array<float, leg_grid_points>& grid, int rounds) {
   }
 }
 
-/// The larger, rounded over where they differ by less than w (C¹).
+/// Returns the larger value, rounded where they differ by less than w (C¹).
 inline float rounded_max(float a, float b, float w) {
   const float d = a - b;
   if (d >= w) return a;
@@ -175,7 +181,7 @@ inline float rounded_max(float a, float b, float w) {
   return b + (d + w) * (d + w) / (4 * w);
 }
 
-/// The larger of each point and its eight neighbours.
+/// Returns the maximum of each point and its eight neighbours.
 inline std::array<float, leg_grid_points> spread(const std::array<float, leg_grid_points>& grid) {
   std::array<float, leg_grid_points> wide{};
   for (std::size_t i = 0; i < leg_stations; ++i) {
@@ -194,12 +200,12 @@ inline std::array<float, leg_grid_points> spread(const std::array<float, leg_gri
 inline void cover(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side,
                   std::span<const Vec3<float>> muscles, std::array<float, leg_grid_points>& lift_m) {
   const Rings rings(skin, pose, lengths, side);
-  // How far muscles reach at each point; those beside it count for less, so that nothing jumps as they pass.
+  // Largest extent of muscles at each point. Muscles at a lateral distance count less, so passing ones cause no jump.
   constexpr float beside_m = 0.004F;
   std::array<float, leg_grid_points> reach{};
   for (const Vec3<float>& p : muscles) {
     const Rings::Place at = rings.place(p);
-    if (!(at.along >= 0 && at.along <= leg_stations - 1)) continue;  // nor NaN
+    if (!(at.along >= 0 && at.along <= leg_stations - 1)) continue;  // also excludes NaN
     const auto i = static_cast<std::size_t>(at.along);
     const auto j = static_cast<std::size_t>(at.round);
     for (std::size_t a = i; a <= std::min(i + 1, leg_stations - 1); ++a) {
@@ -212,7 +218,7 @@ inline void cover(const BodySkin& skin, const Pose<float>& pose, float lengths, 
   }
   constexpr float round_m = 0.004F, thin_m = 0.004F, min_m = 0.0005F;
   const LegGrid& grid = skin.leg;
-  // Over the skin without muscles.
+  // Relative to the skin without muscles.
   std::array<float, leg_grid_points> excess, floor;
   for (std::size_t n = 0; n < leg_grid_points; ++n) {
     const float base = lengths * grid.base[n], fat = lengths * grid.fat[n];
@@ -235,7 +241,7 @@ inline void cover(const BodySkin& skin, const Pose<float>& pose, float lengths, 
       const float beyond = (h - most) / (0.2F * room);
       h = most + 0.2F * room * beyond / (1 + beyond);
     }
-    // As of the skin at rest, which `lengths` makes larger.
+    // In units of the skin at rest, which `lengths` scales.
     lift_m[n] = h / lengths - grid.base[n];
   }
 }
@@ -244,7 +250,7 @@ struct RestPoint {
   Vec3<float> place, normal;
 };
 
-/// A vertex at rest, moved away from its leg's line; its normal tilts as what lifts it slopes.
+/// Returns a vertex at rest, moved away from its leg's line. Its normal tilts with the slope of the displacement.
 inline RestPoint lifted(const BodySkin& skin, const SkinCover& cover, const LegPlace& leg, const RestPoint& rest) {
   const std::size_t side = rest.place.x > 0 ? Side::left : Side::right;
   const std::array<float, leg_grid_points>& grid = cover.lift_m[side];
@@ -264,20 +270,20 @@ inline RestPoint lifted(const BodySkin& skin, const SkinCover& cover, const LegP
   constexpr float stations = (leg_stations - 1) / static_cast<float>(last_leg_s - first_leg_s);
   const float down = stations / (rest.place.y > knee.y ? hip.y - knee.y : knee.y - at(Segment::foot_right).y);
   const float turn = an_angle * leg_angles / (2 * std::numbers::pi_v<float> * away);
-  const float out = side == Side::right ? 1.0F : -1.0F;  // angles grow to the inner side
+  const float out = side == Side::right ? 1.0F : -1.0F;  // angles increase towards the inner side
   const Vec3<float> normal{rest.normal.x - turn * out * z / away, rest.normal.y + a_station * down,
                            rest.normal.z + turn * out * x / away};
   return {{rest.place.x + lift * x / away, rest.place.y, rest.place.z + lift * z / away}, normal};
 }
 
-/// Where each vertex is, and its unit normal: frames and their mean in double precision.
+/// Returns each vertex's position and unit normal. Frames and their mean are in double precision.
 inline std::vector<std::array<Vec3<double>, 2>> place(const BodySkin& skin, const Pose<float>& pose,
                                                       const SkinCover* cover) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
   const auto rotation = [&](std::uint8_t s) {
     const Quat<double> own = to_double(pose.rotation[segment_of(s)]);
     if (s < segment_count) return own;
-    // the forearm without its turn about its own length
+    // the forearm without its rotation about its own length
     const Quat<double> arm = to_double(pose.rotation[index(on_side(Segment::upper_arm_right, s - segment_count))]);
     const Quat<double> elbow = product(conjugate(arm), own);
     const double n = std::sqrt(elbow.y * elbow.y + elbow.w * elbow.w);

@@ -1,5 +1,5 @@
 #pragma once
-// A skin's vertices as the kernels place them.
+// A skin's vertices, placed by the kernels.
 
 #include <cmath>
 #include <span>
@@ -30,7 +30,7 @@ inline Placed place(const BodySkin& skin, const Pose<float>& pose, const SkinCov
   return to;
 }
 
-/// Standing, with both knees, hips and elbows bent by so many rad.
+/// Returns a standing pose with both knees, hips and elbows bent by the given angles, rad.
 inline Pose<float> bent(const Body& body, float knee, float hip, float elbow) {
   const Pose<float> standing = standing_pose(body);
   Pose<float> pose = standing;

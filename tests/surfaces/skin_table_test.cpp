@@ -1,4 +1,5 @@
-// Skin over muscles that nobody simulates: as near to that over muscles as is said, in walks that it was not fitted to.
+// Skin over muscles that are not simulated: close to the skin over simulated muscles, in walks that it was not fitted
+// to.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,7 +83,7 @@ TEST(SkinTable, IsNearTheSkinOverMusclesInWalks) {
   }
 }
 
-TEST(SkinTable, SaysWhatItsTermsAndModesSay) {
+TEST(SkinTable, EvaluatesItsTermsAndModes) {
   SkinTable table;
   for (std::size_t m = 0; m < skin_modes; ++m) {
     for (std::size_t t = 0; t < skin_terms; ++t) table.weight[t][m] = std::cos(static_cast<float>(t * skin_modes + m));
@@ -99,7 +100,7 @@ TEST(SkinTable, SaysWhatItsTermsAndModesSay) {
   const auto value = skin_term_values(right);
   std::vector<std::array<float, leg_grid_points>> all;
   for_each_fused_instruction_set([&] { cover_by_table(table, right, all.emplace_back()); });
-  if (all.empty()) cover_by_table(table, right, all.emplace_back());  // none fuses multiply and add
+  if (all.empty()) cover_by_table(table, right, all.emplace_back());  // without fused multiply-add
   for (const auto& lift : all) EXPECT_EQ(std::memcmp(&lift, all.data(), sizeof lift), 0);
   for (std::size_t n = 0; n < leg_grid_points; ++n) {
     double sum = 0;
@@ -109,7 +110,7 @@ TEST(SkinTable, SaysWhatItsTermsAndModesSay) {
                static_cast<double>(table.mode[m][n]);
     ASSERT_NEAR(all[0][n], sum, 1e-8);
   }
-  // beyond the poses that a table is made from it stays as it is there
+  // beyond the poses that a table is made from, it stays at the limit
   EXPECT_EQ(skin_term_values({3, 3, 3}), skin_term_values(max_leg_angles));
 }
 
@@ -143,7 +144,7 @@ TEST(SkinTable, MovesOnlyLegsWithoutMuscles) {
   EXPECT_LT(most, 0.05F);
 }
 
-TEST(SkinTable, RefusesABodyThatThereIsNot) {
+TEST(SkinTable, RefusesInvalidBodies) {
   SkinTables tables;
   EXPECT_FALSE(tables.of({.height_m = 9}));
 }

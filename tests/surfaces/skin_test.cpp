@@ -1,4 +1,4 @@
-// People's skin: closed, as large as the survey has people, as heavy as they are, whole in every pose.
+// People's skin: closed, with the survey's dimensions, with the body's mass, and intact in every pose.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -45,12 +45,12 @@ BodyRequest sample_person(float height_m, float mass_kg, Sex sex = Sex::man) {
   return body;
 }
 
-/// Two men and two women of usual build, and who is thin and heavy.
+/// Two men and two women of usual build, a thin and a heavy person.
 const std::array<BodyRequest, 6> people = {
     sample_person(1.75F, 75), sample_person(1.90F, 84),  sample_person(1.65F, 62, Sex::woman),
     sample_person(1.75F, 58), sample_person(1.75F, 105), sample_person(1.60F, 85, Sex::woman)};
 
-/// Undressed, in the finest detail, of one of `people`; made once.
+/// Returns the undressed skin of one of `people` in the finest detail; made once.
 const BodySkin& finest_skin(std::size_t person) {
   static std::array<std::optional<BodySkin>, people.size()> made;
   if (!made[person]) made[person] = *make_body_skin(*make_body(people[person]), SkinDetail::hero, {.dressed = false});
@@ -92,13 +92,14 @@ TEST(Skin, IsClosedAndBoundEverywhere) {
   }
 }
 
-TEST(Skin, WeighsWhatThePersonDoes) {
+TEST(Skin, HasThePersonsMass) {
   for (std::size_t i = 0; i < people.size(); ++i) {
     const BodyRequest& request = people[i];
     const Body body = *make_body(request);
     const BodySkin& skin = finest_skin(i);
     const double litres = 1e3 * volume(skin, skin.rest);
-    // Air in the lungs apart (Quanjer 1993; of the heavy less), fat weighs 0.90 and all else 1.10 kg a litre (Siri).
+    // Without the air in the lungs (Quanjer 1993; less in the heavy), fat has 0.90 kg and all else 1.10 kg a litre
+    // (Siri).
     const auto height_m = static_cast<double>(request.height_m), mass_kg = static_cast<double>(request.mass_kg),
                index = mass_kg / (height_m * height_m);
     const double fat_kg =
@@ -111,12 +112,12 @@ TEST(Skin, WeighsWhatThePersonDoes) {
   }
 }
 
-/// Whether an arm carries it.
+/// Returns true if an arm carries the vertex.
 bool is_arms(const SkinMesh& mesh, std::uint32_t vertex) {
   return mesh.frame[mesh.vertex[vertex].frame[0]].to >= index(Segment::clavicle_right);
 }
 
-/// Length round trunk, neck or the legs between two x at the height y.
+/// Returns the girth of trunk, neck or the legs between two x at the height y.
 double tape(const BodySkin& skin, double y, double from_x, double to_x) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
   std::vector<std::array<double, 2>> cut;
@@ -184,7 +185,7 @@ TEST(Skin, HasTheGirthsOfTheSurvey) {
   }
 }
 
-TEST(Skin, StandsAsItWasMadeAndMovesAsAWhole) {
+TEST(Skin, KeepsItsRestShapeAndMovesRigidly) {
   const Body body = *make_body(people[2]);
   const BodySkin skin = *make_body_skin(body, SkinDetail::near);
   const Pose<float> standing = standing_pose(body);
@@ -204,7 +205,7 @@ TEST(Skin, StandsAsItWasMadeAndMovesAsAWhole) {
   }
 }
 
-/// How much of a surface's area is turned against its normals.
+/// Returns the share of a surface's area that is turned against its normals.
 double folded(const BodySkin& skin, const Placed& placed) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
   double wrong = 0, all = 0;
@@ -261,7 +262,7 @@ TEST(Skin, ChangesItsVolumeLittleInAWalk) {
   EXPECT_NEAR(least / at_rest, 1, 0.03);
 }
 
-TEST(Skin, IsMadeForEveryBodyThereIs) {
+TEST(Skin, IsMadeForEveryBody) {
   for (const Sex sex : {Sex::man, Sex::woman}) {
     for (const auto& [height_m, mass_kg] : {std::pair{1.2F, 30.0F}, std::pair{1.2F, 130.0F}, std::pair{1.5F, 200.0F},
                                             std::pair{2.2F, 60.0F}, std::pair{2.2F, 200.0F}}) {
@@ -284,7 +285,7 @@ TEST(Skin, IsMadeForEveryBodyThereIs) {
   EXPECT_FALSE(make_body_skin(*make_body(long_legs), SkinDetail::far));
 }
 
-TEST(Skin, MusclesThatAreNoNumbersLiftNothing) {
+TEST(Skin, NanMusclesLiftNothing) {
   const Body body = *make_body(people[0]);
   const BodySkin skin = *make_body_skin(body, SkinDetail::distant);
   const float nan = std::nanf("");
@@ -308,7 +309,7 @@ TEST(Skin, HidesTheBones) {
   }
 }
 
-TEST(SkinWriter, WritesTheSameForAnyThreadsAndRefusesWhatItCannot) {
+TEST(SkinWriter, SameOnAnyThreadsAndRefusesInvalidRequests) {
   Simulation simulation;
   BodySkins skins;
   std::vector<Entity> walkers;
@@ -352,14 +353,14 @@ TEST(SkinWriter, WritesTheSameForAnyThreadsAndRefusesWhatItCannot) {
   EXPECT_FALSE(skins.of(sample_person(3, 75), SkinDetail::far));
 }
 
-TEST(BodyMeasures, AreThoseOfTheSurveysMeanPeople) {
+TEST(BodyMeasures, MatchTheSurveysMeans) {
   // ANSUR II, means of 3348 men under 40 (1.756 m, 85.5 kg): girths of thigh, calf, waist, chest, mm.
   const BodyMeasures man = body_measures(sample_person(1.7562F, 85.52F));
   EXPECT_NEAR(1e3 * man.thigh_girth, 624, 8);
   EXPECT_NEAR(1e3 * man.calf_girth, 391, 5);
   EXPECT_NEAR(1e3 * man.waist_girth, 927, 15);
   EXPECT_NEAR(1e3 * man.chest_girth, 1050, 12);
-  // Of all 1986 women (1.6285 m, 67.76 kg): foot length and breadth, hand breadth.
+  // Means of all 1986 women (1.6285 m, 67.76 kg): foot length and breadth, hand breadth.
   const BodyMeasures woman = body_measures(sample_person(1.6285F, 67.76F, Sex::woman));
   EXPECT_NEAR(1e3 * woman.foot_length, 246.3, 1.5);
   EXPECT_NEAR(1e3 * woman.foot_breadth, 92.7, 1);
@@ -367,7 +368,7 @@ TEST(BodyMeasures, AreThoseOfTheSurveysMeanPeople) {
   EXPECT_GT(woman.hip_breadth, body_measures(sample_person(1.6285F, 67.76F)).hip_breadth);
 }
 
-/// However many steps a build is cut into, none is beyond the ends that are promised.
+/// For any number of steps that a build is divided into, all stay within the documented ends.
 RC_GTEST_PROP(Skin, BuildsStayWithinTheirEnds, ()) {
   BodyRequest body{.height_m = static_cast<float>(*rc::gen::inRange(1200, 2201)) / 1000,
                    .mass_kg = static_cast<float>(*rc::gen::inRange(300, 2001)) / 10};

@@ -1,6 +1,5 @@
 #pragma once
-// One bound surface as the kernels place it, and the same one vertex at a time from the formula; normals in double
-// precision.
+// One bound surface as the kernels place it, and one vertex at a time by the formula. Normals are in double precision.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +27,7 @@ inline SkinMaps maps_of(const SurfaceRest& rest, Side side, const Pose<float>& p
   return skin_maps(rest, side, now(rest.origin), now(rest.insertion), line);
 }
 
-/// By the kernels. `u`: displacements, three a node.
+/// Returns the vertices placed by the kernels. `u`: displacements, three a node.
 inline std::vector<Vec3<float>> skinned(const MuscleSurface& surface, Side side, const Body& body,
                                         const Pose<float>& pose, const LineOfAction<float>& line,
                                         const std::vector<float>& u) {
@@ -51,8 +50,8 @@ inline std::vector<float> displacements(const NodalView& view) {
   return u;
 }
 
-/// p = lattice · frame(rest_in_lattice + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀), operation by
-/// operation.
+/// Evaluates p = lattice · frame(rest_in_lattice + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀), in
+/// the kernels' order of operations.
 inline std::vector<Vec3<float>> skinned_one_by_one(const MuscleSurface& surface, Side side, const Body& body,
                                                    const Pose<float>& pose, const LineOfAction<float>& line,
                                                    const std::vector<float>& u) {
@@ -87,7 +86,7 @@ inline std::vector<Vec3<float>> skinned_one_by_one(const MuscleSurface& surface,
   return out;
 }
 
-/// Means of the triangles' normals weighted by their areas; up where there are none.
+/// Returns means of the triangles' normals weighted by their areas; up for vertices without triangles.
 inline std::vector<Vec3<double>> triangle_normals(std::span<const Vec3<float>> position,
                                                   std::span<const std::uint32_t> triangle) {
   using namespace geometry;

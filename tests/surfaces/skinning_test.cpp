@@ -33,7 +33,7 @@ Quat<float> rotation(const Vec& axis, double angle) {
           static_cast<float>(std::cos(0.5 * angle))};
 }
 
-/// A bent, twice bulging lattice, some 0.25 m long.
+/// Returns a bent lattice of about 0.25 m, whose widths in x and y peak at different stations.
 HexahedralMesh lattice(const Cells& cells = {3, 3, 10}) {
   const std::array<LatticeStation, 4> stations = {LatticeStation{0, 0, 0, 0.020F, 0.020F},
                                                   {0.35F, 0.004F, -0.003F, 0.045F, 0.035F},
@@ -42,7 +42,7 @@ HexahedralMesh lattice(const Cells& cells = {3, 3, 10}) {
   return bend_block(cells, stations, 0.25).value();
 }
 
-/// Belly from below the hip to above the knee, z down the thigh, a little askew.
+/// Returns a belly's frame from below the hip to above the knee, z down the thigh, slightly tilted.
 RestFrame thigh_frame(const Body& b) {
   const Vec hip = to_double(b.joint_offset_m[0]) + to_double(b.joint_offset_m[index(Segment::thigh_right)]);
   return {to_float(hip + Vec{-0.02, -0.10, -0.02}), product(rotation({0.2, 0, 1}, 0.1), rotation({1, 0, 0}, 1.5708))};
@@ -132,7 +132,7 @@ TEST(Binding, WeightsArePartitionsOfOne) {
 }
 
 TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
-  // All of triceps surae: the calcaneal tendon reaches the heel, the others end in it and go with it.
+  // All of triceps surae: the calcaneal tendon reaches the heel; the others end in it and move with it.
   const Bound base(10);
   auto muscles = make_muscle_surfaces(base.b);
   const Vec knee = to_double(base.rest_pose().position_m[index(Segment::shank_right)]);
@@ -159,7 +159,7 @@ TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
   }
 }
 
-TEST(Skinning, RestsWhereItWasDrawn) {
+TEST(Skinning, RestsInItsDrawnPlace) {
   for (std::size_t m = 0; m < 12; ++m) {
     const Bound bound(m);
     const auto out = bound.skin(bound.rest_pose(), bound.rest_line(), bound.still());
@@ -186,9 +186,9 @@ RC_GTEST_PROP(Skinning, MovesRigidlyWithTheWholeBody, ()) {
   }
 }
 
-RC_GTEST_PROP(Skinning, ALinearFieldOfTheLatticeIsReproducedInside, ()) {
+RC_GTEST_PROP(Skinning, LinearFieldOfTheLatticeIsReproduced, ()) {
   static const Bound bound;
-  // a surface of our own that lies well inside
+  // a separate surface well inside
   MuscleSurface inner;
   inner.mesh = ellipsoid({0, 0, 0}, {0.012, 0.012, 0.10}, 20, 12);
   for (auto& p : inner.mesh.position) {
@@ -219,7 +219,7 @@ RC_GTEST_PROP(Skinning, ALinearFieldOfTheLatticeIsReproducedInside, ()) {
   }
 }
 
-/// A bent leg: the shank turned back about the knee, the thigh forward about the hip; the muscle's frame with the
+/// A bent leg: the shank turned back about the knee, the thigh forward about the hip. The muscle's frame moves with the
 /// thigh.
 struct BentLeg {
   Pose<float> pose;
@@ -240,7 +240,7 @@ BentLeg bent(const Bound& bound, double hip, double knee) {
 }
 
 RC_GTEST_PROP(Skinning, NeighboursStayNeighboursAcrossTheEnds, ()) {
-  // Displacement differs along an edge by no more than the edge times a bounded strain: nothing tears.
+  // Displacement differs along an edge by at most the edge times a bounded strain: the surface does not tear.
   static const Bound bound;
   const BentLeg leg = bent(bound, *rc::gen::inRange(-20, 60) * 0.01, *rc::gen::inRange(0, 100) * 0.01);
   // the lattice bulges and is drawn out towards its far end
@@ -317,7 +317,7 @@ TEST(Ligament, FollowsItsBonesAtItsEnds) {
   EXPECT_LT(length(to_double(out.back()) - follow(surface.insertion, surface.mesh.position.back())), 1e-5);
 }
 
-TEST(Normals, OfAnEllipsoidAreItsOwn) {
+TEST(Normals, OfAnEllipsoidAreExact) {
   const Vec semi{0.05, 0.08, 0.12};
   const SurfaceMesh mesh = ellipsoid({0, 0, 0}, semi, 60, 64);
   const RigidSurface rigid = pack_rigid(mesh).value();
@@ -333,7 +333,7 @@ TEST(Normals, OfAnEllipsoidAreItsOwn) {
   }
 }
 
-/// Of rings that lack neighbours, have more than six, meet in one vertex alone, or have none.
+/// Vertex rings that lack neighbours, have more than six, meet only in one vertex, or are empty.
 TEST(Normals, RingsAreSumsOfTheirTriangles) {
   SurfaceMesh mesh;
   for (int i = 0; i < 15; ++i) {
@@ -341,7 +341,7 @@ TEST(Normals, RingsAreSumsOfTheirTriangles) {
     mesh.position.push_back({std::cos(a) * (1 + 0.1F * a), std::sin(a), 0.2F * std::sin(3 * a)});
   }
   mesh.position.push_back({0, 0, 0.5F});  // 15: in the middle of a fan of each size
-  mesh.position.push_back({9, 9, 9});     // 16: of no triangle
+  mesh.position.push_back({9, 9, 9});     // 16: without triangles
   for (std::uint32_t fan = 1; fan <= 13; ++fan) {
     for (const bool closed : {false, true}) {
       mesh.triangle.clear();
@@ -358,7 +358,7 @@ TEST(Normals, RingsAreSumsOfTheirTriangles) {
   }
 }
 
-TEST(PackSurface, SaysWhatIsWrongWithASurface) {
+TEST(PackSurface, RefusalsNameTheMistake) {
   const Bound bound;
   const auto error = [&](const MuscleSurface& s, std::uint32_t nodes) {
     const auto packed = pack_surface(s, bound.b, nodes);

@@ -1,4 +1,4 @@
-// Single muscles are kept out of each other and of bones: less new overlap than without, nothing at rest.
+// Contacts of single muscles with each other and with bones: less new overlap than without, and no change at rest.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace mobil::surface_contacts_test {
 using namespace geometry;
 
-/// A right leg with all single muscles, posed.
+/// A posed right leg with all single muscles.
 class PosedLeg {
  public:
   PosedLeg() {
@@ -48,7 +48,7 @@ class PosedLeg {
     each_triangle(part, [&](const Vec& a, const Vec& b, const Vec& c) { sum += dot(a, cross(b, c)) / 6; });
     return sum;
   }
-  /// How deep each vertex of a muscle is in another muscle or a bone, m.
+  /// Returns the depth of each muscle vertex in another muscle or a bone, m.
   std::vector<double> depths() const {
     std::vector<double> depth(bound.vertices, 0);
     for (const SurfacePart& other : bound.part) {
@@ -86,7 +86,7 @@ class PosedLeg {
       f(to_double(position[bound.index[i]]), to_double(position[bound.index[i + 1]]),
         to_double(position[bound.index[i + 2]]));
   }
-  /// By the solid angle that a closed surface fills.
+  /// Returns true if the point is inside a closed surface, by the solid angle.
   bool is_inside(const Vec& p, const SurfacePart& part) const {
     double angle = 0;
     each_triangle(part, [&](const Vec& at_a, const Vec& at_b, const Vec& at_c) {
@@ -110,7 +110,7 @@ class PosedLeg {
   SurfaceWriter writer_;
 };
 
-/// The share p of vertices of muscles that are by at most so much deeper than at rest, mm.
+/// Returns the p-quantile of muscle vertices' additional depth relative to rest, mm.
 double new_mm(const PosedLeg& leg, const std::vector<double>& rest, double p) {
   const std::vector<double> now = leg.depths();
   std::vector<double> more;
@@ -123,7 +123,7 @@ double new_mm(const PosedLeg& leg, const std::vector<double>& rest, double p) {
   return more[static_cast<std::size_t>(p * static_cast<double>(more.size() - 1))];
 }
 
-TEST(SurfaceContacts, KeepMusclesApartAndTheirVolume) {
+TEST(SurfaceContacts, SeparateMusclesAndKeepTheirVolume) {
   PosedLeg leg;
   const SurfaceContacts contacts = find_contacts(leg.bound, leg.position, leg.normal);
   ContactWork work;
@@ -170,8 +170,8 @@ TEST(SurfaceContacts, ChangeNothingAtRest) {
   EXPECT_LT(most, 1e-4);
 }
 
-/// Elsewhere and turned it does the same; bones stay, and so do muscles' ends.
-TEST(SurfaceContacts, DoTheSameAnywhereAndLeaveBones) {
+/// The result is equal at another place and rotation. Bones stay, and so do the muscles' ends.
+TEST(SurfaceContacts, AreIndependentOfPlaceAndLeaveBones) {
   PosedLeg leg;
   const SurfaceContacts contacts = find_contacts(leg.bound, leg.position, leg.normal);
   ContactWork work;

@@ -1,4 +1,4 @@
-// Surfaces that were bound to one body, shown by others.
+// Surfaces bound to one body and displayed on others.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -63,8 +63,7 @@ TEST(SurfaceFit, OnTheSameBodyNothingChanges) {
   EXPECT_EQ(std::memcmp(normal.data(), fitted_normal.data(), normal.size() * sizeof normal[0]), 0);
 }
 
-/// How far muscles' vertices are, in the mean, from those of surfaces drawn for that body, m; bones are where they
-/// were.
+/// Returns the mean distance of muscle vertices from those of surfaces drawn for that body, m. Bones must coincide.
 double off_m(const BodyRequest& bound, const BodyRequest& body, double farthest_m = 0.03) {
   const BodySurfaces shared = bind_surfaces(make_body(bound).value()).value();
   Walker walker(body);
@@ -83,15 +82,15 @@ double off_m(const BodyRequest& bound, const BodyRequest& body, double farthest_
   return sum / count;
 }
 
-TEST(SurfaceFit, OnOtherBodiesTheyAreNearlyThoseDrawnForThem) {
+TEST(SurfaceFit, OnOtherBodiesTheyAreNearSurfacesDrawnForThem) {
   const BodyRequest usual{.height_m = 1.75F, .mass_kg = 72};
   const BodyRequest strong{.height_m = 1.75F, .mass_kg = 85, .constitution = Constitution::athletic};
   EXPECT_LT(off_m(usual, bodies[0]), 0.0010);
   EXPECT_LT(off_m(usual, bodies[1]), 0.0010);
   EXPECT_LT(off_m(usual, bodies[3]), 0.0015);
-  // Muscles grow away from their bones, meshes about their middles: who is built otherwise has a bound one of that
-  // build.
-  // Of vastus lateralis some vertices are 4 cm off, along the surface: his is half as wide again, and cut back by skin.
+  // Muscles grow away from their bones, meshes about their middles. People of another build therefore need surfaces
+  // bound to that build. Some vertices of vastus lateralis are 4 cm off, along the surface: this one is 1.5 times as
+  // wide, and cut back by the skin.
   EXPECT_LT(off_m(usual, bodies[2], 0.05), 0.0050);
   EXPECT_LT(off_m(strong, bodies[2]), 0.0015);
 }

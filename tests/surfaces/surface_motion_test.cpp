@@ -1,5 +1,5 @@
-// Muscle surfaces over a walking cycle: they bulge, keep the volume that their meshes say, and neither fold nor tear.
-// One process for all tests of a suite: the cycles are walked once.
+// Muscle surfaces over a walking cycle: they bulge, keep the volume that their meshes give them, and neither fold nor
+// tear. The tests share the cycles, so they run in one process.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,8 +36,8 @@ using namespace geometry;
 constexpr std::size_t phases = 12;
 using Positions = std::vector<Vec3<float>>;
 
-/// One right-hand surface of one person over a stride: where it is, where its mesh alone would carry it, the muscle's
-/// frame and how much longer the line is than at rest.
+/// One right-hand surface of one person over a stride: its positions, positions by its mesh alone, the muscle's frame
+/// and the elongation of the line.
 struct Moving {
   std::string label;
   Muscle group{};
@@ -57,7 +57,7 @@ struct Drawn {
   std::optional<Ligament> beyond{};
 };
 
-/// Binds a person's surfaces, lets them walk a stride, and keeps what there is to see.
+/// Binds a person's surfaces, walks a stride, and records the surfaces.
 std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std::vector<Drawn> (*draw)(const Body&)) {
   Simulation simulation(sharing());
   const Entity entity = simulation.spawn(body).value();
@@ -169,7 +169,7 @@ const std::vector<Moving>& of_real_anatomy() {
   return all;
 }
 
-/// The two triangles of each edge that has two.
+/// The two triangles of each inner edge.
 struct Edge {
   std::uint32_t from, to;
   std::size_t one, other;
@@ -194,7 +194,8 @@ Vec normal(const SurfaceMesh& mesh, const Positions& p, std::size_t t) {
   return cross(to_double(p[mesh.triangle[t + 1]]) - a, to_double(p[mesh.triangle[t + 2]]) - a);
 }
 
-/// Neither sliver nor speck: as high as a fifth of its longest side, which is half a millimetre at least.
+/// Returns true for a triangle that is neither sliver nor speck: its height is at least a fifth of its longest side,
+/// which is at least half a millimetre.
 bool well_shaped(const SurfaceMesh& mesh, std::size_t t) {
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -204,7 +205,7 @@ bool well_shaped(const SurfaceMesh& mesh, std::size_t t) {
   return longest > 0.5e-3 && length(normal(mesh, mesh.position, t)) > 0.2 * longest * longest;
 }
 
-/// Angle by which the surface bends over an edge, positive where it is hollow; rad.
+/// Returns the angle by which the surface bends over an edge, positive if hollow; rad.
 double bend(const SurfaceMesh& mesh, const Positions& p, const Edge& e) {
   const Vec a = normal(mesh, p, e.one), b = normal(mesh, p, e.other);
   const Vec along = normalised(to_double(p[e.to]) - to_double(p[e.from]));
@@ -248,7 +249,7 @@ bool is_tendon(const Moving& m) {
   return m.ligament || m.surface.mesh.name.starts_with("calcaneal");
 }
 
-/// Largest area that the surface has across the muscle's line, m².
+/// Returns the surface's largest area across the muscle's line, m².
 double largest_section(const Moving& m, std::size_t phase) {
   constexpr int levels = 24;
   const LineOfAction<float>& line = m.line[phase];
@@ -290,9 +291,9 @@ void expect_whole(const std::vector<Moving>& all, double fold_deg, double smalle
   }
 }
 
-/// Where a group's mesh spans fewer joints than one of its members does, the shortening of that member over the joint
-/// has to go somewhere. `plantaris` gets that much more: its short belly takes what the calf's length does, a quarter
-/// of its own, and the measured one is thrice the size of a living one.
+/// If a group's mesh spans fewer joints than one of its members, the member's shortening over the other joint changes
+/// the volume. `plantaris` is an additional allowance: its short belly follows the calf's change of length, a quarter
+/// of its own length, and the measured one is 3 times as large as in living people.
 void expect_volumes(const std::vector<Moving>& all, double plantaris) {
   for (const Moving& m : all) {
     if (is_tendon(m) || m.cut) continue;
@@ -305,11 +306,11 @@ TEST(SurfaceMotion, NoTriangleFoldsOrVanishes) {
   expect_whole(generated(), 45, 0.25, 1.7);
 }
 
-TEST(SurfaceMotion, VolumesAreWhatTheMeshesSay) {
+TEST(SurfaceMotion, VolumesMatchTheMeshes) {
   expect_volumes(generated(), 0.02);
 }
 
-TEST(SurfaceMotion, TendonsAreNeitherTornNorPushedTogether) {
+TEST(SurfaceMotion, TendonsAreNeitherTornNorCompressed) {
   for (const Moving& m : generated()) {
     const Worst w = worst(m);
     EXPECT_GT(w.shortened, 0.25) << m.label;
@@ -340,7 +341,7 @@ class RealSurfaceMotion : public testing::Test {
   }
 };
 
-TEST_F(RealSurfaceMotion, EveryMuscleIsThereAndFollowsItsOwnMesh) {
+TEST_F(RealSurfaceMotion, EveryMuscleExistsAndFollowsItsOwnMesh) {
   std::map<std::string, int> drivers;
   for (const Drawn& d : real(make_body({.height_m = 1.80F, .mass_kg = 80}).value()))
     ++drivers[std::string(muscle_name(d.muscle))];
@@ -351,11 +352,11 @@ TEST_F(RealSurfaceMotion, NoTriangleFoldsOrVanishes) {
   expect_whole(of_real_anatomy(), 61, 0.2, 2.5);
 }
 
-TEST_F(RealSurfaceMotion, VolumesAreWhatTheMeshesSay) {
+TEST_F(RealSurfaceMotion, VolumesMatchTheMeshes) {
   expect_volumes(of_real_anatomy(), 0.05);
 }
 
-TEST_F(RealSurfaceMotion, TendonsAreNeitherTornNorPushedTogether) {
+TEST_F(RealSurfaceMotion, TendonsAreNeitherTornNorCompressed) {
   for (const Moving& m : of_real_anatomy()) {
     const Worst w = worst(m);
     EXPECT_GT(w.shortened, 0.4) << m.label;

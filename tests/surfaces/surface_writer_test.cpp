@@ -1,4 +1,4 @@
-// What a host gets of people's surfaces: positions and normals, in its own buffers, of whatever layout.
+// Surfaces of people as a host receives them: positions and normals, in its own buffers, in any layout.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,7 +87,7 @@ bool same(const Vec3<float>& a, const Vec3<float>& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Every muscle's vertices have the bits of the formula, with the control points that are shown.
+/// Expects every muscle's vertices to have the bits of the formula, with the displayed control points.
 void expect_formula(const Simulation& simulation, const Shown& shown, const LegMuscles& muscles) {
   const auto drawn = draw_surfaces(shown.subject.body, choice_of(muscles, false)).value();
   const Pose<float> pose = *simulation.get<Pose>(shown.person);
@@ -147,7 +147,7 @@ TEST(SurfaceWriter, ShowsWhatFadesAfterAChangeOfMethod) {
   expect_formula(simulation, shown, {});
 }
 
-TEST(SurfaceWriter, OnEveryBodyPositionsAreTheFormulasAndNormalsTheTriangles) {
+TEST(SurfaceWriter, PositionsAreTheFormulasAndNormalsTheTrianglesOnEveryBody) {
   for (const BodyRequest& body : bodies()) {
     Simulation simulation(sharing());
     Shown shown = show(simulation, body);
@@ -166,7 +166,7 @@ TEST(SurfaceWriter, OnEveryBodyPositionsAreTheFormulasAndNormalsTheTriangles) {
   }
 }
 
-TEST(SurfaceWriter, LayoutsHoldTheSameFloatsAndNothingElseIsTouched) {
+TEST(SurfaceWriter, LayoutsHoldTheSameFloatsAndNoOtherBytes) {
   Simulation simulation(sharing());
   Shown shown = show(simulation, {});
   simulation.advance(0.1);
@@ -243,7 +243,7 @@ TEST(SurfaceWriter, ThreadsAndInstructionSetsDoNotMatter) {
   for_each_fused_instruction_set([&] { EXPECT_TRUE(same_bytes(all({}), reference)); });
 }
 
-TEST(SurfaceWriter, AMuscleWithoutControlPointsIsDrawnAsLongAsItsLine) {
+TEST(SurfaceWriter, MuscleWithoutControlPointsHasItsLinesLength) {
   Simulation simulation(sharing());
   LegMuscles muscles;
   Shown shown = show(simulation, {}, muscles, false);
@@ -293,7 +293,7 @@ TEST(SurfaceWriter, AnOriginIsSubtracted) {
   }
 }
 
-TEST(SurfaceWriter, SidesAndBonesAreAChoice) {
+TEST(SurfaceWriter, SidesAndBonesCanBeChosen) {
   Simulation simulation(sharing());
   Shown shown = show(simulation, {});
   simulation.advance(0.1);
@@ -303,7 +303,7 @@ TEST(SurfaceWriter, SidesAndBonesAreAChoice) {
   choice.sides = {false, true};
   shown.surfaces = bind_surfaces(shown.subject.body, choice).value();
   shown.out.assign(shown.surfaces.vertices, Vertex{});
-  for (SurfaceMuscle& m : shown.muscles) m.entity[Side::right] = {};  // nobody looks at them
+  for (SurfaceMuscle& m : shown.muscles) m.entity[Side::right] = {};  // not displayed
   write(simulation, shown);
   std::size_t middle = 0;
   for (const SurfacePart& part : shown.surfaces.part) {
@@ -320,7 +320,7 @@ TEST(SurfaceWriter, SidesAndBonesAreAChoice) {
   EXPECT_GT(middle, 20U);
 }
 
-TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
+TEST(SurfaceWriter, ErrorsNameTheMistakeAndNothingIsWritten) {
   Simulation simulation(sharing());
   Shown shown = show(simulation, {}), other = show(simulation, {}), gone = show(simulation, {});
   ASSERT_EQ(simulation.despawn(gone.person), Status::ok);
@@ -371,7 +371,7 @@ TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
   EXPECT_FALSE(bind_surfaces(shown.subject.body, choice_of({.cells = {0, 2, 8}}, false)));
 }
 
-TEST(SurfaceWriter, ASteadyCallTakesNoMemory) {
+TEST(SurfaceWriter, SteadyCallAllocatesNothing) {
   if (!counts_malloc) GTEST_SKIP() << "malloc is not counted in this build";
   Simulation simulation(sharing());
   std::vector<Shown> people;

@@ -1,4 +1,4 @@
-// Generated surfaces are closed, wound outwards, deterministic, and follow the body they were asked for.
+// Generated surfaces are closed, wound outwards and deterministic, and follow the requested body.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -20,7 +20,7 @@
 namespace mobil::surfaces_test {
 using namespace geometry;
 
-/// Every directed edge occurs once, and its reverse once; every vertex is used; nothing is NaN.
+/// Succeeds if every directed edge and its reverse occur once, every vertex is used, and no number is NaN.
 ::testing::AssertionResult closed(const SurfaceMesh& mesh) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::vector<bool> used(mesh.position.size(), false);
@@ -44,7 +44,7 @@ using namespace geometry;
   return ::testing::AssertionSuccess() << mesh.name;
 }
 
-/// The mesh cut into its connected parts.
+/// Returns the connected parts of the mesh.
 std::vector<SurfaceMesh> parts(const SurfaceMesh& mesh) {
   std::vector<std::uint32_t> root(mesh.position.size());
   for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = i;
@@ -87,7 +87,7 @@ const GroupSurface& named(const std::vector<GroupSurface>& all, std::string_view
 }
 
 RC_GTEST_PROP(Tube, IsClosedAndHoldsTheVolumeOfItsSections, ()) {
-  // a straight tube of equal ellipses: the prism's volume and two half ellipsoids, less the polygon's share
+  // a straight tube of equal ellipses: the prism's volume and two half ellipsoids, less the polygon's difference
   const double a = *rc::gen::inRange(5, 50) * 0.001, b = *rc::gen::inRange(5, 50) * 0.001;
   const double h = *rc::gen::inRange(50, 500) * 0.001, turn = *rc::gen::inRange(0, 314) * 0.01;
   const Vec axis = normalised(Vec{*rc::gen::inRange(-5, 6) + 0.1, *rc::gen::inRange(-5, 6) + 0.2, 3.0});
@@ -132,7 +132,7 @@ TEST(BoneSurfaces, EverySegmentHasClosedPartsWoundOutwards) {
   EXPECT_GT(triangles, 25000U);
 }
 
-TEST(BoneSurfaces, LieAboutTheirJoints) {
+TEST(BoneSurfaces, AreAroundTheirJoints) {
   for (const float height : {1.2F, 1.75F, 2.2F}) {
     const Body b = body(height);
     const auto bones = make_bone_surfaces(b);
@@ -144,14 +144,14 @@ TEST(BoneSurfaces, LieAboutTheirJoints) {
       EXPECT_LT(nearest(mesh, {0, 0, 0}), near) << segment_name[index(s)];
       EXPECT_LT(nearest(mesh, to_double(b.tip_m[index(s)])), near) << segment_name[index(s)];
     }
-    // the femoral head is a ball of 23 mm in a man of 1.69 m, about the hip
+    // the femoral head is a ball of 23 mm in a man of 1.69 m, around the hip
     double top = 0;
     for (const auto& p : bones[index(thigh_right)].mesh.position) top = std::max(top, static_cast<double>(p.y));
     EXPECT_NEAR(top, 23e-3 * static_cast<double>(height) / 1.69, 1e-6);
   }
 }
 
-TEST(BoneSurfaces, TogetherTheyAreAsTallAsTheBody) {
+TEST(BoneSurfaces, HaveTheBodysHeight) {
   for (const float height : {1.3F, 1.8F, 2.1F}) {
     const Body b = body(height);
     const auto at = standing(b);
@@ -204,7 +204,7 @@ TEST(MuscleSurfaces, AreClosedAndHoldTheirVolumes) {
   }
 }
 
-TEST(MuscleSurfaces, LieOutsideTheBones) {
+TEST(MuscleSurfaces, AreOutsideTheBones) {
   const Body b = body();
   const LegFrame leg = leg_frame(b);
   for (const auto& m : make_muscle_surfaces(b)) {
@@ -280,7 +280,7 @@ TEST(MuscleSurfaces, LookLikeALeg) {
   }
 }
 
-TEST(MuscleSurfaces, TendonsAreAtTheEndsAndTheBellyIsBetween) {
+TEST(MuscleSurfaces, TendonsAreAtTheEndsAndTheBellyBetween) {
   for (const auto& m : make_muscle_surfaces(body())) {
     EXPECT_GT(m.tendon.front(), 0.9F) << m.surface.mesh.name;
     EXPECT_GT(m.tendon.back(), 0.9F) << m.surface.mesh.name;
@@ -289,7 +289,7 @@ TEST(MuscleSurfaces, TendonsAreAtTheEndsAndTheBellyIsBetween) {
   }
 }
 
-TEST(Surfaces, FollowTheirOwnMuscleOrItsGroupAndTendonsWhatIsThere) {
+TEST(Surfaces, FollowTheirMuscleOrGroupAndTendonsAnyOfThem) {
   const auto set = [](std::initializer_list<Muscle> muscles) {
     MuscleSet s;
     for (const Muscle m : muscles) s.set(static_cast<std::size_t>(m));

@@ -29,7 +29,7 @@ struct Vertex {
   float handed;
 };
 
-/// A tube of radius 0.1 m along y from 0 down to −1, bent forward by `bend` rad, open at both ends.
+/// Returns a tube of radius 0.1 m along y from 0 down to −1, bent forward by `bend` rad, open at both ends.
 SurfaceMesh tube(float bend) {
   constexpr std::uint32_t around = 16, rings = 21;
   SurfaceMesh mesh;
@@ -50,8 +50,8 @@ SurfaceMesh tube(float bend) {
   return mesh;
 }
 
-/// Of a straight tube: how far down, and how far from the front.
-TEST(Texture, PlacesOfATubeAreItsLengthAndAngle) {
+/// Coordinates of a straight tube: distance down, and angle from the front.
+TEST(Texture, CoordinatesOfATubeAreItsLengthAndAngle) {
   const SurfaceMesh mesh = tube(0);
   const auto place = texture_places(mesh.position);
   for (std::size_t v = 0; v < place.size(); ++v) {
@@ -59,11 +59,11 @@ TEST(Texture, PlacesOfATubeAreItsLengthAndAngle) {
     EXPECT_NEAR(place[v].along, -p.y, 1e-5F);
     EXPECT_NEAR(std::abs(place[v].around), std::atan2(std::abs(p.x), p.z) / std::numbers::pi_v<float>, 1e-4F);
     if (std::abs(p.x) < 1e-3F) continue;
-    EXPECT_EQ(place[v].around<0, p.x> 0);  // the axis goes down: left of it is −x
+    EXPECT_EQ(place[v].around<0, p.x> 0);  // the axis points down: left of it is −x
   }
 }
 
-/// Straight or bent, tangents run down the tube, and the back is where normal × tangent says.
+/// On a straight or bent tube, tangents run down it, and normal × tangent points to the back.
 TEST(Texture, TangentsOfATubeRunAlongIt) {
   for (const float bend : {0.0F, 0.5F}) {
     const SurfaceMesh mesh = tube(bend);
@@ -79,10 +79,10 @@ TEST(Texture, TangentsOfATubeRunAlongIt) {
       const Vec3<float> down{0, -std::cos(turn), std::sin(turn)};
       EXPECT_NEAR(length(out[v].tangent), 1, 1e-5F);
       EXPECT_NEAR(dot(out[v].tangent, out[v].normal), 0, 1e-5F);
-      const bool end = v < 16 || v + 16 >= out.size();  // where half the triangles are missing
+      const bool end = v < 16 || v + 16 >= out.size();  // with half of the triangles
       EXPECT_GT(dot(out[v].tangent, down), end ? 0.97F : 0.99F) << v;
       const std::size_t k = v % 16;
-      if (k == 0 || k == 8) continue;  // front and back: either side is as good
+      if (k == 0 || k == 8) continue;  // front and back: either side is equally near
       const float to_back = k < 8 ? 1.0F : -1.0F;
       const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / 16;
       const Vec3<float> backward{to_back * std::cos(angle), -to_back * std::sin(angle) * std::sin(turn),
@@ -138,7 +138,7 @@ struct Walker {
   }
 };
 
-/// On the bent legs of a walker: perpendicular to normals, and with what lies farther along ahead of them.
+/// On the bent legs of a walker, tangents are perpendicular to normals, and points farther along are ahead.
 TEST(Texture, TangentsOfAWalkerRunAlongMusclesAndBones) {
   const Walker walker;
   const BodySurfaces surfaces = *bind_surfaces(walker.subject.body, {.textured = true});
@@ -176,7 +176,7 @@ TEST(Texture, TangentsOfAWalkerRunAlongMusclesAndBones) {
   EXPECT_GT(to_back, sided * 95 / 100);
 }
 
-TEST(Texture, NothingElseChangesAndEveryProcessorWritesTheSameTangents) {
+TEST(Texture, OnlyTangentsAreAddedEquallyOnEveryProcessor) {
   const Walker walker;
   const BodySurfaces plain = *bind_surfaces(walker.subject.body),
                      textured = *bind_surfaces(walker.subject.body, {.textured = true});
@@ -191,7 +191,7 @@ TEST(Texture, NothingElseChangesAndEveryProcessorWritesTheSameTangents) {
   });
 }
 
-TEST(Texture, RequestsThatCannotBeAreRefused) {
+TEST(Texture, InvalidRequestsAreRefused) {
   const Walker walker;
   const BodySurfaces plain = *bind_surfaces(walker.subject.body),
                      textured = *bind_surfaces(walker.subject.body, {.textured = true});
@@ -217,8 +217,8 @@ TEST(Texture, RequestsThatCannotBeAreRefused) {
   EXPECT_FALSE(bind_surfaces(walker.subject.body, {.detail = 2}));
 }
 
-/// Every piece is still there, made of its own vertices, and near the fine one on a walker.
-TEST(Coarser, SurfacesLieNearTheFineOnes) {
+/// Every piece still exists, has its own vertices, and is near the fine one on a walker.
+TEST(Coarser, SurfacesAreNearTheFineOnes) {
   const Walker walker;
   const BodySurfaces fine = *bind_surfaces(walker.subject.body);
   const auto is = walker.show(fine, false);
@@ -232,7 +232,7 @@ TEST(Coarser, SurfacesLieNearTheFineOnes) {
       const SurfacePart &from = fine.part[p], &part = coarse.part[p];
       EXPECT_EQ(part.name, from.name);
       EXPECT_GT(part.indices, 0U) << from.name;
-      // Fine vertices to the nearest point of the coarse triangles: what one sees change.
+      // Distance of fine vertices from the nearest point of the coarse triangles: the visible change.
       for (std::uint32_t v = 0; v < from.vertices; v += 7) {
         const Vec3<float> at = is[from.first_vertex + v].position;
         double nearest = 1e9;
@@ -257,7 +257,7 @@ TEST(Coarser, SurfacesLieNearTheFineOnes) {
   }
 }
 
-TEST(FarFigure, IsAsLargeAsItsBodyAndWoundOutwards) {
+TEST(FarFigure, HasItsBodysSizeAndIsWoundOutwards) {
   const FarFigure figure = far_figure();
   EXPECT_EQ(sizeof(FarVertex), 28U);
   ASSERT_EQ(figure.index.size() % 3, 0U);

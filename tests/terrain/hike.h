@@ -1,5 +1,5 @@
 #pragma once
-// One walker on some ground.
+// One walker on a given terrain.
 
 #include <gtest/gtest.h>
 
@@ -29,14 +29,14 @@ inline HeightOf plane(float rise_x, float rise_z) {
   return [=](float x, float z) { return TerrainHeight{rise_x * x + rise_z * z, rise_x, rise_z}; };
 }
 
-/// Rises, or falls, by `rise_m` every `tread_m` from z = 0 on; so many times.
+/// Returns stairs that rise, or fall, by `rise_m` every `tread_m` from z = 0, `count` times.
 inline HeightOf stairs(float rise_m, float tread_m, float count) {
   return [=](float, float z) {
     return TerrainHeight{rise_m * std::clamp(std::floor(z / tread_m) + 1, 0.0F, count), 0, 0};
   };
 }
 
-/// One walker with forces on such ground.
+/// One walker with forces on such terrain.
 struct Hike {
   HeightOf ground;
   Simulation simulation;
@@ -61,7 +61,7 @@ struct Hike {
   }
 };
 
-/// How far over the ground the lowest of a sole's points is, of a foot that stands on a plane.
+/// Returns the height above the ground of the lowest point of a sole, for a foot on a plane.
 inline float lowest_m(const Hike& hike, std::size_t side) {
   const Feet<float> feet = hike.get<Feet>();
   float lowest = std::numeric_limits<float>::max();

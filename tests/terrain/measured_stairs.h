@@ -1,8 +1,8 @@
 #pragma once
 // Measured people on stairs: M. Bovi, M. Rabuffetti, P. Mazzoleni, M. Ferrarin, A multiple-task gait analysis approach:
 // kinematic, kinetic and EMG reference data for healthy young and adult subjects, Gait Posture 33 (2011) 6–13, its
-// addendum; 20 young subjects, mean height 1.47 m. Mean angles in deg, every 5 % from a foot's strike on a stair (while
-// going up, the last but one; on the way down too) to its next one, on the floor.
+// addendum; 20 young subjects, mean height 1.47 m. Mean angles in deg, every 5 % from a foot's strike on a stair (going
+// up, the last but one; also going down) to its next strike, on the floor.
 
 #include <cstddef>
 
@@ -10,7 +10,7 @@ namespace mobil::bovi {
 
 inline constexpr std::size_t instants = 21;
 
-/// Flexion of the knee, and of the ankle with its mean over the cycle taken away, for its zero is not ours; of the
+/// Flexion of the knee; flexion of the ankle without its mean over the cycle, because its zero differs; flexion of the
 /// thigh from the vertical, forward.
 struct Stride {
   double thigh[instants], knee[instants], ankle[instants];

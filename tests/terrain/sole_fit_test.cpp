@@ -1,4 +1,4 @@
-// Where feet come down beside edges.
+// Foot placement near edges.
 
 #include "systems/terrain/sole_fit.h"
 #include "tests/labels.h"
@@ -18,7 +18,12 @@ namespace {
 
 constexpr float height_m = 1.75F;
 
-/// A slope with an edge, or none, and the sole over it.
+/// Returns a slope with or without an edge, and the sole above it:
+///
+///                         __________ high_m
+///       heel  ankle      |      toes
+///        |______|________|_______|
+///      __________________|               edge_m: ahead of the ankle
 SoleGround ground_of(float rise, float edge_m, float high_m) {
   SoleGround ground;
   for (std::size_t i = 0; i < SoleGround::places; ++i) {
@@ -29,13 +34,13 @@ SoleGround ground_of(float rise, float edge_m, float high_m) {
   return ground;
 }
 
-/// How much of the sole reaches over that edge.
+/// Returns the length of sole that reaches over the edge: the shorter side, m.
 float over_m(float edge_m, float moved_m) {
   const float heel = moved_m - SoleGround::back_h * height_m, toes = moved_m + SoleGround::front_h * height_m;
   return std::max(std::min(edge_m - heel, toes - edge_m), 0.0F);
 }
 
-RC_GTEST_PROP(SoleFit, LeavesLessOverAnEdgeOnTheSameLevelAndNothingInTheGround, ()) {
+RC_GTEST_PROP(SoleFit, ReducesOverhangAndStaysAboveGround, ()) {
   const float rise = 0.01F * static_cast<float>(*rc::gen::inRange(-30, 30));
   const float edge_m = 0.001F * static_cast<float>(*rc::gen::inRange(-400, 400));
   const float high_m = (*rc::gen::inRange(0, 2) == 0 ? -0.01F : 0.01F) * static_cast<float>(*rc::gen::inRange(5, 25));
@@ -45,7 +50,7 @@ RC_GTEST_PROP(SoleFit, LeavesLessOverAnEdgeOnTheSameLevelAndNothingInTheGround, 
   const float place_m = SoleGround::apart_h * height_m;
   RC_ASSERT(std::fabs(fit.ahead_m) < (step_m < 0.4F ? 2.01F : 1.01F) * place_m);
   RC_ASSERT(over_m(edge_m, fit.ahead_m) <= over_m(edge_m, 0) + 1e-5F);
-  // The plane that it stands on is nowhere under the ground.
+  // The plane of the foot is nowhere below the ground.
   for (std::size_t i = 0; i < SoleGround::places; ++i) {
     const float from_ankle_m = SoleGround::ahead_h(i) * height_m - fit.ahead_m;
     if (from_ankle_m < -SoleGround::back_h * height_m - 1e-5F || from_ankle_m > SoleGround::front_h * height_m + 1e-5F)
@@ -54,15 +59,15 @@ RC_GTEST_PROP(SoleFit, LeavesLessOverAnEdgeOnTheSameLevelAndNothingInTheGround, 
   }
 }
 
-RC_GTEST_PROP(SoleFit, WithoutEdgesNothingIsMoved, ()) {
+RC_GTEST_PROP(SoleFit, WithoutEdgesNoFootIsMoved, ()) {
   const float rise = 0.01F * static_cast<float>(*rc::gen::inRange(-100, 100));
   const SoleFit fit = fit_sole(ground_of(rise, 10, 0), height_m, 0.3F);
   RC_ASSERT(fit.ahead_m == 0);
   RC_ASSERT(std::fabs(fit.height_m) < 1e-4F);
 }
 
-/// However steps fall on stairs and kerbs, feet stand on one level with all of the sole but a few centimetres, and
-/// nothing jumps for it.
+/// For any phase of steps on stairs and kerbs, feet stand on one level with all of the sole except a few centimetres,
+/// and motion has no jumps.
 TEST(SoleFit, FeetComeDownClearOfEdges) {
   struct Way {
     const char* name;
@@ -90,7 +95,7 @@ TEST(SoleFit, FeetComeDownClearOfEdges) {
           hips = std::max(hips,
                           std::fabs(double{pelvis[0].y} - 2 * double{pelvis[1].y} + double{pelvis[2].y}) * 240 * 240);
         const GaitState<float> state = hike.get<GaitState>();
-        if (state.time_s < 0.2F || state.time_s > 0.22F) continue;  // once a step, when the foot lies flat
+        if (state.time_s < 0.2F || state.time_s > 0.22F) continue;  // once a step, when the foot is flat
         const Feet<float> feet = hike.get<Feet>();
         const float heel = feet.heel_m[state.stance_side].z, sole_m = feet.tip_m[state.stance_side].z - heel;
         for (float part = 0.01F; part <= 1; part += 0.01F) {
@@ -106,7 +111,7 @@ TEST(SoleFit, FeetComeDownClearOfEdges) {
   }
 }
 
-/// What presses on the ground is under the sole, on stairs too.
+/// The centre of pressure is under the sole, on stairs as well.
 TEST(SoleFit, CentresOfPressureAreUnderTheSole) {
   Hike hike(stairs(0.15F, 0.32F, 9), {.speed_m_s = 0.55F, .step_length_m = 0.32F}, {.height_m = 1.70F, .mass_kg = 70},
             1.0 / 60, -1.1F);
@@ -122,8 +127,8 @@ TEST(SoleFit, CentresOfPressureAreUnderTheSole) {
   }
 }
 
-/// Who stands beside an edge stands still.
-TEST(SoleFit, WhoStandsOverAnEdgeStandsStill) {
+/// A person who stands at an edge stands still.
+TEST(SoleFit, StandingAtAnEdgeIsStill) {
   for (int k = 0; k < 15; ++k) {
     const float edge_m = -0.1F + 0.02F * static_cast<float>(k);
     Hike hike([=](float, float z) { return TerrainHeight{z > edge_m ? 0.15F : 0, 0, 0}; }, {.speed_m_s = 0.0F});

@@ -1,4 +1,4 @@
-// Walkers who slow down on slopes and stairs.
+// Speed scaling of walkers on slopes and stairs.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -19,7 +19,7 @@
 namespace mobil {
 namespace {
 
-constexpr float first_m = 8, last_m = 24;  // where the slope begins and ends
+constexpr float first_m = 8, last_m = 24;  // start and end of the slope
 
 HeightOf ramp(float rise) {
   return [=](float, float z) {
@@ -32,7 +32,7 @@ Hike hike_on(HeightOf ground, const GaitRequest& gait) {
   return Hike(std::move(ground), gait, {.height_m = 1.75F, .mass_kg = 75}, 1.0 / 60, 0, {.slows_down = true});
 }
 
-/// Of who avoids others.
+/// A walker who also avoids others.
 struct Avoider {
   Hike hike;
   Avoidance avoidance;
@@ -53,7 +53,7 @@ void walk_to(Hike& hike, float z_m) {
   ASSERT_GE(hike.get<GaitState>().line_z_m, z_m);
 }
 
-/// One amid a slope of 15 %, who has slowed down.
+/// A walker on a slope of 15 %, already slowed.
 struct Slowed : Hike {
   Slowed()
       : Hike(ramp(0.15F), {.speed_m_s = 1.3F}, {.height_m = 1.75F, .mass_kg = 75}, 1.0 / 60, 0, {.slows_down = true}) {
@@ -62,7 +62,7 @@ struct Slowed : Hike {
   }
 };
 
-TEST(SlopeSpeed, FallsWithSteepnessAndSlowPeopleKeepTheirs) {
+TEST(SlopeSpeed, FallsWithSteepnessAndKeepsLowSpeeds) {
   rc::check([] {
     const float asked = static_cast<float>(*rc::gen::inRange(100, 2500)) / 1000;
     const float steep = static_cast<float>(*rc::gen::inRange(-1000, 1000)) / 1000;
@@ -75,7 +75,7 @@ TEST(SlopeSpeed, FallsWithSteepnessAndSlowPeopleKeepTheirs) {
   EXPECT_NEAR(slope_speed(1.4F, -0.3F) / 1.4F, std::exp(-0.7), 1e-6);
 }
 
-TEST(Slowing, WalkersSlowDownOnASlopeAndGoOnAsAsked) {
+TEST(Slowing, WalkersSlowDownOnASlopeAndThenResume) {
   for (const float rise : {0.15F, -0.25F}) {
     Hike hike = hike_on(ramp(rise), {.speed_m_s = 1.3F});
     walk_to(hike, first_m - 2);
@@ -93,15 +93,15 @@ TEST(Slowing, WalkersSlowDownOnASlopeAndGoOnAsAsked) {
   }
 }
 
-TEST(Slowing, IsAskedFor) {
+TEST(Slowing, IsOffByDefault) {
   Hike hike(ramp(0.15F), {.speed_m_s = 1.3F});
   walk_to(hike, last_m - 4);
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
 }
 
-TEST(Slowing, AHostsRequestOnTheWayIsOneForLevelGround) {
+TEST(Slowing, RequestsOnASlopeAreForLevelGround) {
   Slowed hike;
-  ASSERT_TRUE(hike.simulation.turn_to(hike.person, 0.05F));  // says nothing of speed
+  ASSERT_TRUE(hike.simulation.turn_to(hike.person, 0.05F));  // does not set the speed
   walk_to(hike, first_m + 7);
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
   ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 1.0F}));
@@ -111,8 +111,8 @@ TEST(Slowing, AHostsRequestOnTheWayIsOneForLevelGround) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.0F);
 }
 
-/// However it compares with the pace that they are slowed to.
-TEST(Slowing, AHostMayAskForThePaceOfTheSlope) {
+/// The requested speed can equal the scaled one.
+TEST(Slowing, HostCanRequestTheScaledSpeed) {
   Hike hike = hike_on(stairs(0.16F, 0.3F, 20), {.speed_m_s = 1.3F});
   walk_to(hike, 4);
   ASSERT_EQ(hike.get<Gait>().speed_m_s, 0.6F);
@@ -121,7 +121,7 @@ TEST(Slowing, AHostMayAskForThePaceOfTheSlope) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 0.6F);
 }
 
-TEST(Slowing, AStyleThatIsAskedForOnTheWayIsThatOfLevelGround) {
+TEST(Slowing, StylesRequestedOnASlopeAreForLevelGround) {
   std::size_t drawn = 0;
   for (const float asymmetry : {0.05F, 0.15F, 0.25F}) {
     const GaitChange change{.style = GaitStyle{.time_asymmetry = asymmetry}};
@@ -142,8 +142,8 @@ TEST(Slowing, AStyleThatIsAskedForOnTheWayIsThatOfLevelGround) {
   EXPECT_GT(drawn, 0U) << "some are drawn toward the usual style";
 }
 
-/// A style is asked for the walk on level ground: who cannot have it at a slower pace is slowed no more.
-TEST(Slowing, AStyleThatIsNoneOfTheSlopeIsKept) {
+/// A style is requested for level ground. A walker whose style is impossible at the lower speed is not slowed.
+TEST(Slowing, StyleThatIsImpossibleOnTheSlopeIsKept) {
   Hike hike = hike_on(ramp(0.2F), {.speed_m_s = 1.3F});
   walk_to(hike, first_m + 4);
   ASSERT_LT(hike.get<Gait>().speed_m_s, 0.8F);
@@ -155,7 +155,7 @@ TEST(Slowing, AStyleThatIsNoneOfTheSlopeIsKept) {
   }
 }
 
-TEST(Slowing, WhatIsRefusedMakesNoRequestOfTheHostsASlowedOne) {
+TEST(Slowing, RefusalsKeepTheRequestedSpeed) {
   Slowed hike;
   ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 1.0F}));
   const WalkChange refused[] = {{hike.person, GaitChange{}, 1e9F}};
@@ -164,7 +164,7 @@ TEST(Slowing, WhatIsRefusedMakesNoRequestOfTheHostsASlowedOne) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.0F);
 }
 
-TEST(Slowing, LongStepsShortenAsUsualOnesDo) {
+TEST(Slowing, LongStepsShortenAsUsualSteps) {
   const auto usual_m = [](float speed_m_s) { return resolve_gait(1.75F, {.speed_m_s = speed_m_s})->step_length_m; };
   for (const float part : {1.02F, 1.06F}) {
     Hike hike = hike_on(ramp(0.2F), {.speed_m_s = 1.3F, .step_length_m = part * usual_m(1.3F)});
@@ -175,14 +175,14 @@ TEST(Slowing, LongStepsShortenAsUsualOnesDo) {
   }
 }
 
-TEST(Slowing, StepsAsLongAsTreadsStayAsLong) {
+TEST(Slowing, StepsMatchingTreadsKeepTheirLength) {
   Hike hike = hike_on(stairs(0.16F, 0.3F, 40), {.speed_m_s = 0.9F, .step_length_m = 0.30F});
   walk_to(hike, 8);
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, 0.6F, 0.03F);
   EXPECT_FLOAT_EQ(hike.get<Gait>().step_length_m, 0.30F);
 }
 
-TEST(Slowing, WhoIsReleasedWalksAsAsked) {
+TEST(Slowing, ReleasedWalkersHaveTheirRequestedGait) {
   Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
   const Gait<float> level = hike.get<Gait>();
   walk_to(hike, first_m + 6);
@@ -192,7 +192,7 @@ TEST(Slowing, WhoIsReleasedWalksAsAsked) {
   EXPECT_EQ(hike.get<Gait>().step_length_m, level.step_length_m);
 }
 
-TEST(Slowing, WhoAvoidsOthersSlowsDownToo) {
+TEST(Slowing, AvoidingWalkersSlowDown) {
   Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
   const auto speed_at = [&](float z_m) {
     one.walk_to(z_m);
@@ -204,7 +204,7 @@ TEST(Slowing, WhoAvoidsOthersSlowsDownToo) {
   EXPECT_NEAR(speed_at(last_m + 6), 1.3F, 0.01F);
 }
 
-TEST(Slowing, AWishIsKeptWhereAvoidanceBeginsAndEndsOnASlope) {
+TEST(Slowing, DesiredSpeedIsKeptWhenAvoidanceChangesOnASlope) {
   Slowed hike;
   Avoidance avoidance = hike.simulation.avoidance();
   ASSERT_TRUE(avoidance.manage(hike.person));
@@ -219,8 +219,8 @@ TEST(Slowing, AWishIsKeptWhereAvoidanceBeginsAndEndsOnASlope) {
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 1e-6F);
 }
 
-/// Avoidance chooses a step before the ground of the next one is known.
-TEST(Slowing, AWishIsKeptWhereverAvoidanceEnds) {
+/// Avoidance chooses a step before the terrain of the next one is known.
+TEST(Slowing, DesiredSpeedIsKeptWhereverAvoidanceEnds) {
   for (int ticks = 0; ticks < 90; ticks += 3) {
     Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
     one.walk_to(last_m - 0.4F);
@@ -231,8 +231,8 @@ TEST(Slowing, AWishIsKeptWhereverAvoidanceEnds) {
   }
 }
 
-/// In whichever order ground and others are left, slowing is turned off, or the wish changes.
-TEST(Slowing, WhoLeavesASlopeInAnyWayGoesOnAsTheyWish) {
+/// In any order: terrain or avoidance ends, speed scaling is turned off, or the desired velocity changes.
+TEST(Slowing, LeavingASlopeRestoresTheDesiredSpeed) {
   for (int way = 0; way < 4; ++way) {
     Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
     Hike& hike = one.hike;
@@ -251,8 +251,8 @@ TEST(Slowing, WhoLeavesASlopeInAnyWayGoesOnAsTheyWish) {
   }
 }
 
-/// Downhill as gently as that nobody slows down, behind somebody slow.
-TEST(Slowing, WhoIsSlowedByOthersGoesOnAsTheyDo) {
+/// On level ground, or downhill so gently that no walker slows down, behind a slow obstacle.
+TEST(Slowing, WalkersSlowedByOthersKeepTheirSpeed) {
   for (const float rise : {0.0F, -0.05F}) {
     Avoider one(plane(0, rise), {.speed_m_s = 1.3F});
     auto& [hike, avoidance] = one;
@@ -272,8 +272,8 @@ TEST(Slowing, WhoIsSlowedByOthersGoesOnAsTheyDo) {
   }
 }
 
-/// Who avoids others on a slope and has come to wish to stand goes on as they walk when nobody asks them any more.
-TEST(Slowing, WhoWishesToStandAndIsReleasedGoesOnAsTheyWalk) {
+/// A walker who avoids others on a slope and wants to stand continues at the current speed after release.
+TEST(Slowing, ReleasedWalkersKeepWalkingDespiteAStandRequest) {
   Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
   one.walk_to(first_m + 4);
   Hike& hike = one.hike;
@@ -284,7 +284,7 @@ TEST(Slowing, WhoWishesToStandAndIsReleasedGoesOnAsTheyWalk) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, speed_m_s);
 }
 
-TEST(Slowing, ARequestOfNothingKeepsTheWish) {
+TEST(Slowing, EmptyRequestKeepsTheDesiredSpeed) {
   Slowed hike;
   ASSERT_TRUE(hike.simulation.change_gait(hike.person, {}));
   walk_to(hike, last_m - 2);
@@ -293,7 +293,7 @@ TEST(Slowing, ARequestOfNothingKeepsTheWish) {
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 0.01F);
 }
 
-TEST(Slowing, AHostMayRepeatItsRequest) {
+TEST(Slowing, HostCanRepeatItsRequest) {
   Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
   for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < last_m - 4; ++i) {
     ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 1.3F}));
@@ -302,7 +302,7 @@ TEST(Slowing, AHostMayRepeatItsRequest) {
   EXPECT_NEAR(hike.get<StepPlan>().to.speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
 }
 
-TEST(Slowing, SleepersAreReleasedToTheWalkOnLevelGround) {
+TEST(Slowing, SleepersAreReleasedToTheirLevelGait) {
   Hike hike = hike_on(plane(0, 0.15F), {.speed_m_s = 1.3F});
   walk_to(hike, 12);
   ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
@@ -312,8 +312,8 @@ TEST(Slowing, SleepersAreReleasedToTheWalkOnLevelGround) {
   EXPECT_FLOAT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
 }
 
-/// With level of detail, who wakes on a hill is seen where they are, not below it.
-TEST(Slowing, SleepersAreAsHighAsTheGroundThatTheyFellAsleepOn) {
+/// With level of detail, a person who wakes on a hill is displayed there, not below it.
+TEST(Slowing, SleepersKeepTheHeightOfTheirGround) {
   Hike hike = hike_on([](float, float) { return TerrainHeight{50, 0, 0}; }, {.speed_m_s = 1.3F});
   walk_to(hike, 4);
   const auto high = [&](const char* when) {
@@ -332,7 +332,7 @@ TEST(Slowing, SleepersAreAsHighAsTheGroundThatTheyFellAsleepOn) {
   }
 }
 
-TEST(Slowing, EndsWhereOptionsNoLongerSaySo) {
+TEST(Slowing, EndsWhenTheOptionIsTurnedOff) {
   Slowed hike;
   hike.terrain.set_options({.slows_down = false});
   for (int i = 0; i < 120; ++i) hike.simulation.tick();
@@ -340,7 +340,7 @@ TEST(Slowing, EndsWhereOptionsNoLongerSaySo) {
   EXPECT_EQ(hike.get<Footing>().slows_for, 0);
 }
 
-/// A style that is drawn toward the usual one at the slower speed is kept: who has it is not slowed.
+/// A style that would be clamped toward the usual one at the lower speed is kept: such a walker is not slowed.
 TEST(Slowing, StylesStay) {
   std::size_t slowed = 0, refused = 0;
   for (int draw = 0; draw < 16; ++draw) {
@@ -361,7 +361,7 @@ TEST(Slowing, StylesStay) {
   EXPECT_GT(refused, 0U);
 }
 
-TEST(Slowing, GoesOnFromASnapshot) {
+TEST(Slowing, ContinuesFromASnapshot) {
   Slowed hike;
   std::vector<std::byte> bytes(hike.simulation.snapshot_bytes());
   ASSERT_TRUE(hike.simulation.save(bytes));

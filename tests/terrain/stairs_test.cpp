@@ -1,4 +1,4 @@
-// Walkers on slopes, hills, kerbs and stairs: as people are, and smoothly.
+// Walkers on slopes, hills, kerbs and stairs: close to measurements, and smooth.
 
 #include <gtest/gtest.h>
 
@@ -18,18 +18,18 @@ namespace {
 
 constexpr double degrees = 57.29577951308232;
 
-/// Root mean square over a stride, deg.
+/// Root mean square difference over a stride, deg.
 struct Off {
   double thigh = 0, knee = 0, ankle = 0;
 };
 
-/// A person of the measured ones' height, from the strike on the last stair but one to the next of that foot, on the
-/// floor: nearest to what was measured of all times a step may take.
+/// Returns the difference for a person of the measured height, from the strike on the last stair but one to that foot's
+/// next strike, on the floor. It is the smallest over all times that a step can take.
 Off off_stairs(bool up) {
   constexpr float step_m = 0.30F, rise_m = 0.16F, step_s = 0.55F, ankle_on_tread_m = 0.05F, ankle_down_m = 0.10F;
   const bovi::Stride& measured = up ? bovi::ascending : bovi::descending;
   const float edge = up ? ankle_on_tread_m : ankle_down_m;
-  // Footholds are at whole steps; the first stair is under the eleventh.
+  // Footholds are at multiples of the step length. The first stair is under the eleventh.
   const HeightOf flight = stairs(up ? rise_m : -rise_m, step_m, 3);
   const HeightOf ground = [=](float x, float z) { return flight(x, z - 11 * step_m + edge); };
   Hike hike(ground, {.step_length_m = step_m, .step_frequency_hz = 1 / step_s}, {.height_m = 1.47F, .mass_kg = 41},
@@ -67,7 +67,7 @@ Off off_stairs(bool up) {
   return {std::sqrt(off.thigh), std::sqrt(off.knee), std::sqrt(off.ankle)};
 }
 
-TEST(Terrain, HipKneeAndAnkleOnStairsAreThoseOfPeople) {
+TEST(Terrain, StairAnglesMatchMeasuredPeople) {
   for (const bool up : {true, false}) {
     const Off off = off_stairs(up);
     std::printf("%s: thigh %.1f, knee %.1f, ankle %.1f deg rms\n", up ? "up" : "down", off.thigh, off.knee, off.ankle);
@@ -77,8 +77,8 @@ TEST(Terrain, HipKneeAndAnkleOnStairsAreThoseOfPeople) {
   }
 }
 
-/// Nothing jumps, and the ankle of the foot that bears keeps within its limits.
-TEST(Terrain, HillsKerbsAndStairsAreWalkedSmoothly) {
+/// Motion has no jumps, and the ankle of the loaded foot keeps within its limits.
+TEST(Terrain, HillsKerbsAndStairsAreSmooth) {
   const struct {
     const char* name;
     HeightOf ground;
@@ -130,15 +130,16 @@ TEST(Terrain, HillsKerbsAndStairsAreWalkedSmoothly) {
     }
     std::printf("%s: knees %.1f rad/s and %.0f deg, ankle %.0f deg, hips %.1f m/s2\n", name, fastest, knee, ankle,
                 highest);
-    EXPECT_LT(fastest, 20) << name;  // people's knees swing at 7 rad/s
+    EXPECT_LT(fastest, 20) << name;  // measured knees swing at 7 rad/s
     EXPECT_LT(highest, 33) << name;
     EXPECT_LT(ankle, 39) << name;
     EXPECT_LT(knee, 112) << name;
   }
 }
 
-/// Wherever in a step its edge lies. A foot that comes down just behind it passes through it, but no deeper than that.
-TEST(Terrain, KneesAndAnklesDownAnyKerb) {
+/// The edge is anywhere within a step. A foot that lands just behind it passes through it, but not deeper than the
+/// bound.
+TEST(Terrain, KneesAndAnklesKeepLimitsDownAnyKerb) {
   struct Kerb {
     float high_m, speed_m_s, knee, ankle;
   };

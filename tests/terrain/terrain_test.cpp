@@ -1,4 +1,4 @@
-// Walkers on ground that is not level.
+// Walkers on terrain that is not level.
 
 #include <mobil/terrain.h>
 
@@ -26,8 +26,8 @@ MOBIL_TEST_LABELS("threads");
 namespace mobil {
 namespace {
 
-/// No foot is in a slope, whatever its direction, and the one that stands is on it: by 2 mm.
-RC_GTEST_PROP(Terrain, FeetStandOnAnySlopeAndAreNeverInIt, ()) {
+/// Feet are never in a slope of any direction, and the standing foot is on it, within 2 mm.
+RC_GTEST_PROP(Terrain, FeetStandOnAnySlopeAndNeverInIt, ()) {
   const auto drawn = [](int low, int high) { return static_cast<float>(*rc::gen::inRange(low, high)) * 0.01F; };
   const float speed = drawn(40, 170), x = drawn(-25, 26), z = drawn(-25, 26), height = drawn(150, 196);
   Hike hike(plane(x, z), {.speed_m_s = speed}, {.height_m = height, .mass_kg = 24 * height * height});
@@ -42,8 +42,8 @@ RC_GTEST_PROP(Terrain, FeetStandOnAnySlopeAndAreNeverInIt, ()) {
   }
 }
 
-/// But for a foot in the air, which keeps a little further from where its leg would be straight.
-TEST(Terrain, OnAPlateauAPersonWalksAsOnLevelGround) {
+/// Except that a foot in the air keeps slightly farther from a straight leg.
+TEST(Terrain, WalkOnAPlateauEqualsLevelGround) {
   Hike up([](float, float) { return TerrainHeight{12.5F, 0, 0}; }, {.speed_m_s = 1.3F});
   Hike down([](float, float) { return TerrainHeight{0, 0, 0}; }, {.speed_m_s = 1.3F});
   Simulation level;
@@ -70,8 +70,8 @@ double fastest_m_s(const Pose<float>& before, const Pose<float>& now, double tic
   return most / tick_s;
 }
 
-/// Along a kerb, one foot on it: walking, coming to a stop, standing, stepping aside to either side, turning on the
-/// spot and walking on.
+/// A kerb runs along the path, under one foot: walking, stopping, standing, stepping to either side, turning in place
+/// and walking again.
 TEST(Terrain, OneFootHigherThanTheOtherNothingJumps) {
   constexpr double tick_s = 1.0 / 240;
   for (const float high_m : {0.15F, -0.15F}) {
@@ -93,7 +93,7 @@ TEST(Terrain, OneFootHigherThanTheOtherNothingJumps) {
     };
     go(480, fastest);
     ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 0.0F}));
-    ASSERT_TRUE(hike.simulation.step_aside(hike.person, 0.2F, 0));  // once they stand
+    ASSERT_TRUE(hike.simulation.step_aside(hike.person, 0.2F, 0));  // once standing
     go(720, fastest);
     go(240, standing);
     ASSERT_TRUE(hike.simulation.step_aside(hike.person, -0.2F, 0));
@@ -108,14 +108,14 @@ TEST(Terrain, OneFootHigherThanTheOtherNothingJumps) {
   }
 }
 
-TEST(Terrain, WhoIsOnItIsNotMadeCompact) {
+TEST(Terrain, ManagedWalkersAreNotMadeCompact) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
   ASSERT_TRUE(hike.simulation.enable(hike.person, Feature::forces, false));
   EXPECT_EQ(hike.simulation.set_state({&hike.person, 1}, PersonState::compact).value(), 0U);
 }
 
-/// Nor do those who cannot be keep others from it.
-TEST(Terrain, LodMakesTheOthersCompact) {
+/// People who cannot be compact do not keep others from it.
+TEST(Terrain, LodMakesOtherPeopleCompact) {
   Simulation simulation;
   Terrain terrain = terrain_of(simulation, answering([](float, float) { return TerrainHeight{50, 0, 0}; }));
   LodOptions options;
@@ -143,9 +143,9 @@ TEST(Terrain, LodMakesTheOthersCompact) {
     EXPECT_EQ((simulation.state(people[i]) == PersonState::compact), i >= 4) << i;
 }
 
-/// Hosts that answer themselves may let several ticks pass: the ground is then asked for later, and once more where
-/// nobody asked in time.
-TEST(Terrain, WhoIsAskedForLateStandsOnTheGroundAgain) {
+/// Hosts that resolve queries themselves can skip several ticks. The query is then made later, and repeated if it was
+/// not resolved in time.
+TEST(Terrain, LateHeightsPutFeetBackOnTheGround) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
   hike.terrain.set_heights({});
   std::vector<TerrainHeight> answers;
@@ -169,7 +169,7 @@ TEST(Terrain, WhoIsAskedForLateStandsOnTheGroundAgain) {
   EXPECT_NEAR(lowest_m(hike, hike.get<GaitState>().stance_side), 0, 0.01F);
 }
 
-TEST(Terrain, StepsAreReportedWhereTheGroundIs) {
+TEST(Terrain, StepEventsAreAtTerrainHeight) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
   ASSERT_TRUE(hike.simulation.enable({&hike.person, 1}, Feature::step_events));
   std::size_t count = 0;
@@ -183,7 +183,7 @@ TEST(Terrain, StepsAreReportedWhereTheGroundIs) {
   EXPECT_GT(count, 8U);
 }
 
-/// Fifty on hills, every fourth of them with a style of their own.
+/// Fifty people on hills, a quarter of them with their own style.
 struct Crowd {
   Simulation simulation;
   Terrain terrain;
@@ -206,7 +206,7 @@ struct Crowd {
   void tick() { simulation.tick(); }
 };
 
-TEST(Terrain, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {
+TEST(Terrain, SameBitsOnAnyThreadsAndFromASnapshot) {
   for (const bool slows_down : {false, true}) {
     Crowd one(1, slows_down), three(3, slows_down);
     std::vector<std::byte> saved;
@@ -224,7 +224,7 @@ TEST(Terrain, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {
   }
 }
 
-TEST(Terrain, TheGroundIsAskedForOnceAStepAndWithoutTakingMemory) {
+TEST(Terrain, TerrainIsQueriedOnceAStepWithoutAllocating) {
   for (const bool slows_down : {false, true}) {
     Crowd crowd(1, slows_down);
     for (int k = 0; k < 400; ++k) crowd.tick();
@@ -243,8 +243,8 @@ TEST(Terrain, TheGroundIsAskedForOnceAStepAndWithoutTakingMemory) {
   }
 }
 
-/// Who answers in halves has what others have; asking changes nothing.
-TEST(Terrain, TheHalvesOfAnUpdateAreTheWhole) {
+/// A host that queries and resolves separately gets equal results. A query changes no state.
+TEST(Terrain, QueryAndResolveEqualTheCallback) {
   Crowd whole(1), halves(1);
   halves.terrain.set_heights({});
   std::vector<TerrainHeight> answers;
@@ -264,8 +264,8 @@ TEST(Terrain, TheHalvesOfAnUpdateAreTheWhole) {
   EXPECT_EQ(whole.simulation.state_hash(), halves.simulation.state_hash());
 }
 
-/// Between both halves people go, take steps, or move to other tables.
-TEST(Terrain, AnswersForWhoHasGoneOnAreLeftOut) {
+/// Between query and resolve, people are removed, take steps, or move to other tables.
+TEST(Terrain, HeightsForChangedWalkersAreIgnored) {
   Crowd crowd(1);
   crowd.tick();
   crowd.terrain.set_heights({});
@@ -279,14 +279,14 @@ TEST(Terrain, AnswersForWhoHasGoneOnAreLeftOut) {
     if (k == 25) (void)crowd.terrain.release({&crowd.people[1], 1});
     crowd.simulation.tick(7);
     ASSERT_TRUE(crowd.terrain.resolve(answers));
-    EXPECT_EQ(crowd.terrain.resolve(answers).has_value(), answers.empty());  // once
+    EXPECT_EQ(crowd.terrain.resolve(answers).has_value(), answers.empty());  // resolved only once
   }
   crowd.tick();
   for (const Entity person : crowd.people)
     EXPECT_TRUE(std::isfinite(crowd.simulation.get<Pose>(person)->position_m[0].y));
 }
 
-TEST(Terrain, WhoIsPlacedElsewhereOrWakesStandsOnTheGroundThere) {
+TEST(Terrain, PlacedOrWokenPeopleStandOnTheLocalGround) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
   for (int k = 0; k < 30; ++k) hike.tick();
   ASSERT_TRUE(hike.simulation.place(hike.person, 3, 200, 0));
@@ -306,7 +306,7 @@ TEST(Terrain, WhoIsPlacedElsewhereOrWakesStandsOnTheGroundThere) {
   }
 }
 
-TEST(Terrain, AnswersThatAreNoNumbersHarmNobody) {
+TEST(Terrain, NonFiniteHeightsAreHarmless) {
   int calls = 0;
   Simulation simulation;
   Terrain terrain = terrain_of(simulation, [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
@@ -329,7 +329,7 @@ TEST(Terrain, AnswersThatAreNoNumbersHarmNobody) {
   EXPECT_GT(unusable, 100U);
 }
 
-TEST(Terrain, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
+TEST(Terrain, ForgedSnapshotsWithAValidSealAreHarmless) {
   Crowd crowd(1);
   for (int k = 0; k < 50; ++k) crowd.tick();
   std::vector<std::byte> good(crowd.simulation.snapshot_bytes());
@@ -348,7 +348,7 @@ TEST(Terrain, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
   ASSERT_TRUE(crowd.simulation.restore(good));
 }
 
-TEST(Terrain, SaysWhatIsWrong) {
+TEST(Terrain, RefusalsNameTheMistake) {
   Simulation simulation;
   Terrain terrain = terrain_of(simulation, answering(plane(0, 0)));
   const Entity walker = simulation.spawn({}).value(), posed = simulation.spawn_posed({}).value();

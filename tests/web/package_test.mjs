@@ -1,5 +1,5 @@
-// The JavaScript package in Node: whose memory handles are, what structs read back, what setPoses and others do.
-// Usage: node --experimental-wasm-relaxed-simd package_test.mjs PACKAGE. Exit status 1: something is wrong.
+// The JavaScript package in Node: ownership of handles, structs read back, setPoses and other calls.
+// Usage: node --experimental-wasm-relaxed-simd package_test.mjs PACKAGE. Exit status 1: a test failed.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
@@ -10,7 +10,7 @@ const folder = path.resolve(process.argv[2]);
 const { FEATURES, METHODS, MobilError, STATES, constants: c, load } = await import(pathToFileURL(path.join(folder, 'mobil.js')));
 const mobil = await load(new Uint8Array(readFileSync(path.join(folder, 'mobil.wasm'))), true);
 
-// Every block of the library's memory that JavaScript takes, and that it gives back.
+// Blocks of the library's memory that JavaScript allocated and has not released.
 const live = new Set();
 const { library } = mobil, { allocate, release } = library;
 let wrongly = 0;
@@ -42,7 +42,7 @@ test('a slice owns nothing, and what has gone is refused', () => {
   assert.equal(world.read(c.MOBIL_CENTRE, people.slice(0, 2)).length, 6);
   world.despawn(people.slice(0, 2));
   assert.equal(world.read(c.MOBIL_CENTRE, people.slice(3, 5)).length, 6);
-  const others = spawned(world, 3);  // where handles were freed wrongly, these would take their place
+  const others = spawned(world, 3);  // wrongly freed handles would be reused here
   const last = people.slice(3, 5);
   world.despawn(last);
   people.forget();
@@ -206,7 +206,7 @@ test('one advance a frame chooses, steers and asks for the ground', () => {
     sums.places += world.terrain.report.places;
   }
   assert.ok(Object.values(sums).every((n) => n > 0), JSON.stringify(sums));
-  assert.ok(world.matrices(people.slice(4))[7] > 1.1);  // hips have gone up the slope
+  assert.ok(world.matrices(people.slice(4))[7] > 1.1);  // hips are higher on the slope
   const { unusable } = world.terrain.report;
   assert.equal(unusable, 0);
   world.terrain.setHeights(() => { throw new RangeError('away'); });

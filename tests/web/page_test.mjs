@@ -1,5 +1,5 @@
-// The page in a real Chromium: it starts, walks, answers its controls, refuses what is impossible, has a desktop's bits.
-// Usage: node page_test.mjs NODE_MODULES PAGE SCREENSHOTS. Exit status 1: something is wrong.
+// The page in a real Chromium: it starts, walks, has working controls, refuses impossible values, has a desktop's bits.
+// Usage: node page_test.mjs NODE_MODULES PAGE SCREENSHOTS. Exit status 1: a test failed.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
@@ -15,7 +15,7 @@ const said = [];
 let passed = 0, failed = 0;
 
 const usual = { viewport: { width: 1100, height: 680 }, acceptDownloads: true };
-/** `from`: a context whose cache the page uses. */
+/** Opens the page; `from` is a context whose cache it uses. */
 async function open(query, options = {}, from = null) {
   const page = from ? await from.newPage() : await browser.newPage({ ...usual, ...options });
   page.on('console', (m) => { if (m.type() === 'error') said.push(m.text()); });
@@ -44,14 +44,14 @@ const set = (page, id, value) => page.evaluate(([i, v]) => {
 }, [id, value]);
 const look = (page, ticks = 0) => page.evaluate((n) => { mobilPage.step(n); mobilPage.draw(); mobilPage.tell(); }, ticks);
 const hash = (page) => page.evaluate(() => mobilPage.world.hash());
-// What an eye sees across a room: mean colours of 40 by 25 tiles.
+// Coarse appearance of the page: mean colours of 40 by 25 tiles.
 const tiles = (page) => page.evaluate(() => {
   const small = Object.assign(document.createElement('canvas'), { width: 40, height: 25 }), x = small.getContext('2d');
   x.imageSmoothingQuality = 'high';
   x.drawImage(document.getElementById('view'), 0, 0, 40, 25);
   return [...x.getImageData(0, 0, 40, 25).data].filter((_, i) => i % 4 < 3);
 });
-/** Part of the tiles that differ by more than a twelfth in some colour. */
+/** Returns the fraction of tiles that differ by more than a twelfth in some colour. */
 const differ = (a, b) => {
   let n = 0;
   for (let i = 0; i < a.length; i += 3) n += [0, 1, 2].some((k) => Math.abs(a[i + k] - b[i + k]) > 20);
@@ -158,7 +158,7 @@ await test('people climb stairs, kerbs and hills', async () => {
     await page.screenshot({ path: `${shots}/ground${ground}.png` });
   }
   assert.ok(differ(flat, await tiles(page)) > 0.02);
-  // Over a period of the stairs, 16 m, and more.
+  // More than one period of the stairs, 16 m.
   const walked_m = () => page.evaluate(() => {
     const ahead_m = () => mobilPage.world.matrices(mobilPage.person)[11], from_m = ahead_m();
     for (let i = 0; i < 60; ++i) mobilPage.step(15);
@@ -199,7 +199,7 @@ await test('the crowd is drawn from memory of its own', async () => {
   await look(page, 1);
   const [own, kept, moves] = await page.evaluate(() => {
     const { crowd, mobil: { library } } = mobilPage, { image } = crowd.texture, before = image.data, first = before.slice();
-    library.memory.grow(1);  // views of the library's memory end here
+    library.memory.grow(1);  // invalidates views of the library's memory
     mobilPage.step(2);
     mobilPage.draw();
     return [before.buffer !== library.memory.buffer, image.data === before && before.length === 576 * crowd.people.count, before.some((v, i) => v !== first[i])];
@@ -263,7 +263,7 @@ await test('a link holds the scene', async () => {
 });
 await test('a link that nobody can walk shows what is usual, and says why', async () => {
   const odd = await open('still&height=2.2&mass=40&methods=explicit_central,nonsense&crowd=0');
-  assert.match(await odd.textContent('#refusal'), /what is usual is shown instead/);
+  assert.match(await odd.textContent('#refusal'), /default values are shown instead/);
   await odd.close();
 });
 await test('it is dark where people like it dark, and fits a telephone', async () => {

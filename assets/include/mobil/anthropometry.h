@@ -1,6 +1,6 @@
 #pragma once
-// From height and mass to the 48 segments: lengths as fractions of stature (Drillis & Contini 1966, the figure in
-// Winter), masses and centres of mass as fractions of body mass (Dempster, tabulated by Winter).
+// Scales height and mass to the 48 segments. Lengths are fractions of stature (Drillis & Contini 1966, the figure in
+// Winter). Masses, as fractions of body mass, and centres of mass are Dempster's, tabulated by Winter.
 
 #include <array>
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace mobil::inline v0_3 {
 
-/// A body of height 1 m and mass 1 kg. Every other body is this one times its height and its mass, so a kernel may use
-/// the table with BodySize. Frames as in mobil/components/body.h; lengths in fractions of height, masses of body mass.
+/// A body of height 1 m and mass 1 kg. Others are this one scaled by height and mass, so a kernel can combine the table
+/// with BodySize. Frames as in mobil/components/body.h; lengths are fractions of height, masses of body mass.
 struct UnitBody {
-  /// Origin of each segment in its parent's frame; the pelvis: its place over the ground when standing.
+  /// Origin of each segment in its parent's frame; for the pelvis, its position above the ground when standing.
   std::array<Vec3<double>, segment_count> joint_offset;
   std::array<Vec3<double>, segment_count> centre_of_mass;
   std::array<Vec3<double>, segment_count> tip;
@@ -22,40 +22,40 @@ struct UnitBody {
 };
 
 namespace fraction {
-/// Segment lengths, heights over the sole and distances from the middle, in fractions of height (frames:
+/// Segment lengths, heights above the sole and distances from the median plane, as fractions of height (frames:
 /// mobil/components/body.h).
 inline constexpr double thigh = 0.245, shank = 0.246, ankle_height = 0.039;
 inline constexpr double hip_height = thigh + shank + ankle_height;
 inline constexpr double hip_half_spacing = 0.046;
 inline constexpr double foot_length = 0.152;
-/// Ankle to the point under the heel (backward) and to the point under the ball (forward), along the sole.
+/// Distances along the sole from the ankle to the point under the heel (backward) and under the ball (forward).
 inline constexpr double heel_back = 0.034, ball_forward = 0.078, toes_length = foot_length - heel_back - ball_forward;
 inline constexpr double toe_joint_height = 0.008;
 inline constexpr double heel_radius = 0.030 / 1.75;  // the heel rolls on a round rim
 inline constexpr double shoulder_height = 0.818, shoulder_half_spacing = 0.100;
 inline constexpr double upper_arm = 0.186, forearm = 0.146, hand = 0.108;
-/// Kneecap's centre from the knee's, knee straight: in front, and above (below, as measured on the
-/// leg that the bones are drawn after: its ligament then is as long as theirs).
+/// Offset of the kneecap's centre from the knee's with the knee straight. It is below the knee, as measured on the leg
+/// after which the bones are drawn; its ligament is then as long as theirs.
 inline constexpr double patella_forward = 0.027, patella_up = -0.009;
 }  // namespace fraction
 
-/// The kneecap slides round the knee with the shank but for a tenth of its flexion: its ligament keeps its length
-/// within a seventh.
+/// Share of the knee's flexion by which the kneecap slides round the knee with the shank. Its ligament then keeps its
+/// length within a seventh.
 inline constexpr float kneecap_part = 0.9F;
 
-/// The table of proportions, a constant of the programme.
+/// Returns the table of proportions.
 constexpr UnitBody make_unit_body();
 
-/// Body of the asked height and mass. Masses add up to mass_kg without rounding error; the column's offsets add up to
-/// the stature, with legs in proportion. Fails on a height outside 1.2–2.2 m, a mass outside 30–200 kg, a
-/// biotype outside 0.1–12, a mass that no real body of that height has, or a limb out of range. Where height, mass,
-/// biotype and constitution contradict each other less grossly, one gives way and `composition` notes it.
+/// Builds a body of the requested height and mass. Masses add up to mass_kg without rounding error; the column's
+/// offsets add up to the stature if the legs are in proportion. Fails on a height outside 1.2–2.2 m, a mass outside
+/// 30–200 kg, a biotype outside 0.1–12, a mass that no real body of that height has, or a limb out of range. If height,
+/// mass, biotype and constitution contradict each other less grossly, one is adjusted and `composition` notes it.
 Result<Body> make_body(const BodyRequest& request);
-/// How long a body's limbs are, asked for or not.
+/// Returns the limb lengths of a body, requested or by proportion.
 LimbLengths<float> limb_lengths(const Body& body);
-/// The anatomical position: standing at the origin facing +Z, all rotations identity.
+/// Returns the anatomical position: standing at the origin facing +Z, all rotations identity.
 Pose<float> standing_pose(const Body& body);
-/// Whether `make_body` would make it; the same errors.
+/// Checks a request without building the body. Fails with the errors of `make_body`.
 Result<void> check_body(const BodyRequest& request);
 
 constexpr UnitBody make_unit_body() {
@@ -64,7 +64,7 @@ constexpr UnitBody make_unit_body() {
   UnitBody b{};
   auto at = [](Segment s) { return index(s); };
 
-  // The column: height over the ground and forward place of each joint, L5/S1 up to the atlanto-occipital joint.
+  // The column: height above the ground and forward offset of each joint, L5/S1 up to the atlanto-occipital joint.
   constexpr std::array<double, 25> height = {0.5850, 0.6050, 0.6250, 0.6450, 0.6650, 0.6850, 0.7010, 0.7165, 0.7315,
                                              0.7460, 0.7600, 0.7740, 0.7875, 0.8010, 0.8140, 0.8270, 0.8395, 0.8520,
                                              0.8630, 0.8740, 0.8850, 0.8960, 0.9070, 0.9175, 0.9280};
@@ -82,8 +82,8 @@ constexpr UnitBody make_unit_body() {
   }
   b.tip[at(head)] = {0, 1.0 - height.back(), 0};
 
-  // Trunk: pelvis .142, abdomen .139 over five lumbar, thorax .216 over twelve thoracic less the clavicles, head and
-  // neck .081. The mass of a slice lies in front of its vertebra.
+  // Mass fractions: pelvis .142, abdomen .139 over five lumbar vertebrae, thorax .216 over twelve thoracic ones less
+  // the clavicles, head and neck .081. The mass of a slice is in front of its vertebra.
   constexpr double clavicle_mass = 0.003, cervical_mass = 0.012;
   b.mass_fraction[at(pelvis)] = 0.142;
   b.centre_of_mass[at(pelvis)] = {0, 0.020, -0.004};
@@ -163,7 +163,7 @@ constexpr UnitBody make_unit_body() {
   return b;
 }
 
-/// The table of proportions that every body is scaled from.
+/// Table of proportions from which every body is scaled.
 inline constexpr UnitBody unit_body = make_unit_body();
 
 }  // namespace mobil::inline v0_3

@@ -1,20 +1,20 @@
 #pragma once
-// What a body is made of: fat, lean mass, muscle; and which requests no real body answers.
+// Body composition: fat, lean mass and muscle of a body, and the limits of a real body.
 //
-// Sources, all for men of 25 years, whose segments the other tables describe.
-//   Ectomorphy from height and mass, endomorphy from three skinfolds: Carter & Heath: Somatotyping, 1990; Carter: The
+// Sources, all for men of 25 years, as in the tables of segments.
+//   Ectomorphy from height and mass, endomorphy from three skinfolds: Carter & Heath, Somatotyping, 1990; Carter, The
 //     Heath-Carter Anthropometric Somatotype, Instruction Manual, 2002.
-//   Density from skinfolds, 20–29 years: Durnin & Womersley, Br. J. Nutr. 32, 1974. They add a fourth fold,
-//     the biceps'; we take the four as 4/3 of the three. Their fattest person had 61 % fat.
+//   Density from skinfolds, 20–29 years: Durnin & Womersley, Br. J. Nutr. 32, 1974. They add a fourth fold, the
+//     biceps'; the four are taken as 4/3 of the three. Their fattest person had 61 % fat.
 //   Fat from density: Siri, in Techniques for Measuring Body Composition, 1961.
-//   Fat from body mass index, where no biotype was asked for: Gallagher et al., Am. J. Clin. Nutr. 72, 2000.
-//   Fat that none lives without, 3 %: Behnke & Wilmore, Evaluation and Regulation of Body Build and Composition, 1974.
-//   Most lean mass, 36 kg/m²: the leanest-heaviest wrestler of Kondo, Abe, Ikegawa, Kawakami & Fukunaga, Am. J. Hum.
-//     Biol. 6, 1994, had 35.1 (121.3 kg at 1.86 m), which they hold to be near the limit.
-//   Least mass, 12 kg/m²: James, Ferro-Luzzi & Waterlow 1988; Henry 1990: men die at 13, women at 11.
-//   Skeletal muscle: Janssen, Heymsfield, Wang & Ross, J. Appl. Physiol. 89, 2000: 38.4 % of men's mass, half of what
-//     is lean; 52 % of it in the lower body. That it can be 65 % of what is lean, at most, is our choice.
-//   Leg muscles' volume: Handsfield et al. 2014, as in mobil/muscle_table.h.
+//   Fat from body mass index, if no biotype is requested: Gallagher et al., Am. J. Clin. Nutr. 72, 2000.
+//   Essential fat, 3 %: Behnke & Wilmore, Evaluation and Regulation of Body Build and Composition, 1974.
+//   Maximum lean mass, 36 kg/m²: Kondo, Abe, Ikegawa, Kawakami & Fukunaga, Am. J. Hum. Biol. 6, 1994. Their wrestler
+//     with the largest lean mass had 35.1 (121.3 kg at 1.86 m), which they consider near the limit.
+//   Minimum mass, 12 kg/m²: James, Ferro-Luzzi & Waterlow 1988; Henry 1990 (men die at 13, women at 11).
+//   Skeletal muscle: Janssen, Heymsfield, Wang & Ross, J. Appl. Physiol. 89, 2000. It is 38.4 % of men's mass, half of
+//     the lean mass, with 52 % of it in the lower body. The limit of 65 % of the lean mass is our choice.
+//   Volume of leg muscles: Handsfield et al. 2014, as in mobil/muscle_table.h.
 
 #include <string>
 #include <vector>
@@ -27,37 +27,36 @@ namespace mobil::inline v0_3 {
 struct MassRange {
   double low_kg, high_kg;
 };
-/// What a real body of that height may weigh: a body mass index of 12 to 92 kg/m² (the most lean mass with the most
-/// fat), within 30–200 kg.
+/// Returns the range of masses of a real body of that height: a body mass index of 12 to 92 kg/m² (maximum lean mass
+/// with maximum fat), within 30–200 kg.
 MassRange living_mass_kg(double height_m);
 
-/// Height over the cube root of mass, cm/kg^(1/3), and the ectomorphy that it makes, no less than 0.1.
+/// Returns height over the cube root of mass, cm/kg^(1/3). `ectomorphy` rates it, with a minimum of 0.1.
 double height_weight_ratio(double height_m, double mass_kg);
 double ectomorphy(double height_weight_ratio);
 
-/// Share of fat in the mass, 0–1, that an endomorphy means, by way of skinfolds (relative to stature, as Heath and
-/// Carter take them) and density; and back. Both rise; the share is no less than 0.03.
+/// Convert an endomorphy to the share of fat in the mass, 0–1, and back, through skinfolds (relative to stature, as in
+/// Heath and Carter) and density. Both functions rise; the share is at least 0.03.
 double fat_share_of_endomorphy(double endomorphy);
 double endomorphy_of_fat_share(double fat_share);
-/// The same of a body mass index, in a man of 25 years of the average build.
+/// Returns the share of fat at a body mass index, in a man of 25 years and average build.
 double fat_share_of_mass_index(double body_mass_index);
 
-/// What physique does to the volume of all the leg's muscles together: 0.85 thin, 1.20 athletic, 1.08 heavy, and 6 %
-/// more for each point of mesomorphy above 4 (or less, below). Our choice: the published volumes do not tell
-/// them apart. A body takes of it what its lean mass holds (BodyComposition::muscle_factor).
+/// Returns the factor of physique on the volume of all leg muscles: 0.85 thin, 1.20 athletic, 1.08 heavy, and 6 % more
+/// for each point of mesomorphy above 4 (less below). This is our choice, because the published volumes do not
+/// distinguish physiques. A body uses as much of it as its lean mass can hold (BodyComposition::muscle_factor).
 double physique_factor(const BodyRequest& request);
 
-/// Fat, lean mass, biotype and muscle of a request within its ranges. Fat follows from the endomorphy asked for. Where
-/// endomorphy and ectomorphy are the usual 3, that is where nobody asked, the lean mass is Gallagher's; half of it, the
-/// muscle, is as much more or less as constitution and mesomorphy say. Then fat gives way until the lean mass is that
-/// of a real body. Muscle that comes near 65 % of the lean mass grows ever less with what is asked, and never
-/// beyond; it rises with height, mass and mesomorphy throughout.
+/// Returns fat, lean mass, biotype and muscle of a request within its ranges. Fat follows from the requested
+/// endomorphy. If endomorphy and ectomorphy have their default of 3, the lean mass is Gallagher's, of which half, the
+/// muscle, is scaled by constitution and mesomorphy. Fat is then adjusted until the lean mass is that of a real body.
+/// Muscle saturates below 65 % of the lean mass; it rises with height, mass and mesomorphy throughout.
 BodyComposition body_composition(const BodyRequest& request);
 
-/// How much of the mass is fat beyond the usual share (assets/body/fat_distribution.h).
+/// Returns the part of the mass that is fat beyond the usual share (assets/body/fat_distribution.h).
 double extra_fat_of(const BodyComposition& composition);
 
-/// The notes of a body in words: one sentence each, no line breaks. Empty where the request was taken as it was.
+/// Returns the notes of a body in words, one sentence each without line breaks. Empty if the request was met unchanged.
 std::vector<std::string> body_notes(const Body& body);
 
 }  // namespace mobil::inline v0_3

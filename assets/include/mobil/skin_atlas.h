@@ -1,5 +1,5 @@
 #pragma once
-// A skin laid flat, for textures: cut along seams into charts, which lie beside each other in one square.
+// A skin unwrapped for textures: cut along seams into charts, which share one square.
 
 #include <array>
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace mobil::inline v0_3 {
 
-/// A point of the texture, 0 to 1: to the right and down from its upper left corner.
+/// A texture coordinate, 0 to 1: to the right and down from the upper left corner.
 struct AtlasPlace {
   float right, down;
 };
 
-/// The charts: of the left side and of the right each their own, so that one side may look otherwise.
+/// Charts of the texture. Left and right sides have separate charts, so their textures can differ.
 enum class SkinChart : std::uint8_t {
   trunk,
   head,
@@ -33,14 +33,14 @@ enum class SkinChart : std::uint8_t {
 };
 inline constexpr std::size_t skin_charts = 14;
 
-/// Where a chart lies in the square, 0 to 1.
+/// Bounds of a chart in the square, 0 to 1.
 struct ChartBox {
   float left, top, right, bottom;
 };
 ChartBox chart_box(SkinChart chart);
 
-/// The triangles of a SkinMesh over a texture. A vertex on a seam is there more than once: `vertex` is whose place,
-/// normal and binding a point has.
+/// Triangles of a SkinMesh over a texture. A vertex on a seam has several points; `vertex` is the vertex whose
+/// position, normal and binding a point has.
 struct SkinAtlas {
   std::vector<std::uint32_t> vertex;    // of each point
   std::vector<AtlasPlace> place;        // of each point
@@ -48,13 +48,13 @@ struct SkinAtlas {
   std::vector<SkinChart> chart;         // of each triangle
 };
 
-/// The same texture fits all details of men and women: a place follows from where on the body it is. One millimetre of
-/// skin is as many pixels everywhere, on the head 1.4 times as many, but for what is bent twice. Made at its first use;
-/// safe from any thread.
+/// Returns the atlas of a skin. One texture fits all levels of detail of men and women, because coordinates follow from
+/// the place on the body. Texel density is uniform, 1.4 times higher on the head, except in doubly curved regions.
+/// Created at first use; safe from any thread.
 const SkinAtlas& skin_atlas(Sex sex, SkinDetail detail);
 
-/// Of each point of its atlas, for maps of normals: which way on a body's skin, in the anatomical position, is right in
-/// the texture, perpendicular to the normal and of length 1; and 1 where normal × that is up in the texture, else −1.
+/// Returns a tangent for normal maps per point of the atlas: the texture's right on a body's skin in the anatomical
+/// position, of length 1, perpendicular to the normal; then 1 if normal × tangent is up in the texture, else −1.
 std::vector<std::array<float, 4>> skin_tangents(const BodySkin& skin);
 
 }  // namespace mobil::inline v0_3

@@ -1,12 +1,11 @@
-// Not among the published regressions. The belly is 9.6 cm long and 1.8 cm wide (means of 146 legs: Lee, Heo, Kim,
-// Hwang: Morphological classification of the plantaris muscle origin, a cadaveric study, 2025); as a spheroid 0.53 as
-// thick as wide, as its sections there are in the mean, it has 8.6 cm³. That this is 0.0015 of the limb's volume takes
-// their owners to be of 1.65 m and 60 kg, which is a guess.
-// Path: the origin is the area centroid of its patch on the femur of BodyParts3D as drawn by Z-Anatomy (CC BY-SA 4.0;
-// https://www.z-anatomy.com); it goes round the condyle as the lateral gastrocnemius does and ends where that ends.
-// Fibres, pennation and belly: Wickiewicz, Roy, Powell & Edgerton, Clin. Orthop. Relat. Res. 179, 1983; no model has its
-// tendon.
-// Drawn thinner than measured: the measured man's is thicker than in life, its tendon above all.
+// Not among the published regressions. The belly is 9.6 cm long and 1.8 cm wide (means of 146 legs; Lee, Heo, Kim,
+// Hwang: Morphological classification of the plantaris muscle origin, a cadaveric study, 2025). As a spheroid 0.53 as
+// thick as wide, the mean of its sections there, it has 8.6 cm³. Its share of 0.0015 of the limb's volume assumes
+// owners of 1.65 m and 60 kg, which is a guess. Path: the origin is the area centroid of its patch on the femur of
+// BodyParts3D as drawn by Z-Anatomy (CC BY-SA 4.0; https://www.z-anatomy.com). It runs round the condyle and ends as
+// the lateral gastrocnemius does. Fibres, pennation and belly: Wickiewicz, Roy, Powell & Edgerton, Clin. Orthop. Relat.
+// Res. 179, 1983; no model has its tendon. Drawn thinner than measured, because the measured man's is thicker than in
+// life, especially its tendon.
 {.name = "plantaris",
  .group = Muscle::triceps_surae,
  .origin = Segment::thigh_right,

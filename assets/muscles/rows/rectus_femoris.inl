@@ -1,4 +1,4 @@
-// The kneecap's track at 120° is this muscle's own; there the vasti's lie from it as at 100°.
+// At 120° the kneecap's track is this muscle's own; there the vasti's have the same offset from it as at 100°.
 {.name = "rectus_femoris",
  .group = Muscle::quadriceps,
  .origin = Segment::pelvis,

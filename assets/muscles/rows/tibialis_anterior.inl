@@ -1,5 +1,5 @@
-// The path has one point more than the published one, on the front of the tibia, through which the published straight
-// line runs 10 mm deep.
+// The path has one point more than the published one, on the front of the tibia, because the published straight line
+// runs 10 mm deep through the tibia.
 {.name = "tibialis_anterior",
  .group = Muscle::tibialis_anterior,
  .origin = Segment::shank_right,

@@ -1,5 +1,5 @@
 #pragma once
-// The forces of a walk (paper, section 4.3): an effect; who lacks these components pays nothing.
+// Forces of a walk (section 4.3 of the paper): an optional effect without cost for rows that lack the components.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// What the ground does to each foot, world frame: force (N) and the centre of pressure it acts at (m, on the ground);
-/// zero force where the foot is in the air. Of people whose host animates them: one tick ago. Index 0 right, 1 left.
+/// Ground reaction of each foot, world frame: force (N) and its centre of pressure (m, on the ground). The force is
+/// zero for a foot in the air. For people whose host animates them it is one tick old. Index 0 right, 1 left.
 template <class F>
 struct GroundReaction {
   Vec3<F> force_n[2];
@@ -24,18 +24,18 @@ struct JointMoments {
   F hip_nm[2], knee_nm[2], ankle_nm[2];
 };
 
-/// The points of the legs that moments are taken of: of each leg, right before left, five.
+/// Points of the legs about which moments are taken: five a leg, right before left.
 inline constexpr std::size_t leg_points = 5;
 enum LegPoint : std::size_t { hip_point, knee_point, ankle_point, ball_point, foot_centre_point };
 constexpr std::size_t leg_point(std::size_t side, LegPoint p) {
   return side * leg_points + p;
 }
 
-/// Between the poses that a walker's motion is taken from, s: longer blurs, shorter shows single precision.
+/// Time between the poses from which a walker's motion is computed, s. Longer blurs, shorter amplifies rounding.
 inline constexpr float motion_difference_s = 0.006F;
 
-/// Of a person whose host animates the skeleton, what its motion is taken from: the poses of the last two ticks, the
-/// newer one first; how high its lowest sole was, m; and how many of the poses are known.
+/// Recent poses of a person whose host animates the skeleton: those of the last two ticks, the newer one first; height
+/// of the lowest sole in the last tick, m; number of known poses. The person's motion is computed from them.
 template <class F>
 struct PoseHistory {
   static constexpr std::uint64_t stable_id = 0xf987aad48bfed529;
@@ -44,11 +44,10 @@ struct PoseHistory {
   UInt32<F> known;
 };
 
-/// How a walker moves now, in the frame of the stance foothold: x to the left, y up, z the way the walking line heads
-/// there. What accelerates the body against gravity, Σ m (a + g), and the moment of that with its turning about the
-/// foothold, Σ r × m (a + g) + dL/dt, over all 48 segments; per kg of the body's mass. Places (m) and accelerations
-/// (m/s²) of the legs' points. The way the thighs face and each foot points (unit, on the ground), and the foot's pitch
-/// (rad, toes up).
+/// Motion of a walker, in the frame of the stance foothold: x to the left, y up, z along the walking line there. Force
+/// Σ m (a + g), and its moment with the change of angular momentum about the foothold, Σ r × m (a + g) + dL/dt. Both
+/// are sums over all 48 segments, per kg of body mass. Positions (m) and accelerations (m/s²) of the legs' points.
+/// Directions of the thighs and of each foot (unit, on the ground), and the foot's pitch (rad, toes up).
 template <class F>
 struct BodyMotion {
   Vec3<F> force_per_kg, moment_per_kg;

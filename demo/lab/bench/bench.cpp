@@ -53,7 +53,7 @@ struct BenchText {
   bool quick = false;
 };
 
-/// The benches to run, in the order above; the run's own choices are set.
+/// Returns the benches to run, in the order above, and stores the run's own options.
 std::vector<Bench> read_request(const BenchText& text, BenchRun& run) {
   auto chosen = must(choose_named(benches, text.names, "bench"));
   constexpr std::size_t most = 200'000;
@@ -88,7 +88,7 @@ void print_table(const BenchRun& run) {
   for (const std::string& note : run.notes) fmt::print("{}\n", note);
 }
 
-/// One entry of the results. Further keys may follow; these stay.
+/// Returns one entry of the results. Further keys can be added; these stay.
 Json entry(const std::string& name, double value, std::string_view unit) {
   return {{"name", name}, {"value", value}, {"unit", unit}};
 }
@@ -120,7 +120,7 @@ int bench(const BenchText& text) {
   run.machine = describe_machine();
   show("measuring the machine");
   measure_machine(run.machine);
-  if (chosen->front().name != benches.front().name) bench_machine(run);  // the others are compared with it
+  if (chosen->front().name != benches.front().name) bench_machine(run);  // reference for the others
   for (const Bench& one : *chosen) {
     show(fmt::format("measuring {}", one.name));
     if (auto done = attempt([&] { one.run(run); }); !done)

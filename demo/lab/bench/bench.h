@@ -1,5 +1,5 @@
 #pragma once
-// What every bench is made of: what it is asked, and what it hands back.
+// Common parts of all benches: their input and their results.
 //
 // A bench is one function, `void bench_x(BenchRun&)`, in a file of its own and one line in the list of
 // bench.cpp.
@@ -21,41 +21,41 @@ class BenchCrowd;  // demo/lab/bench/bench_crowd.h
 
 inline constexpr std::size_t muscles_a_person = 8;
 
-/// One figure; `value` is the best of the repeats (of a rate the highest, of a time the least), in `unit`.
+/// One figure. `value` is the best of the repeats (highest rate, shortest time), in `unit`.
 struct BenchResult {
   std::string name;
   double value = 0;
   std::string unit;
   std::optional<double> median{}, cpu{};            // the same unit
   std::optional<double> of_peak{}, of_bandwidth{};  // fractions of this core's limits
-  std::string bound;                                // what holds it back, in words
+  std::string bound;                                // limiting factor, in words
 };
 
 struct BenchRun {
   std::size_t people = 10000;
-  bool quick = false;  // one short round where there would be many; so far of the finite-element benches
+  bool quick = false;  // one short round instead of many; so far only in the finite-element benches
   Machine machine;
   std::vector<BenchResult> results;
-  std::vector<std::string> notes;  // what was not measured, and why
+  std::vector<std::string> notes;  // what was not measured, and the reason
 
-  /// A crowd in which everybody is someone else; made when first asked for. Errors: those of spawning.
+  /// Returns a crowd of distinct people, made on first use. Errors: those of spawning.
   BenchCrowd* crowd();
-  /// A part of it small enough for the caches; null when the crowd itself is no larger.
+  /// Returns a part of it that fits in the caches; null if the crowd itself is not larger.
   BenchCrowd* small_crowd();
 
-  /// How often to do what is usually done `usual` times.
+  /// Returns the number of repeats of a measurement that usually has `usual`.
   int rounds(int usual) const { return quick ? 1 : usual; }
 
-  /// Adds the time of one item, `unit_s` the unit in s, of a run over `items`. Good until the next is added.
+  /// Adds the time of one item of a run over `items`. `unit_s` is the unit in s. Valid until the next addition.
   BenchResult& add_time(std::string name, const Measured& time, double items, double unit_s, std::string unit);
-  /// A figure without repeats of its own.
+  /// Adds a figure without repeats of its own.
   BenchResult& add_figure(std::string name, double value, std::string unit, std::string bound);
 
  private:
   std::shared_ptr<BenchCrowd> crowd_, small_crowd_;
 };
 
-/// "instructions; n multiply-adds at peak take as long".
+/// Returns "instructions; n multiply-adds at peak take as long".
 std::string at_peak(const Machine& machine, double seconds);
 
 void bench_machine(BenchRun& run);

@@ -26,7 +26,7 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t max_blocks = 256;  // of sixteen muscles; in a quarter of a megabyte
+constexpr std::size_t max_blocks = 256;  // of sixteen muscles; 256 KiB
 
 /// Sixteen muscles of one member.
 struct PullBlock {
@@ -42,7 +42,7 @@ void set_all(Lanes<float>& lanes, double x) {
   std::ranges::fill(lanes.lane, static_cast<float>(x));
 }
 
-/// The shape at finite strain over what a method computed, of sixteen muscles whose points lie in a cache.
+/// Measures the finite-strain shape added to a method's result, for sixteen muscles whose points are in a cache.
 void bench_shape(BenchRun& run) {
   const Muscle muscle = *find_muscle("gastrocnemius_medial");
   const HexahedralMesh mesh = finite_mesh(muscle, {2, 2, 8});
@@ -61,12 +61,12 @@ void bench_shape(BenchRun& run) {
       at_peak(run.machine, adding.best_s / (64.0 * lane_count));
 }
 
-/// Twelve motions of bellies that vibrate, and what it takes more that tension stiffens them.
+/// Measures twelve modes of vibrating bellies, and the additional cost of stiffening by tension.
 void bench_tuned(BenchRun& run) {
   const Muscle muscle = *find_muscle("gastrocnemius_medial");
   const auto basis = must(make_modal_basis(finite_mesh(muscle, {4, 4, 16}), Material{}, Element::full, {}));
   constexpr float tick_s = 1.0F / 60;
-  constexpr std::size_t blocks = 64;  // in a quarter of a megabyte
+  constexpr std::size_t blocks = 64;  // 256 KiB
   BellyScale<Lanes<float>> scale;
   set_all(scale.across, 1), set_all(scale.along, 1);
   const std::size_t motion = modal_motion_width(basis.modes, basis.inputs);

@@ -1,5 +1,5 @@
-// Crowds who keep out of each other's way: how fast they get on in a corridor, across each other and through a door,
-// how near they come, and what choosing steps costs.
+// Crowds that avoid each other: speed in a corridor, across each other and through a door, distances, and the cost of
+// choosing steps.
 
 #include <fmt/format.h>
 
@@ -28,8 +28,8 @@ float drawn(std::uint64_t number, std::uint64_t what) {
   return static_cast<float>(mix64(mix64(number + 78) ^ what) >> 40) * 0x1p-24F;
 }
 
-/// People who walk round a ring, so that nobody comes or goes; or across a square and through a door, at whose end they
-/// come in again at the other as soon as there is room.
+/// People who walk around a ring, so that their number is constant; or across a square or through a door. There they
+/// enter again at the other end as soon as there is room.
 class FlowScene {
  public:
   FlowScene(Flow flow, float people_a_m2, const AvoidanceOptions& options = {}) : flow_(flow) {
@@ -73,7 +73,7 @@ class FlowScene {
 
   std::size_t people() const { return people_.size(); }
   double choosing_s = 0, way_m = 0, person_s = 0, stood_s = 0, near = 0, looks = 0;
-  double trunks_m = 0, shoulders_m = 0;  // the most that two overlapped
+  double trunks_m = 0, shoulders_m = 0;  // largest overlap of two people
   double in_middle = 0;                  // of the square: people, summed over ticks
   std::size_t passed = 0;
 
@@ -102,7 +102,7 @@ class FlowScene {
     bool back = false;
     double stands_s = 0;
     std::uint32_t came_in = 0;
-    bool clear = true;  // of everybody, some time after they came in
+    bool clear = true;  // of all people, some time after entering
     AvoidanceState<float> course{};
     double faces_rad = 0;
   };
@@ -111,7 +111,7 @@ class FlowScene {
 
   float heading(const Person& one) const {
     if (round()) {
-      // Steps follow a heading late: with this a lone walker drifts neither out nor in.
+      // Steps follow a heading late. With this look-ahead a lone walker drifts neither out nor in.
       constexpr float looks_ahead_m = 1.7F;
       const float way = one.back ? -1 : 1;
       const float at = std::atan2(one.z_m, one.x_m) + way * looks_ahead_m / std::hypot(one.x_m, one.z_m);
@@ -164,8 +164,8 @@ class FlowScene {
     one.z_m = z;
   }
 
-  /// Who has left comes in again at the other end as soon as there is room, beside where they left: so that as many
-  /// people stay on the stretch.
+  /// Lets people who have left enter again at the other end as soon as there is room, next to where they left. The
+  /// number of people on the stretch is thus constant.
   void come_in_again() {
     if (round()) return;
     const float end = 0.5F * along_m_;
@@ -207,14 +207,14 @@ class FlowScene {
     });
   }
 
-  /// Half the breadth of somebody's shoulders toward (x, z): of an ellipse as deep as 0.58 of its breadth.
+  /// Returns half the breadth of a person's shoulders toward (x, z): an ellipse as deep as 0.58 of its breadth.
   static double shoulders_toward(const Person& one, double x, double z) {
     const double faces = one.faces_rad + double{one.course.turn_rad};
     const double ahead = x * std::sin(faces) + z * std::cos(faces), aside = x * std::cos(faces) - z * std::sin(faces);
     return double{one.course.shoulders_m} * std::hypot(aside, 0.58 * ahead);
   }
 
-  /// Who has come in may have been put where somebody was about to be: they count from when they are clear of everybody
+  /// A person who enters can be placed where another was about to be. People count once they are clear of all others,
   /// some seconds later.
   void look_who_is_near() {
     constexpr std::uint32_t settled = 300;

@@ -1,4 +1,4 @@
-// What ranks cost: messages, ticks with and without exchange, and a model of more ranks after LogGP (Alexandrov,
+// Costs of ranks: messages, ticks with and without exchange, and a model of more ranks after LogGP (Alexandrov,
 // Ionescu, Schauser, Scheiman 1995).
 
 #include <fmt/format.h>
@@ -17,19 +17,19 @@
 namespace mobil {
 namespace {
 
-/// Times in s, of messages between two ranks and of a tick's work.
+/// Times in s, of messages between two ranks and of the work of a tick.
 struct ClusterModel {
   // Latency is not a parameter: the first rank is ahead, so no rank waits for a single message.
-  double overhead = 0;  // o: that a rank spends on sending a message
-  double per_byte = 0;  // G: more for each byte of a long one
+  double overhead = 0;  // o: time of a rank to send a message
+  double per_byte = 0;  // G: additional time for each byte of a long one
   double person = 0;    // of one awake walker, a tick
   double command = 0;   // of the first rank's host, for one command
-  // As people do in `mobil crowd`: each is asked for something so often a tick, and a command has so many bytes.
+  // As for people in `mobil crowd`: requests of a person per tick, and bytes of a command.
   double commands_a_person = 0, bytes_a_command = 0;
 };
 
-/// A tick of so many people on so many ranks, s. People are spread by chance, so the fullest rank has about
-/// √(2 ln ranks · people / ranks) more than the mean; where there are fewer cores than ranks, these take turns.
+/// Time of a tick of a crowd on several ranks, s. People are spread at random, so the fullest rank has about √(2
+/// ln ranks · people / ranks) more than the mean. With fewer cores than ranks, the ranks take turns.
 struct ClusterTick {
   double work = 0;    // of the fullest rank
   double serial = 0;  // of the first rank, while all others wait: commands, and sending them down the tree
@@ -45,7 +45,7 @@ ClusterTick predict(const ClusterModel& model, double people, int ranks, int cor
           model.command * commands + children * (model.overhead + model.per_byte * model.bytes_a_command * commands)};
 }
 
-/// The most people whose tick takes no longer than that.
+/// Returns the maximum number of people whose tick takes no longer than `within_s`.
 double people_within(const ClusterModel& model, double within_s, int ranks, int cores) {
   double low = 0, high = 1e12;
   for (int i = 0; i < 100; ++i) {
@@ -59,7 +59,7 @@ constexpr double cluster_tick_s = 1.0 / 60;
 constexpr std::uint32_t shards_a_rank = 4, seed_of_bench = 1;
 constexpr int ticks_a_round = 60, usual_rounds = 7;
 
-/// All that was measured at one rank; what others measured is shared.
+/// Measurements of one rank. Those of other ranks are shared.
 struct ClusterTimes {
   std::vector<std::pair<std::size_t, double>> ping_s;  // by bytes, one way
   double send_s = 0, share_s = 0, sum_s = 0, command_s = 0;
@@ -104,7 +104,7 @@ void time_messages(Ranks& ranks, ClusterTimes& times) {
   ranks.sum(std::uint64_t{0});
 }
 
-/// As often as people in `mobil crowd` are asked for something: each every 15 s.
+/// Returns requests as often as in `mobil crowd`: one for each person every 15 s.
 std::vector<std::byte> draw_commands(std::size_t people, std::uint32_t tick) {
   std::vector<PersonCommand> all;
   CrowdRandom random(seed_of_bench, tick, 0);
@@ -129,8 +129,8 @@ std::vector<std::byte> everybody(std::size_t people) {
   return {raw.begin(), raw.end()};
 }
 
-/// One rank's work, or two alike at once, as processes that know nothing of each other would have it; then the same
-/// people with all that ranks exchange. The rounds are interleaved, for the machine is not ours alone.
+/// Times one rank's work, or that of two at once, as independent processes would do it, then the same people with all
+/// exchange of ranks. The rounds are interleaved, because other processes use the machine.
 Result<void> time_ticks(Ranks& ranks, std::size_t people, int rounds, ClusterTimes& times) {
   const auto count = static_cast<std::uint32_t>(ranks.count());
   const PeopleShardOptions options{.shards = shards_a_rank * count};
@@ -148,7 +148,7 @@ Result<void> time_ticks(Ranks& ranks, std::size_t people, int rounds, ClusterTim
       shard->tick();
     }
   };
-  // The shards run ahead of the cluster's count in these; what they do does not depend on it.
+  // The shards run ahead of the cluster's count here. Their results do not depend on it.
   std::uint32_t tick = 1;
   const auto round_of = [&](const std::function<void()>& work) {
     ranks.sum(std::uint64_t{0});

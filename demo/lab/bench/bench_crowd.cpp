@@ -12,8 +12,8 @@
 namespace mobil {
 namespace {
 
-constexpr double min_cpu_s = 20e-6;    // asking a thread for its time on a processor takes about 0.5 us
-constexpr double settling_s = 2;       // until nobody steps in time with anybody else
+constexpr double min_cpu_s = 20e-6;    // reading a thread's processor time takes about 0.5 us
+constexpr double settling_s = 2;       // until people no longer step in time with each other
 
 }  // namespace
 
@@ -64,7 +64,7 @@ const std::map<std::string, Measured, std::less<>>& BenchCrowd::steady_ticks() {
     schedule.reset_timings();
     run();
     for (std::size_t s = 0; s < systems; ++s) wall[s].push_back(schedule.timings()[s].seconds / ticks);
-    // in ticks of its own, as asking for it takes time too
+    // in separate ticks, because reading the time costs time
     const auto cpu_s = cpu_of(run);
     for (std::size_t s = 0; s < systems; ++s) cpu[s].push_back(cpu_s[s] / ticks);
   }

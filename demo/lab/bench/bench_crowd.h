@@ -1,5 +1,5 @@
 #pragma once
-// A crowd in which everybody is someone else, and how long its systems take.
+// A crowd of distinct people, and the times of its systems.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,8 +23,8 @@ class BenchCrowd {
  public:
   static constexpr std::uint64_t seed = 1;
 
-  /// Spawns one after the other, with a bar on a terminal; who cannot walk as drawn is drawn again. Throws Stopped
-  /// with the last refusal when twenty draws in a row were refused.
+  /// Spawns people one after the other, with a progress bar on a terminal. A person who cannot walk as drawn is drawn
+  /// again. After twenty refusals in a row throws Stopped with the last one.
   explicit BenchCrowd(std::size_t people);
   BenchCrowd(const BenchCrowd&) = delete;
   BenchCrowd& operator=(const BenchCrowd&) = delete;
@@ -35,17 +35,17 @@ class BenchCrowd {
   const Measured& spawn() const { return spawn_; }  // of one person; `best_s` is the mean
   std::size_t drawn_again() const { return drawn_again_; }
 
-  /// Each system's time for one steady tick over the whole crowd, by name; measured when first asked for.
+  /// Returns each system's time for one steady tick over the whole crowd, by name; measured on first use.
   const std::map<std::string, Measured, std::less<>>& steady_ticks();
-  /// Bytes that a system reads and bytes that it writes for one person and tick, as its signature says, each once; 0
-  /// for a system that is not there or has nobody to work on.
+  /// Returns the bytes that a system reads and writes for one person and tick, by its signature, each once. 0 for a
+  /// system that does not exist or has no rows.
   std::size_t bytes_per_person(std::string_view system);
 
-  /// Seconds that each system, in the order of the schedule, had a processor for while `work` ran. Resets the
-  /// schedule's timings.
+  /// Returns the seconds for which each system, in the order of the schedule, had a processor while `work` ran. Resets
+  /// the schedule's timings.
   std::vector<double> cpu_of(const std::function<void()>& work);
 
-  /// Asks everybody for another speed, drawn as the first one was. Throws Stopped at the first refusal.
+  /// Requests another speed for all people, drawn as the first one was. Throws Stopped at the first refusal.
   void change_speeds(std::uint32_t round, float forward_swing);
 
  private:

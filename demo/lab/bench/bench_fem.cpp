@@ -1,5 +1,5 @@
-// The finite-element kernels: explicit central differences on the paper's 81 nodes against this core's peak, against
-// what others' code needs for the same work, and against itself on two threads.
+// Finite-element kernels: explicit central differences on the paper's 81 nodes. They are compared with this core's
+// peak, with other libraries on the same work, and with two threads.
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -23,7 +23,7 @@ namespace {
 /// Results that one rival reports; times are its processor's.
 struct RivalTime {
   double us_per_step = 0, median_us = 0, dt_s = 0;
-  double far_z_m = 0;  // its first muscle's far face after 248 steps, where it says
+  double far_z_m = 0;  // far face of its first muscle after 248 steps, if reported
   std::string variant, check;
   bool holds = false;
 };
@@ -35,20 +35,20 @@ fs::path program() {
   return fs::read_symlink("/proc/self/exe", ignored).parent_path() / "mobil_rivals";
 }
 
-/// As one word of the shell.
+/// Returns a text as one word of the shell.
 std::string quoted(const std::string& text) {
   std::string word = "'";
   for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
   return word + "'";
 }
 
-/// Whether the comparison program is there.
+/// Returns true if the comparison program exists.
 bool rivals_found() {
   return access(program().c_str(), X_OK) == 0;
 }
 
-/// Runs it once for the measurement `name`; `quick`: for a moment, whatever else the machine does. Fails with its own
-/// words.
+/// Runs the program once for the measurement `name`; `quick` runs it for a moment only, regardless of other load. Fails
+/// with the program's message.
 RivalTime measure_rival(const std::string& name, bool quick) {
   const std::string command = quoted(program().string()) + (quick ? " --quick " : " ") + quoted(name) + " 2>&1";
   const auto close = [](FILE* f) { return pclose(f); };
@@ -77,10 +77,10 @@ RivalTime measure_rival(const std::string& name, bool quick) {
   return time;
 }
 
-/// The best of several rounds by the name of the measurement.
+/// Best of several rounds, by the name of the measurement.
 class RivalRounds {
  public:
-  /// One more round of each of `names`.
+  /// Adds one more round of each of `names`.
   void add(const std::vector<std::string>& names, bool quick) {
     for (const std::string& name : names) {
       const RivalTime time = measure_rival(name, quick);
@@ -92,7 +92,7 @@ class RivalRounds {
       known->second.median_us = median(medians);
     }
   }
-  /// Null where it was not measured.
+  /// Returns null if it was not measured.
   const RivalTime* find(const std::string& name) const {
     const auto known = best_.find(name);
     return known == best_.end() ? nullptr : &known->second;
@@ -110,7 +110,7 @@ struct Comparison {
   RivalRounds rivals;
 };
 
-/// Ours and theirs in turn, so that a busy moment hits all alike.
+/// Measures ours and theirs alternately, so that other load affects all equally.
 Comparison compare(const BenchRun& run, const MuscleTemplate& muscle, bool with_rivals) {
   BenchBellies shared(muscle, Stiffness::shared, crowd_blocks);
   BenchBellies individual(muscle, Stiffness::individual, crowd_blocks);
@@ -121,7 +121,7 @@ Comparison compare(const BenchRun& run, const MuscleTemplate& muscle, bool with_
     found.individual.add(measure(run.rounds(20), [&] { individual.tick(steps_a_tick, paper_tick_s); }));
     if (!with_rivals) continue;
     found.rivals.add({"eigen", "eigen_individual", "eigen_batched"}, run.quick);
-    if (round > 0 && !bullet_dt_s) continue;  // it was not there
+    if (round > 0 && !bullet_dt_s) continue;  // not available
     const std::string bullet = bullet_dt_s ? fmt::format("bullet@{:.9g}", *bullet_dt_s) : "bullet";
     if (attempt([&] { found.rivals.add({bullet}, run.quick); })) bullet_dt_s = found.rivals.find("bullet")->dt_s;
   }
@@ -129,7 +129,7 @@ Comparison compare(const BenchRun& run, const MuscleTemplate& muscle, bool with_
   return found;
 }
 
-/// The 248 steps that the comparison program checks itself by, of its first muscle.
+/// Returns the far face of the first muscle after the 248 steps by which the comparison program checks itself.
 float far_face_after_check(const MuscleTemplate& muscle) {
   BenchBellies bellies(muscle, Stiffness::shared, 1);
   for (int n = 0; n < 248; ++n) bellies.tick(1, static_cast<float>(paper_step_s));
@@ -176,8 +176,8 @@ void add_rivals(BenchRun& run, const MuscleTemplate& muscle, const Comparison& f
   }
 }
 
-/// Gives the caller and the pool's second thread a core each, or (`apart` false) all of `allowed` again: on a busy
-/// machine the system may keep both on one.
+/// Gives the caller and the pool's second thread a core each, or (`apart` false) all of `allowed` again. On a busy
+/// machine the system can keep both on one core.
 void place_threads(const Jobs& jobs, const cpu_set_t& allowed, bool apart) {
   struct Meeting {
     const cpu_set_t& allowed;
@@ -188,7 +188,7 @@ void place_threads(const Jobs& jobs, const cpu_set_t& allowed, bool apart) {
   jobs.parallel_for(
       jobs.user, 2,
       [](void* context, std::size_t begin, std::size_t end) {
-        if (end - begin != 1) return;  // nobody came to help
+        if (end - begin != 1) return;  // no second thread took part
         Meeting& all = *static_cast<Meeting*>(context);
         int core = all.here++;
         const double start_s = wall_now_s();
@@ -202,7 +202,7 @@ void place_threads(const Jobs& jobs, const cpu_set_t& allowed, bool apart) {
       &meeting);
 }
 
-/// Blocks of a crowd that fits the caches, one after the other and shared out between two threads.
+/// Measures blocks of a crowd that fits in the caches, in sequence and shared between two threads.
 void bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
   const Threads pool(2);
   if (pool.count() < 2) {
@@ -214,7 +214,7 @@ void bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
     BenchBellies& bellies;
     int ticks;
   };
-  // Short turns and long ones: among other work the second thread may be a while getting its core.
+  // Uses short and long turns: under other load the second thread can wait for its core.
   const auto time_a_tick = [&](const Jobs& by, int repeats, int ticks) {
     Work work{bellies, ticks};
     Measured time = measure(repeats, [&] {
@@ -255,7 +255,7 @@ void bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
   }
 }
 
-/// Adds the time of one muscle's step from that of all muscles' steps of a tick, and its share of the peak.
+/// Adds the time of one muscle's step, from all muscles' steps of a tick, and its fraction of the peak.
 void add_step_time(BenchRun& run, const std::string& stem, const Measured& time, const Cells& cells) {
   constexpr double steps = static_cast<double>(crowd_blocks * lane_count) * steps_a_tick;
   BenchResult& result = run.add_time(stem + ".us_per_step", time, steps, 1e-6, "us");

@@ -1,5 +1,5 @@
 #pragma once
-// Blocks of bellies as the engine steps them: sixteen individuals a block, a tick at a time.
+// Blocks of bellies as the engine steps them: sixteen individuals a block, one tick at a time.
 
 #include <array>
 #include <cstddef>
@@ -20,33 +20,33 @@ inline constexpr std::uint32_t steps_a_tick = 8;  // of 2 ms: about 60 Hz
 inline constexpr float paper_tick_s = 0.016F;
 inline constexpr std::size_t crowd_blocks = 64;  // 1024 muscles
 
-/// The paper's body (30 × 30 × 120 mm, its material, a free far face) in so many elements; 2×2×8 are 15 mm cubes.
+/// Returns the paper's body (30 × 30 × 120 mm, its material, a free far face) in these elements; 2×2×8 are 15 mm cubes.
 MuscleTemplate paper_block(const Cells& cells);
 double paper_limit_s(const MuscleTemplate& muscle, Mass mass = Mass::lumped);
 
-/// Multiply-adds of one step's K·u without clamped rows and columns: 9702 on 81 nodes.
+/// Returns the multiply-adds of one step's K·u without clamped rows and columns: 9702 on 81 nodes.
 double useful_multiply_adds(const Cells& cells);
 
-/// Pull along z, N: the load that the comparison program has, and what part of it is sideways.
+/// Returns the pull along z, N, as in the comparison program; `bench_sideways` of it is sideways.
 double bench_pull_n(double time_s);
 inline constexpr double bench_sideways = 0.05;
 
 class BenchBellies {
  public:
-  /// All at rest. Individuals are 0.8–1.3 times as wide and 0.85–1.15 times as long; the first is as the template, and
-  /// with Stiffness::shared all are. Each is pulled a little more than the one before.
+  /// All are at rest. Individuals are 0.8–1.3 times as wide and 0.85–1.15 times as long; the first equals the template,
+  /// and with Stiffness::shared all do. Each is pulled a little more than the previous one.
   BenchBellies(const MuscleTemplate& muscle, Stiffness stiffness, std::size_t blocks);
 
-  /// One tick of everybody, or of one block: by ECD or by the method of `solver`. Writes no BellyReport.
+  /// Advance all bellies, or one block, by a tick: explicit central differences or `solver`. Write no BellyReport.
   void tick(std::uint32_t substeps, float tick_s, const BellySolver* solver = nullptr);
   void tick_block(std::size_t block, std::uint32_t substeps, float tick_s, const BellySolver* solver = nullptr);
 
   std::size_t blocks() const { return blocks_.size(); }
   std::size_t muscles() const { return blocks_.size() * lane_count; }
-  /// Whether every elongation is a number.
+  /// Returns true if every elongation is finite.
   bool finite() const;
 
-  // Of the first block: mean displacement of the far face along z, m; sizes; how much harder each is pulled.
+  // Return data of the first block: mean far-face displacement along z, m; sizes; relative pull of each lane.
   Lanes<float> elongation_m() const { return elongation_m(blocks_.front()); }
   const BellyScale<Lanes<float>>& scale() const { return blocks_.front().scale; }
   const Lanes<float>& strength() const { return blocks_.front().strength; }
@@ -66,17 +66,17 @@ class BenchBellies {
   std::vector<Block> blocks_;
 };
 
-/// Far-face elongations over time, one a step; of each lane of a block.
+/// Far-face elongations over time, one a step, for each lane of a block.
 using Histories = std::array<std::vector<double>, lane_count>;
-/// The first block of such bellies for `seconds` in steps of `dt_s`, by ECD or by the method of `solver`.
+/// Returns the first block's elongations for `seconds` in steps of `dt_s`, by explicit central differences or `solver`.
 Histories bench_histories(const MuscleTemplate& muscle, Stiffness stiffness, double dt_s, double seconds,
                           const BellySolver* solver = nullptr);
 
-/// Root mean square of the difference over the largest of `truth`, which has a whole number of samples for each of
-/// `history`.
+/// Returns the root mean square of the difference over the largest of `truth`, which has an integer number of samples
+/// for each of `history`.
 double history_error(const std::vector<double>& history, const std::vector<double>& truth);
 
-/// The best of several rounds, other work in between.
+/// Best of several rounds, with other work in between.
 class Rounds {
  public:
   void add(const Measured& round);

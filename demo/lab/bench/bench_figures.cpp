@@ -1,7 +1,7 @@
-// Figures 18, 19 and 20 of the paper as numbers: what one second of one muscle costs by method, step and mesh, how far
-// the cheap solution is from the dear one, and whether a fourth muscle group at 3 ms costs what three cost at 2 ms.
-// Methods that solve: constant average acceleration (CAA), implicit central differences (ICD), static answers.
-// Cost and error of a step with one body for all people and with a body for each.
+// Figures 18, 19 and 20 of the paper as numbers: the cost of one second of one muscle by method, step and mesh; the
+// error of the cheap solution; four muscle groups at 3 ms compared with three at 2 ms. Solving methods are Newmark
+// average acceleration (CAA), implicit central differences (ICD) and static. Also cost and error of a step with one
+// body for all people and with a body for each.
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ constexpr FigureMesh coarse{"81", {2, 2, 8}}, fine{"525", {4, 4, 20}}, finest{"3
 constexpr std::array steps_ms = {0.5, 1.0, 2.0, 3.0, 4.0};
 constexpr double lanes = lane_count;
 
-/// What a second of the whole block of sixteen takes, s; none where the step is refused.
+/// Cost of a second of the whole block of sixteen, s; none if the step is refused.
 struct Cost {
   std::optional<Measured> block;
   double limit_s = 0;  // infinite for CAA
@@ -60,7 +60,7 @@ Cost second(const BenchRun& run, const MuscleTemplate& muscle, Method method, do
   return cost;
 }
 
-/// Says so where the step is above the method's limit.
+/// Adds a cost, or a note if the step is above the method's limit.
 void add_cost(BenchRun& run, const std::string& name, const Cost& cost) {
   if (!cost.block) {
     run.notes.push_back(fmt::format("{}: above the limit {:.2f} ms", name, cost.limit_s * 1e3));
@@ -71,7 +71,7 @@ void add_cost(BenchRun& run, const std::string& name, const Cost& cost) {
                   cost.block->best_s * 1e6, 1 / cost.block->best_s);
 }
 
-/// Figure 18, one mesh; and of 81 nodes, figure 20 right is its first row.
+/// Measures figure 18 on one mesh. With 81 nodes its first row is also figure 20 right.
 std::map<double, Cost> figure18(BenchRun& run, const FigureMesh& mesh, const MuscleTemplate& muscle) {
   std::map<double, Cost> explicit_costs;
   for (const Method method : {Method::explicit_central, Method::implicit_central, Method::newmark}) {
@@ -85,7 +85,7 @@ std::map<double, Cost> figure18(BenchRun& run, const FigureMesh& mesh, const Mus
   return explicit_costs;
 }
 
-/// Figure 20 left: ECD at 1 ms on three meshes; a mesh that 1 ms is too long for at 0.9 of its limit.
+/// Measures figure 20 left: explicit steps of 1 ms on three meshes, or of 0.9 of the limit if 1 ms is too long.
 void figure20_left(BenchRun& run) {
   for (const FigureMesh& mesh : {coarse, fine, finest}) {
     const auto muscle = paper_block(mesh.cells);
@@ -98,14 +98,14 @@ void figure20_left(BenchRun& run) {
   }
 }
 
-/// One second of elongation of the template's body, one sample a step.
+/// Returns one second of elongation of the template's body, one sample a step.
 std::vector<double> history(const MuscleTemplate& muscle, Method method, double dt_s) {
   std::optional<BellySolver> solver;
   if (method != Method::explicit_central) solver = must(make_belly_solver(muscle, method, mass_of(method), dt_s));
   return bench_histories(muscle, Stiffness::shared, dt_s, 1, solver ? &*solver : nullptr)[0];
 }
 
-/// Figure 19 as numbers, and the errors that the reservation of a fourth group rests on.
+/// Measures figure 19 as numbers, and the errors on which the claim of a fourth group rests.
 void figure19(BenchRun& run) {
   const auto few = paper_block(coarse.cells), many = paper_block(fine.cells), most = paper_block({8, 8, 32});
   const auto newmark = history(many, Method::newmark, 1e-3), explicit2 = history(few, Method::explicit_central, 2e-3),
@@ -129,13 +129,13 @@ void figure19(BenchRun& run) {
 void four_groups(BenchRun& run, const std::map<double, Cost>& costs) {
   const double at2 = *costs.at(2.0).block->cpu_s / lanes, at3 = *costs.at(3.0).block->cpu_s / lanes;
   run.add_figure("figure20.four_groups_at_3ms_over_three_at_2ms", 4 * at3 / (3 * at2), "1",
-                 fmt::format("of one leg; the paper's reservation holds up to 1; {:.0f} times faster than real time",
+                 fmt::format("of one leg; the paper's claim holds up to 1; {:.0f} times faster than real time",
                              1 / (4 * at3)));
 }
 
 constexpr double display_tick_s = 1.0 / 60;
 
-/// Elongations of the body in lane `l` of the first block, in double precision.
+/// Returns elongations of the body in lane `l` of the first block, in double precision.
 std::vector<double> reference_history(const MuscleTemplate& muscle, Method method, double dt_s, double seconds,
                                       const BellyScale<Lanes<float>>& scale, const Lanes<float>& strength,
                                       std::size_t l) {
@@ -158,7 +158,7 @@ std::vector<double> reference_history(const MuscleTemplate& muscle, Method metho
   return history;
 }
 
-/// One body for all, or everybody's own, at one step of CAA.
+/// One body for all people, or one for each, at one step of CAA.
 struct Case {
   const char* name;
   double dt_s;
@@ -169,7 +169,7 @@ constexpr std::array cases = {Case{"fem.newmark81", paper_step_s, steps_a_tick},
 
 constexpr std::array<std::size_t, 4> looked_at = {0, 5, 10, 15};  // lanes
 
-/// Largest error of the lanes looked at against double precision at the same step.
+/// Returns the largest error of the lanes in `looked_at`, compared with double precision at the same step.
 double solver_error(const MuscleTemplate& muscle, Stiffness stiffness, double dt_s, const BellySolver& solver) {
   constexpr double seconds = 0.5;
   const BenchBellies bodies(muscle, stiffness, 1);
@@ -207,7 +207,7 @@ void bench_newmark(BenchRun& run, const MuscleTemplate& muscle) {
   }
 }
 
-/// What the steps themselves cost in accuracy, against explicit steps of 0.1 ms; the load rings at 7 Hz.
+/// Measures the error of time steps, compared with explicit steps of 0.1 ms. The load rings at 7 Hz.
 void bench_time_errors(BenchRun& run, const MuscleTemplate& muscle) {
   const BenchBellies body(muscle, Stiffness::shared, 1);
   const auto add = [&](const char* name, Method method, double dt_s, double fine_s) {

@@ -1,5 +1,5 @@
-// The walkers' own systems over a crowd: the clock of the gait, a step solved anew, the pose of 48 segments. Table 1 of
-// the paper: the cost of a walk of so many steps, theirs beside ours (80 kg, 1.80 m, 5 km/h, no muscles).
+// The walkers' own systems over a crowd: the gait clock, solving a step again, the pose of 48 segments. Also table 1 of
+// the paper: the cost of a walk of a number of steps, compared with ours (80 kg, 1.80 m, 5 km/h, no muscles).
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 namespace mobil {
 namespace {
 
-/// How many rows a packed system has worked on, where its schedule counts them.
+/// Returns the number of rows that a packed system has processed, if its schedule counts them.
 template <class T>
 std::optional<std::uint64_t> rows_of(const T* timing) {
   if constexpr (requires { std::uint64_t{timing->rows}; }) {
@@ -27,8 +27,8 @@ std::optional<std::uint64_t> rows_of(const T* timing) {
   return std::nullopt;
 }
 
-/// Adds what one system takes for a person and tick in the crowd, and in the small crowd beside it. `bytes`: what it
-/// must move for one person.
+/// Adds the time of one system for a person and tick in the crowd, and in the small crowd. `bytes` is the data it must
+/// move for one person.
 void add_system(BenchRun& run, std::string_view system, const std::string& name, double bytes) {
   const auto crowd = run.crowd();
   const auto small = run.small_crowd();
@@ -57,7 +57,7 @@ void add_system(BenchRun& run, std::string_view system, const std::string& name,
       at_peak(run.machine, in_cache.best_s / people);
 }
 
-/// Everybody changes speed, and the steps that follow are solved anew.
+/// Changes the speed of all people, so that their next steps are solved again.
 void add_resolve(BenchRun& run, BenchCrowd& crowd, std::string_view name, float forward_swing) {
   static constexpr auto solver = "replan";
   constexpr int rounds = 5;
@@ -75,7 +75,7 @@ void add_resolve(BenchRun& run, BenchCrowd& crowd, std::string_view name, float 
     const std::uint64_t steps = *rows_of(&timing);
     if (steps == 0) continue;
     solved += steps;
-    // what looking for those who need a new step costs in all ticks is in the wall-clock time
+    // the search for people who need a new step, in all ticks, is in the wall-clock time
     wall.push_back(timing.seconds / static_cast<double>(steps));
     cpu.push_back(cpu_s[static_cast<std::size_t>(&timing - schedule.timings().data())] / static_cast<double>(steps));
   }
@@ -89,7 +89,7 @@ void add_resolve(BenchRun& run, BenchCrowd& crowd, std::string_view name, float 
                              static_cast<double>(solved) / (rounds * ticks));
 }
 
-/// Everybody's whole pose into a host's memory: as the tables hold it, and halfway to the next tick.
+/// Writes whole poses of all people to a host's memory: as the tables hold them, and halfway to the next tick.
 void add_poses(BenchRun& run, BenchCrowd& crowd, const std::string& name) {
   PoseWriter writer;
   constexpr std::size_t floats_a_segment = 7;
@@ -107,7 +107,7 @@ void add_poses(BenchRun& run, BenchCrowd& crowd, const std::string& name) {
   }
 }
 
-/// As printed, on a Pentium 4 at 2.8 GHz, 25 frames a second.
+/// Printed row, on a Pentium 4 at 2.8 GHz, 25 frames a second.
 struct PaperRow {
   int steps;
   double simulated_s;
@@ -121,7 +121,7 @@ constexpr std::array paper_rows = {PaperRow{3, 1.27, 30, 0.078}, PaperRow{4, 1.8
 
 constexpr double frame_s = 0.04;
 
-/// Spawns the person of the table and walks until so many steps are done; returns the frames that took.
+/// Spawns the table's person and walks until so many steps are done. Returns the number of frames.
 int walk_steps(int steps) {
   Simulation simulation({.tick_s = frame_s});
   const auto person = must(simulation.spawn({.height_m = 1.80F, .mass_kg = 80.0F}, {.speed_m_s = 5.0F / 3.6F}));
@@ -134,7 +134,7 @@ int walk_steps(int steps) {
 }  // namespace
 
 void bench_gait(BenchRun& run) {
-  // of the step's plan the clock reads its duration and its length
+  // the clock reads duration and length of the step's plan
   const double bytes = 2.0 * sizeof(GaitState<float>) + 2 * sizeof(float);
   add_system(run, "gait", "gait", bytes);
   BenchCrowd& crowd = *run.crowd();

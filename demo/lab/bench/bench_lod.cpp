@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t people = 64;
 
-/// Both legs' hamstrings of people, pulling or not, who begin with the levels's dearest level; `rounds` times there and
-/// back.
+/// Measures switches of people's hamstrings, both legs, active or not, from the dearest level to each other one and
+/// back, `rounds` times.
 void bench_levels(BenchRun& run, bool active) {
   Simulation simulation;
   std::vector<Entity> walkers;
@@ -35,7 +35,7 @@ void bench_levels(BenchRun& run, bool active) {
     const bool fine = levels[level].cells[2] > ModalOptions{}.cells[2];
     if (run.quick && fine) continue;  // its basis takes a second to make
     const std::size_t from = level == full ? 0 : full;
-    all_to(level);  // what it shares is made
+    all_to(level);  // makes its shared data
     std::vector<double> wall_s;
     for (int round = 0; round < run.rounds(5); ++round) {
       all_to(from);

@@ -1,4 +1,4 @@
-// Bellies that move along a few modes: a crowd's and one's that the caches hold, against memory and against this
+// Bellies that move in a few modes: a crowd's, and a set that fits in the caches, compared with memory and with this
 // core's peak.
 
 #include <fmt/format.h>
@@ -50,8 +50,8 @@ class Pages {
   std::unique_ptr<float, Free> floats_;
 };
 
-/// Blocks of bellies whose far face is held, each with all its columns in a row, as in a world's table. What their
-/// numbers are makes no difference to what they cost: each swings about a drive that grows evenly.
+/// Blocks of bellies whose far face is held, each with all its columns in a row, as in a world's table. The values do
+/// not affect the cost: each belly swings about a drive that grows evenly.
 class ModalCrowd {
  public:
   ModalCrowd(const Shape& shape, std::size_t blocks)
@@ -81,11 +81,11 @@ class ModalCrowd {
     }
   }
 
-  /// One tick of part `number` of `of`.
+  /// Advances part `number` of `of` by one tick.
   void tick(std::size_t number, std::size_t of, bool streamed) {
     for (std::size_t b = number * blocks_ / of; b < (number + 1) * blocks_ / of; ++b) {
       const Columns column = columns(b);
-      const bool last = b + 1 == blocks_ || of == 1;  // what the caches hold need not be fetched
+      const bool last = b + 1 == blocks_ || of == 1;  // cached data need no prefetch
       const Columns next = last ? Columns{} : columns(b + 1);
       const ModalBlock block{
           basis_,     *column.scale, column.state, column.motion, basis_.options.frame_loads ? column.frame : nullptr,
@@ -97,7 +97,7 @@ class ModalCrowd {
   }
 
   double muscles() const { return static_cast<double>(blocks_ * lane_count); }
-  /// Read and written a muscle and tick, each once.
+  /// Returns the bytes read and written a muscle and tick, each once.
   double bytes() const {
     const double n = basis_.modes, inputs = basis_.inputs;
     double floats = 2 * inputs + 4 * n + static_cast<double>(motion_width_);
@@ -121,7 +121,7 @@ class ModalCrowd {
   }
 
  private:
-  /// Where one block's columns begin.
+  /// Start of each column of one block.
   struct Columns {
     EndDrive<Lanes<float>>* end;
     BellyScale<Lanes<float>>* scale;
@@ -157,7 +157,7 @@ class ModalCrowd {
   std::size_t blocks_;
   ModalBasis basis_;
   std::size_t state_width_, motion_width_, shape_width_, node_width_;
-  std::size_t head_width_, words_;  // the former: what drives, sizes, and the frame's loads where there are any
+  std::size_t head_width_, words_;  // head_width_: drives, sizes, and the frame's loads if any
   Pages pages_;
 };
 
@@ -168,8 +168,8 @@ std::string stem_of(const Shape& shape, bool cached) {
 
 BenchResult measure_crowd(BenchRun& run, const Shape& shape, std::size_t blocks, bool cached) {
   ModalCrowd crowd(shape, blocks);
-  // A part at a time, so that some fall within a turn of ours on a busy machine; by its next turn the others have
-  // driven it out of the caches.
+  // One part at a time, so that some fall into our time slice on a busy machine. Until its next turn the others have
+  // evicted it from the caches.
   const std::size_t parts = cached ? 1 : std::max<std::size_t>(1, blocks / 200);
   std::size_t part = 0;
   const auto tick_some = [&] { crowd.tick(part++ % parts, parts, !cached); };

@@ -1,4 +1,4 @@
-// Skin and clothes in a vertex buffer, from poses on, and how far muscles lift them.
+// Skin and clothes in a vertex buffer, starting from poses, and their lift by muscles.
 // Surfaces: positions and normals of people's muscles and bones in a vertex buffer, from their control points on.
 
 #include <fmt/format.h>
@@ -20,15 +20,15 @@ namespace mobil {
 namespace {
 
 // A muscle's vertex: eight nodes' weighted mean (45), its place in the lattice (3), maps of frame and two bones (54),
-// their weighted sum (15), its side (1); its six neighbours' differences (12) and two products (21), its length (8;
-// root and quotient count as one each), and by that (3).
+// their weighted sum (15), its side (1). Its normal: six neighbours' differences (12), two products (21), its length
+// (8; root and quotient count as one each), division by it (3).
 constexpr double muscle_flops = 45 + 3 + 54 + 15 + 1 + 12 + 21 + 8 + 3;
-// Its tangent besides: four neighbours' differences (36), at right angles to the normal (11), its length (8), by that
-// (3).
+// Its tangent, in addition: four neighbours' differences (36), orthogonal to the normal (11), its length (8), division
+// by it (3).
 constexpr double tangent_flops = 36 + 11 + 8 + 3;
 constexpr double bone_flops = 18 + 15;  // rotated, and the position shifted
 
-/// A person and the vertices that they are drawn with.
+/// A person and the surfaces with which they are drawn.
 struct DrawnPerson {
   Entity entity;
   std::vector<SurfaceMuscle> muscles;
@@ -39,8 +39,8 @@ struct Scene {
   Simulation simulation;
   std::deque<BodySurfaces> surfaces;
   std::vector<DrawnPerson> people;
-  double vertices = 0;     // of everybody
-  double bound_bytes = 0;  // that a vertex is made from, in the mean
+  double vertices = 0;     // of all people
+  double bound_bytes = 0;  // mean inputs of a vertex
 };
 
 double bytes_of(const PackedSurface& s) {
@@ -49,7 +49,7 @@ double bytes_of(const PackedSurface& s) {
                              s.along.size() * sizeof(PlacedAlong));
 }
 
-/// Bytes of all that a person's vertices are made from, each once: both sides share it.
+/// Returns the bytes of all inputs of a person's vertices, each once; both sides share them.
 double bytes_of(const BodySurfaces& surfaces) {
   double bytes = 0;
   for (const auto& piece : surfaces.piece) {
@@ -60,7 +60,7 @@ double bytes_of(const BodySurfaces& surfaces) {
   return bytes;
 }
 
-/// People of one body, with one set of surfaces for all of them or everybody's own in memory.
+/// Adds people of one body, with one set of surfaces for all or one for each in memory.
 void gather(Scene& scene, std::size_t count, bool shared, const SurfaceChoice& choice) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto entity = must(scene.simulation.spawn({}));
@@ -80,8 +80,8 @@ void gather(Scene& scene, std::size_t count, bool shared, const SurfaceChoice& c
   scene.simulation.advance(0.2);
 }
 
-/// Times one way to write everybody, `stride` bytes a vertex (12: positions alone; from 24 on normals, from 40 on
-/// tangents).
+/// Times one way of writing all people. `stride` is the bytes of a vertex (12: positions only; from 24 on normals, from
+/// 40 on tangents).
 void time_writing(BenchRun& run, const std::string& name, const Scene& scene, std::size_t stride, double flops) {
   std::vector<std::byte> buffer(static_cast<std::size_t>(scene.vertices) * stride);
   std::span<std::byte> free = buffer;
@@ -99,15 +99,14 @@ void time_writing(BenchRun& run, const std::string& name, const Scene& scene, st
   const Measured time = measure_short([&] { (void)writer.write(scene.simulation.world(), requests); });
   BenchResult& result = run.add_time(name, time, scene.vertices, 1e-9, "ns");
   const double vertex_s = result.value * 1e-9;
-  const double bytes =
-      std::round(scene.bound_bytes) + 2 * static_cast<double>(stride);  // a line that is written is read before
+  const double bytes = std::round(scene.bound_bytes) + 2 * static_cast<double>(stride);  // a written line is read first
   result.of_peak = flops / vertex_s * 1e-9 / run.machine.fma_peak_gflops;
   result.of_bandwidth = bytes / vertex_s * 1e-9 / run.machine.bandwidth_gbps;
   result.bound = fmt::format("{:.0f} vertices of {} people, {} bytes apart, {:.0f} operations and {:.0f} bytes each",
                              scene.vertices, scene.people.size(), stride, flops, bytes);
 }
 
-// One frame's map of position and normal (18 + 15), the normal's length (8) and by that (3).
+// One frame's map of position and normal (18 + 15), the normal's length (8), division by it (3).
 constexpr double vertex_flops = 18 + 15 + 8 + 3;
 
 void time_skin(BenchRun& run, const std::string& name, std::size_t count, SkinDetail detail) {
@@ -134,7 +133,7 @@ void time_skin(BenchRun& run, const std::string& name, std::size_t count, SkinDe
                   skin_mesh(Sex::man, detail).frame.size(), result.value * 1e-3 * static_cast<double>(vertices));
 }
 
-/// One leg's cover from all that is drawn of its muscles.
+/// Times one leg's cover from all drawn muscles.
 void time_cover(BenchRun& run) {
   Simulation simulation;
   const auto entity = must(simulation.spawn({}));
@@ -159,7 +158,7 @@ void time_cover(BenchRun& run) {
   result.bound = fmt::format("{} vertices of muscle", position.size());
 }
 
-/// One leg's cover where nobody simulates its muscles.
+/// Times one leg's cover without simulated muscles.
 void time_table(BenchRun& run) {
   SkinTables tables;
   const auto table = must(tables.of({}));

@@ -1,5 +1,5 @@
-// Crowds as a whole: the cost of a person in a larger one and of spawning one; one crowd ticked by 1, 2, 4, … threads,
-// and a model of it for machines of more cores.
+// Whole crowds: the cost of a person in a larger crowd and of spawning one; one crowd ticked by 1, 2, 4, … threads; and
+// a model of it for machines with more cores.
 
 #include <fmt/format.h>
 
@@ -21,9 +21,9 @@
 namespace mobil {
 namespace {
 
-/// One tick: by the wall's clock, by this process' processor time, and of the latter each system's part in the order of
-/// the schedule; the least of all ticks measured, and the median. `serial_share` is the median part of the wall's time
-/// in which the tick's caller worked alone, `loops` how often a tick hands out work.
+/// One tick: wall-clock time, processor time of this process, and each system's part of the latter in the order of the
+/// schedule. Values are the minimum of all measured ticks, and the median. `serial_share` is the median fraction of
+/// wall-clock time in which the tick's caller worked alone, `loops` the number of parallel loops of a tick.
 struct BenchTick {
   double wall_s = 0, wall_median_s = 0, cpu_s = 0, cpu_median_s = 0;
   std::vector<double> system_s;
@@ -32,7 +32,7 @@ struct BenchTick {
 
 constexpr int settling_ticks = 90;  // the second step shows that the third is like it
 
-/// Twelve modes of the fine mesh, nobody looking.
+/// Returns twelve modes of the fine mesh, without viewers.
 LegMuscles bench_modal_muscles() {
   LegMuscles choice;
   choice.method = Method::modal;
@@ -41,7 +41,7 @@ LegMuscles bench_modal_muscles() {
   return choice;
 }
 
-/// People with leg muscles, more and more of them in one world, ticked by any number of threads.
+/// People with leg muscles, a growing number of them in one world, ticked by any number of threads.
 class BenchScene {
  public:
   static constexpr std::uint64_t seed = 1;
@@ -50,8 +50,8 @@ class BenchScene {
   BenchScene(const BenchScene&) = delete;
   BenchScene& operator=(const BenchScene&) = delete;
 
-  /// Until there are so many, the people of demo/scene/crowd_people.h, and until they walk steadily. Errors: what the
-  /// simulation refuses.
+  /// Spawns the people of demo/scene/crowd_people.h up to this number, and ticks until they walk steadily. Errors:
+  /// refusals of the simulation.
   void grow_to(std::size_t count) {
     constexpr std::size_t at_once = 1000;
     must(simulation_.muscle_library().prepare(choice_));
@@ -75,7 +75,7 @@ class BenchScene {
     if (people_.size() > before) spawn_s_ = spent_s / static_cast<double>(people_.size() - before);
     for (int i = 0; i < settling_ticks; ++i) simulation_.tick();
   }
-  /// All people become compact (PersonState::compact), and full again.
+  /// Makes all people compact (PersonState::compact); `expand` makes them full again.
   void compact() {
     if (must(simulation_.set_state(people_, PersonState::compact)) < people_.size())
       throw Stopped("somebody does not become compact");
@@ -84,9 +84,9 @@ class BenchScene {
   void expand() { must(simulation_.set_state(people_, PersonState::full)); }
 
   std::size_t size() const { return people_.size(); }
-  /// Seconds of processor time that the last people took to spawn, each.
+  /// Returns seconds of processor time per person of the last spawning.
   double spawn_s() const { return spawn_s_; }
-  /// Bytes of the tables' rows, each.
+  /// Returns bytes of the tables' rows per person.
   double bytes_per_person() const {
     std::size_t bytes = 0;
     for (const Table& table : simulation_.world().tables())
@@ -94,7 +94,7 @@ class BenchScene {
     return static_cast<double>(bytes) / static_cast<double>(size());
   }
 
-  /// By so many threads, at most as many as the machine has. Adds to what was measured before.
+  /// Measures ticks with this number of threads, at most as many as the machine has. Adds to the previous measurements.
   void measure(int threads, int ticks, BenchTick& best) {
     Schedule& schedule = simulation_.schedule();
     if (threads > 1) turn_.now = &pool(threads);
@@ -127,11 +127,11 @@ class BenchScene {
     best.cpu_median_s = median(series.cpu);
     best.serial_share = median(series.serial_share);
   }
-  /// The pool that `measure` works with; of more threads than one.
+  /// Returns the pool that `measure` uses for more than one thread.
   const Threads& pool(int threads) { return pools_.try_emplace(threads, threads).first->second; }
 
  private:
-  /// Hands the work on to the pool whose turn it is, or does it where it is nobody's; and how long that takes.
+  /// Runs the work on the pool whose turn it is, or directly without one, and counts the time.
   struct Turn {
     const Threads* now = nullptr;
     double handed_out_s = 0;
@@ -167,9 +167,9 @@ class BenchScene {
   std::map<int, Series> series_;
 };
 
-/// T(n) = serial + parallel·cost(n)/n + loops·fork(n). `cost` is what a system takes of all threads' time over what it
-/// takes of one, `fork` what handing a loop out takes; both are measured up to the cores that there are. Beyond, cost
-/// stays and fork grows with log₂(n), as a tree that wakes threads does: speedups there are at most those.
+/// T(n) = serial + parallel·cost(n)/n + loops·fork(n). `cost` is a system's time over all threads relative to its time
+/// on one; `fork` is the time to distribute a loop. Both are measured up to the number of cores. Beyond it, cost is
+/// constant and fork grows with log₂(n), as a tree that wakes threads does: speedups there are upper bounds.
 struct ThreadModel {
   double serial_s = 0, parallel_s = 0, loops = 0;
   std::map<int, double> cost, fork_s;  // of two threads and more
@@ -187,7 +187,7 @@ struct ThreadModel {
   double speedup(int threads) const { return tick_s(1) / tick_s(threads); }
 };
 
-/// Seconds from handing out as many bodies as there are threads until all are done, beyond what a body takes: median.
+/// Returns the median seconds from distributing a body to each thread until all are done, minus the time of a body.
 double fork_s(const Threads& pool) {
   static constexpr double body_s = 20e-6;
   const Jobs jobs = pool.jobs();
@@ -250,12 +250,12 @@ void measure_scene(BenchRun& run, BenchScene& scene, const std::string& name) {
   }
 }
 
-/// Few ticks where each is long.
+/// Returns the number of ticks, fewer if each takes long.
 int ticks_for(const BenchRun& run, std::size_t count) {
   return run.quick ? 5 : static_cast<int>(std::clamp<std::size_t>(2'000'000 / count, 20, 200));
 }
 
-/// Processor time of a person's tick by one thread, us.
+/// Measures the processor time of a person's tick by one thread, us.
 double measure_cost(BenchRun& run, BenchScene& scene, const std::string& ending) {
   BenchTick tick;
   scene.measure(1, ticks_for(run, scene.size()), tick);

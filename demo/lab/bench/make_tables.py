@@ -2,9 +2,9 @@
 """Writes the tables of speed in our documents from files that `mobil bench --json` wrote.
 
     demo/lab/bench/make_tables.py            rewrites them
-    demo/lab/bench/make_tables.py --check    says where a document differs, status 1
+    demo/lab/bench/make_tables.py --check    prints differences of documents, status 1
 
-A document has the place of a table as two lines, and what stands between them is the script's:
+A document marks the place of a table with two lines; the script writes the text between them:
 
     <!-- figures: muscles -->
     <!-- end -->
@@ -27,7 +27,7 @@ US, NS, MS = ("µs", 1), ("ns", 1), ("ms", 1e-3)  # unit shown, and its number i
 SPEED, CM = ("m/s", 1), ("cm", 1)
 PERCENT, TIMES = ("%", 100), ("times", 1)
 
-# name: rows of what is told, the figure's name in the file, and how it is shown
+# name: rows of a description, the figure's name in the file, and its unit
 TABLES = {
     "machine": [
         ("multiply-adds, one core", "machine.fma_peak_gflops", ("Gflop/s", 1)),
@@ -88,23 +88,19 @@ TABLES = {
     ],
 }
 
-# What is told, and two columns with figures as {name|how it is shown}.
+# A description, and two columns with figures as {name|format}.
 TUNED, PAPERS = "active.modal-12, tuned, finite shape", "active.explicit-central, 81 nodes"
 SENTENCES = {
     "readme": [
-        ("joint angles inside the band of measured walks, five speeds",
-         "{compare.angles_inside.least|%} to {compare.angles_inside.most|%} of the cycle", "`mobil compare`"),
-        ("vertical and fore-aft forces, moments at the hip against measured ones",
-         "correlate {compare.vertical_correlation|1}, {compare.fore_aft_correlation|1}, "
-         "{compare.hip_moment_correlation|1} and better", ""),
-        ("muscles that pull and are shaken, against nonlinear tissue; linear, as in the paper",
-         f"{{{TUNED}.all_off|%}} off, {{{TUNED}.cost_us|µs}} a tick; {{{PAPERS}.all_off|%}}, {{{PAPERS}.cost_us|µs}}",
-         "`mobil frontier --finite`"),
-        ("a person's pose for a tick; with eight muscles and forces",
-         "{readme.pose_us|µs}; {walk.us_per_tick|µs} of one core",
-         "`mobil bench`, `mobil walk`"),
-        ("ten thousand people of eight muscles, the nearest 500 within 1 mm",
-         "{crowd.tick_ms_p50|ms} a tick, median, on {machine.cores|cores} of an {machine.cpu|text}", "`mobil crowd --people 10000`"),
+        ("a tick of 10,000 people with eight muscles each, the nearest 500 within 1 mm",
+         "{crowd.tick_ms_p50|ms} on {machine.cores|cores} of an {machine.cpu|text}",
+         "a frame at 60 Hz is 16.7 ms (`mobil crowd --people 10000`)"),
+        ("shape of an active muscle in a walk, against nonlinear finite elements",
+         f"{{{TUNED}.all_off|%}} off, {{{TUNED}.cost_us|µs}} a tick",
+         f"the paper's linear method is {{{PAPERS}.all_off|%}} off, {{{PAPERS}.cost_us|µs}} (`mobil frontier --finite`)"),
+        ("joint angles at five walking speeds",
+         "within the measured band for {compare.angles_inside.least|%} to {compare.angles_inside.most|%} of the cycle",
+         "published norms of measured walks (`mobil compare`)"),
     ],
     "frontier": [
         ("the paper's choice: 81 nodes, explicit, 2 ms", "{line.explicit-central.81.2.error|.1%}", "{line.explicit-central.81.2.us|µs} a muscle and tick"),
@@ -123,7 +119,7 @@ SENTENCES = {
          "{frame.modal.2673.12.error|.1%}; {frame.explicit-central.81.2.error|.1%}", "1/{frame.modal.2673.12.ratio|.0f}; {frame.explicit-central.81.2.us|µs}"),
     ],
 }
-HEADINGS = {"readme": "| | | |", "frontier": "| method | error | cost |"}
+HEADINGS = {"readme": "| | mobil | compared with |", "frontier": "| method | error | cost |"}
 IN_SENTENCES = {
     "%": lambda value: f"{100 * value:.0f} %",
     ".1%": lambda value: f"{100 * value:.1f} %",
@@ -139,7 +135,7 @@ MARKED = re.compile(r"(<!-- figures: (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL
 
 
 def shown(value, unit):
-    """Two digits, for figures of speed have no more."""
+    """Returns two digits, because figures of speed have no more."""
     value *= unit[1]
     digits = max(0, 1 - math.floor(math.log10(abs(value)))) if value else 0
     if value >= 100:
@@ -149,7 +145,7 @@ def shown(value, unit):
 
 
 def machines(folder):
-    """What each machine is, and its figures by name. A machine may have several files."""
+    """Returns each machine's description, and its figures by name. A machine can have several files."""
     found = {}
     for file in sorted(folder.glob("*.json")):
         told = json.loads(file.read_text())
@@ -163,7 +159,7 @@ def machines(folder):
 
 
 def active(file):
-    """Errors and costs of ways to deform muscles that pull, of all muscles together (mobil frontier --finite)."""
+    """Returns errors and costs of deformation methods for active muscles, all together (mobil frontier --finite)."""
     if not file.exists():
         return {}
     with file.open() as lines:
@@ -172,7 +168,7 @@ def active(file):
 
 
 def frontier(file):
-    """The same of muscles that are drawn (mobil frontier --long): method, nodes, and milliseconds or modes."""
+    """Returns those for drawn muscles (mobil frontier --long): method, nodes, and milliseconds or modes."""
     if not file.exists():
         return {}
     found = {}
@@ -187,7 +183,7 @@ def frontier(file):
 
 
 def sentences(name, columns, where):
-    """Of the first machine that has measured all of it."""
+    """Returns the sentences of the first machine that has measured all of their figures."""
     lines = [HEADINGS[name], "|---|---|---|"]
     names = re.findall(r"\{([^|{}]+)\|", " ".join(first + second for _, first, second in SENTENCES[name]))
     for _, figures in columns:
@@ -201,7 +197,7 @@ def sentences(name, columns, where):
 
 
 def table(name, columns):
-    """Of the machines that have measured any of it."""
+    """Returns the table of all machines that have measured any of its figures."""
     columns = [(heading, figures) for heading, figures in columns if any(row[1] in figures for row in TABLES[name])]
     lines = ["| | " + " | ".join(heading for heading, _ in columns) + " |", "|---|" + "---|" * len(columns)]
     for text, figure, unit in TABLES[name]:

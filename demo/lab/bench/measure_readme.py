@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Measures what README.md says of accuracy and speed, on a machine that does nothing else: half a minute.
+"""Measures the accuracy and speed figures of README.md, on an idle machine, in half a minute.
 
     demo/lab/bench/measure_readme.py build/release/mobil demo/lab/bench/figures/PROCESSOR.readme.json
     demo/lab/bench/make_tables.py
 
-Errors of ways to deform muscles come from demo/gallery/active.csv (mobil frontier --finite).
+Errors of deformation methods come from demo/gallery/active.csv (mobil frontier --finite).
 """
 
 import json
@@ -25,7 +25,7 @@ def read(file):
 
 
 def bounds(comparison, pattern):
-    """Values of the bounds whose name matches, of all walks."""
+    """Returns the values of the bounds whose name matches, of all walks."""
     values = [bound["value"] for bound in comparison["bounds"] if re.search(pattern, bound["what"])]
     if not values or None in values:
         sys.exit(f"mobil compare tells nothing of '{pattern}'")

@@ -1,4 +1,4 @@
-// `mobil body`: what follows from height, mass and build, with its sources, and what it looks like.
+// `mobil body`: dimensions that follow from height, mass and build, with their sources, and a picture.
 
 #include <fmt/format.h>
 
@@ -214,7 +214,7 @@ struct NamedRun {
   Segment from, to;
 };
 
-/// JSON, SI units and degrees as the keys say; numbers to six digits.
+/// Returns JSON with SI units and degrees as in the keys; numbers have six digits.
 std::string body_json(const Body& body) {
   const BodyRequest& request = body.request;
   Json json;
@@ -236,7 +236,7 @@ std::string body_json(const Body& body) {
   return json.dump(2) + "\n";
 }
 
-/// The same in short, for people: what was made of the request, the segments' lengths and masses, the muscles' sizes.
+/// Returns a summary for people: notes on the request, the segments' lengths and masses, the muscles' sizes.
 std::string body_table(const Body& body) {
   using enum Segment;
   const BodyComposition& c = body.composition;
@@ -295,7 +295,7 @@ constexpr Colour tendon_cream{0.81F, 0.75F, 0.67F};
 constexpr Placement as_it_is{}, mirrored{.scale = {-1, 1, 1}};
 constexpr float field_of_view_deg = 12;  // narrow: nearly without perspective, as in an atlas
 
-/// Far enough for the whole stature with a margin.
+/// Returns a camera that shows the whole stature with a margin.
 Camera looking(const Body& body, Vec3<float> from) {
   const float stature = body.request.height_m, far = 5.35F * stature;
   Camera camera;
@@ -305,8 +305,8 @@ Camera looking(const Body& body, Vec3<float> from) {
   return camera;
 }
 
-/// From the front and from the body's right beside each other, to the same scale. Error: no graphics driver (with the
-/// packages to install), or one that fails.
+/// Draws the body from the front and from its right, side by side and to the same scale. Error: no graphics driver
+/// (with the packages to install), or one that fails.
 Image body_picture(const Body& body) {
   auto renderer = must(Renderer::create(view_width, view_height));
 
@@ -361,7 +361,7 @@ void write_body(const Body& body, const std::filesystem::path& out) {
   must(write_file(results.inside() / "body.json", body_json(body)));
   must(results.put());
   std::error_code ignored;
-  if (!picture) std::filesystem::remove(out / "body.png", ignored);  // another body's
+  if (!picture) std::filesystem::remove(out / "body.png", ignored);  // of another body
   fmt::print("{}", body_table(body));
   say_where(fmt::format("\nlook at {}: body.json{}", out.string(), picture ? " body.png" : ""));
   if (!picture) fmt::print(stderr, "mobil body: no picture: {}\n", picture.error().message);

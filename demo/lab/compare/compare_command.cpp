@@ -1,4 +1,4 @@
-// `mobil compare`: walks at the speeds of measured people, and is held against them.
+// `mobil compare`: walks at the speeds of measured people, and a comparison with them.
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ struct Row {
   const char* axis;
 };
 
-/// A curve that leaves the measured range by far would make all others of its row flat: there the axis ends.
+/// Ends the axis of a row where a curve leaves the measured range by far, because it would make all others flat.
 void limit_row(std::span<PlotPanel> row) {
   constexpr double spare = 0.8;
   double low = INFINITY, high = -INFINITY, least = INFINITY, most = -INFINITY;
@@ -52,7 +52,7 @@ void limit_row(std::span<PlotPanel> row) {
   if (most > high + air) row.front().y.high = high + air;
 }
 
-/// A grid: a row a quantity, a column a walk. Each hip is drawn over the set that measures it the same way alone.
+/// Returns a grid: a row per quantity, a column per walk. Hips are drawn only over the set that measures them alike.
 PlotFigure cycle_figure(const Comparison& comparison, const char* title, std::span<const Row> rows) {
   const GaitReference& reference = comparison.reference;
   PlotFigure figure{title, "", comparison.walks.size(), comparison.walks.size() > 3 ? 175.0 : 230.0, 140, true};
@@ -96,13 +96,13 @@ constexpr Row moment_rows[] = {{GaitQuantity::hip_moment, "hip extensor (N m/kg)
                                {GaitQuantity::knee_moment, "knee extensor (N m/kg)"},
                                {GaitQuantity::ankle_moment, "plantarflexor (N m/kg)"}};
 
-/// One of step length (m) and cadence (steps/min), of a person of that height.
+/// Returns step length (m) or cadence (steps/min) of a person of that height.
 double step_value(const StepNorm& step, bool cadence, double height, double deviations = 0) {
   return cadence ? 60 * (step.cadence + deviations * step.cadence_sd) * std::sqrt(gravity_m_s2 / height)
                  : (step.length + deviations * step.length_sd) * height;
 }
 
-/// Every band for people of these heights who walk at these speeds.
+/// Adds every band for people of these heights who walk at these speeds.
 void add_step_bands(PlotPanel& panel, const GaitReference& reference, bool cadence, std::span<const double> x,
                     std::span<const double> speed, std::span<const double> height) {
   for (std::size_t b = 0; b < reference.steps.size(); ++b) {
@@ -127,7 +127,7 @@ PlotLine step_line(const std::vector<VariedWalk>& walks, bool cadence) {
   return line;
 }
 
-/// `count` values from `low` to `high`.
+/// Returns `count` values from `low` to `high`.
 std::vector<double> between(double low, double high, std::size_t count) {
   std::vector<double> all;
   for (std::size_t i = 0; i < count; ++i) {
@@ -196,7 +196,7 @@ PlotFigure centre_of_mass_figure(const Comparison& comparison) {
   return figure;
 }
 
-/// angles.svg, ground_reaction.svg, moments.svg, steps.svg, centre_of_mass.svg.
+/// Draws angles.svg, ground_reaction.svg, moments.svg, steps.svg, centre_of_mass.svg.
 std::vector<NamedPlot> comparison_plots(const Comparison& comparison) {
   PlotFigure angles = cycle_figure(comparison, "Joint angles", angle_rows);
   angles.footnote = "Hip: from the tilted pelvis";
@@ -221,7 +221,7 @@ constexpr float varied_speed = 5 / 3.6F;     // the paper's natural step
 constexpr float varied_height_speed = 1.3F;  // within every height's published range
 constexpr float slowest = 0.7F, fastest = 1.9F, shortest = 1.5F, tallest = 1.9F;
 
-/// What is common to all walks of a comparison.
+/// Settings common to all walks of a comparison.
 struct Walker {
   BodyRequest body;
   GaitStyle style;
@@ -279,7 +279,7 @@ void write_all(const std::filesystem::path& out, const Comparison& comparison, c
   must(results.put());
 }
 
-/// True where every bound held.
+/// Returns true if every bound held.
 bool run_compare(const CompareText& text) {
   const auto options = must(read_walk_options(text.walk));
   const auto folder = text.reference.empty() ? std::nullopt : std::optional<std::filesystem::path>(text.reference);

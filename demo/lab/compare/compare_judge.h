@@ -1,5 +1,5 @@
 #pragma once
-// How near a walked curve is to measured ones: pure functions over one gait cycle. The last point of a curve repeats
+// Distance of a walked curve from measured ones: pure functions over one gait cycle. The last point of a curve repeats
 // the first and is not counted again.
 
 #include <span>
@@ -9,50 +9,50 @@
 
 namespace mobil {
 
-/// Our curve beside one that was measured in the same convention.
+/// Our curve, and one that was measured in the same convention.
 struct CurvePair {
   const CycleCurve* ours;
   const MeasuredCurve* measured;
 };
 
-/// Share of the cycle, 0 to 1, where ours lies within one standard deviation of at least one of the means.
+/// Returns the share of the cycle, 0 to 1, in which ours is within one standard deviation of at least one of the means.
 double inside_bands(std::span<const CurvePair> pairs);
 
-/// Root mean square of ours minus the mean.
+/// Returns the root mean square of ours minus the mean.
 double rms_distance(const CycleCurve& ours, const CycleCurve& mean);
 
-/// Root mean square of the distance to whichever mean is nearer at each point.
+/// Returns the root mean square of the distance to the nearer mean at each point.
 double rms_to_nearer_mean(std::span<const CurvePair> pairs);
 
-/// Pearson's; 0 where one of the curves is constant.
+/// Returns Pearson's correlation; 0 if one of the curves is constant.
 double correlation(const CycleCurve& a, const CycleCurve& b);
 
-/// The fastest it changes, per cycle: over central differences of 4 %.
+/// Returns the fastest change, per cycle, over central differences of 4 %.
 double fastest_change(const CycleCurve& curve);
 
-/// Where in the cycle a curve has a peak to be compared, in percent; beyond 100 it goes on into the next cycle.
+/// Part of the cycle, in percent, in which a curve has a peak to compare; beyond 100 it is in the next cycle.
 struct PeakWindow {
   std::string_view name;
   bool maximum;
   int from, to;
 };
 
-/// `interior`: a peak indeed and not the end of a slope that runs out of the window.
+/// `interior` is true for a real peak, false for the end of a slope that leaves the window.
 struct Peak {
   double percent, value;
   bool interior;
 };
 
-/// The greatest (or least) value within a window, refined by a parabola through its neighbours.
+/// Returns the maximum (or minimum) within a window, refined by a parabola through its neighbours.
 Peak find_peak(const CycleCurve& curve, const PeakWindow& window);
 
-/// From `reference` to `percent` the shorter way round the cycle, −50 to 50.
+/// Returns the difference from `reference` to `percent`, the shorter way around the cycle, −50 to 50.
 double timing_error(double percent, double reference);
 
-/// 0 where the errors lie on both sides of 0, the least otherwise: how far ours is from the range of the references.
+/// Returns the distance of ours from the range of the references: 0 if the errors have both signs, else the smallest.
 double outside_range(std::span<const double> errors);
 
-/// The ratio nearest to 1 that ours has to any value from the least to the greatest of `references` (all of one sign).
+/// Returns the ratio nearest to 1 of ours to any value in the range of `references` (all of one sign).
 double ratio_to_range(double ours, std::span<const double> references);
 
 }  // namespace mobil

@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a quantity stands in a set's tables.
+/// Columns of a quantity in a set's tables.
 struct CurveColumn {
   std::size_t file;
   std::string_view mean, sd;
 };
 
-/// What tells one set's tables from another's.
+/// Differences between the tables of sets.
 struct SetLayout {
   std::array<std::string_view, 3> file;  // angles, ground reaction, moments
   std::string_view class_column;
@@ -58,17 +58,17 @@ constexpr SetLayout winter_layout = {{"winter_joint_angles", "winter_grf", "wint
 constexpr std::string_view schwartz_steps = "schwartz2008_spatiotemporal";
 constexpr std::string_view winter_speeds = "com_vertical_excursion_computed.csv";
 
-/// Legs of the people measured, m: of Schwartz's children estimated from their mean age of 10.5 years (0.71 to 0.77
-/// would change their moments by 4 %), of Winter's adults that of a height of 1.75 m.
+/// Leg lengths of the people measured, m. That of Schwartz's children is estimated from their mean age of 10.5 years
+/// (0.71 to 0.77 would change their moments by 4 %). That of Winter's adults belongs to a height of 1.75 m.
 constexpr double children_leg_m = 0.74, adults_leg_m = 1.75 * fraction::hip_height;
 
-/// Where a class of a set stands: the slowest and the fastest of Schwartz were published apart.
+/// Returns the table of a class of a set. The slowest and the fastest of Schwartz were published separately.
 std::string table_name(std::string_view file, std::size_t speed_class) {
   const bool extreme = speed_class == compared_class::very_slow || speed_class == compared_class::very_fast;
   return fmt::format("{}{}.csv", file, extreme ? "_extremes" : "");
 }
 
-/// A table of the folder, or the built-in one of that name.
+/// Tables of the folder, or the built-in ones of the same name.
 class Tables {
  public:
   explicit Tables(const std::optional<fs::path>& folder) : folder_(folder) {}
@@ -90,7 +90,7 @@ class Tables {
   std::optional<fs::path> folder_;
 };
 
-/// A cell that must be a number.
+/// Returns a cell that must be a number.
 double value(const CsvTable& table, std::size_t row, std::string_view name) {
   if (const auto read = number(cell(table, row, name))) return *read;
   throw Stopped(
@@ -103,7 +103,7 @@ CycleCurve read_curve(const CsvTable& table, std::span<const std::size_t> rows, 
   return curve;
 }
 
-/// The rows of one class, one each 2 % of the cycle.
+/// Returns the rows of one class, one each 2 % of the cycle.
 std::vector<std::size_t> rows_of_class(const CsvTable& table, std::string_view column_name,
                                        std::string_view class_name) {
   std::vector<std::size_t> rows;
@@ -164,7 +164,7 @@ std::array<double, N> row_values(const CsvTable& table, std::size_t row, const s
   return values;
 }
 
-/// The numbers of the row that has `key` in `key_column`.
+/// Returns the numbers of the row that has `key` in `key_column`.
 template <std::size_t N>
 std::array<double, N> row_values(const CsvTable& table, std::string_view key_column, std::string_view key,
                                  const std::array<std::string_view, N>& names) {
@@ -174,7 +174,7 @@ std::array<double, N> row_values(const CsvTable& table, std::string_view key_col
   throw Stopped(fmt::format("{}: a row with {} {} is missing", table.path, key_column, key));
 }
 
-/// Schwartz's speeds, and his steps as a band: from leg lengths to heights at the same leg as a generated body's.
+/// Reads Schwartz's speeds, and his steps as a band. Leg lengths become heights with the leg of a generated body.
 void read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBand& band) {
   constexpr std::array<std::string_view, 6> names = {"speed_dimless",   "step_length_per_leg", "step_length_sd",
                                                      "cadence_dimless", "cadence_sd",          "opposite_foot_off_pct"};
@@ -235,7 +235,7 @@ MeasuredSet read_winter(const Tables& tables) {
   return set;
 }
 
-/// A folder that holds none of the tables is a mistake.
+/// Throws Stopped for a folder that contains none of the tables.
 void check_folder(const Tables& tables, const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {

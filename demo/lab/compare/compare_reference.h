@@ -1,5 +1,5 @@
 #pragma once
-// How people walk, as measured and published: what `mobil compare` holds a walk against.
+// Published measurements of walking people, with which `mobil compare` compares a walk.
 
 #include <array>
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace mobil {
 
 inline constexpr double gravity_m_s2 = 9.81;
 
-/// What is compared over the cycle: angles in degrees (flexion, dorsiflexion positive), ground reaction of one foot in
-/// body weights (up, forward positive), internal moments in N m per kg of body (extensor, plantarflexor positive).
+/// Quantities compared over the cycle: angles in degrees (flexion, dorsiflexion positive), ground reaction of one foot
+/// in body weights (up, forward positive), internal moments in N m per kg of body (extensor, plantarflexor positive).
 enum class GaitQuantity { hip, knee, ankle, vertical, fore_aft, hip_moment, knee_moment, ankle_moment };
 inline constexpr std::size_t gait_quantity_count = 8;
 inline constexpr std::array<std::string_view, gait_quantity_count> gait_quantity_name = {
@@ -36,24 +36,24 @@ enum : std::size_t { very_slow, slow, free, fast, very_fast };
 inline constexpr std::array<std::string_view, speed_class_count> compared_class_name = {"very slow", "slow", "free",
                                                                                         "fast", "very fast"};
 
-/// One published set of curves, of people whose legs (hip to ground) are `leg_m` long. `hip_from_vertical`: the thigh's
-/// angle is measured from the vertical, otherwise from the tilted pelvis.
+/// One published set of curves, of people with legs (hip to ground) of `leg_m`. `hip_from_vertical`: the thigh's angle
+/// is measured from the vertical, otherwise from the tilted pelvis.
 struct MeasuredSet {
   std::string name;
   bool hip_from_vertical;
   double leg_m;
-  std::array<bool, speed_class_count> measured{};  // whether there are curves of that class
+  std::array<bool, speed_class_count> measured{};  // true with curves of that class
   std::array<double, speed_class_count> speed{};   // over √(g · leg length)
-  /// Step length over leg length, and one double support as a part of the cycle; 0 where the set does not say.
+  /// Step length over leg length, and one double support as a part of the cycle; 0 if the set has none.
   std::array<double, speed_class_count> step_length{}, double_support{};
-  /// Of the pelvis, degrees: mean anterior tilt, half the range of its turn to the side and of its list.
+  /// Mean anterior tilt of the pelvis, half the range of its axial rotation and of its list, degrees.
   std::array<double, speed_class_count> pelvis_tilt_deg{}, pelvis_rotation_deg{}, pelvis_list_deg{};
   std::array<std::array<MeasuredCurve, gait_quantity_count>, speed_class_count> curve{};  // [class][quantity]
 
-  /// Of a person with such a leg, m/s.
+  /// Returns the speed of a person with such a leg, m/s.
   double speed_m_s(std::size_t speed_class, double person_leg_m) const;
-  /// A curve of a person with such a leg who walks alike: forces in body weights are the same, moments in N m/kg grow
-  /// with the leg.
+  /// Returns a curve of a person with such a leg who walks alike: forces in body weights are unchanged, moments in N
+  /// m/kg scale with the leg.
   MeasuredCurve scaled(std::size_t speed_class, GaitQuantity quantity, double person_leg_m) const;
 };
 
@@ -66,7 +66,7 @@ struct StepNorm {
 struct StepBand {
   std::string name;
   std::vector<StepNorm> norm;
-  /// Between the norms; nothing beyond the slowest and the fastest.
+  /// Interpolates between the norms; returns nothing beyond the slowest and the fastest.
   std::optional<StepNorm> at(double speed) const;
 };
 
@@ -79,12 +79,12 @@ struct GaitReference {
   std::vector<MeasuredSet> sets;
   std::vector<StepBand> steps;
   std::vector<ExcursionNorm> excursion;  // in order of speed
-  std::string note;                      // what is missing, for people; may be empty
+  std::string note;                      // missing data, for people; can be empty
 };
 
-/// The tables that the program carries; with a folder also those of Winter, which may not be redistributed:
+/// Returns the tables in the program and, with a folder, those of Winter, which cannot be redistributed. These are
 /// winter_joint_angles.csv, winter_joint_moments.csv, winter_grf.csv and com_vertical_excursion_computed.csv (rows
-/// winter_slow, winter_natural, winter_fast: their speed_m_s). Tables of the folder come before built-in ones of the
+/// winter_slow, winter_natural, winter_fast with their speed_m_s). Tables of the folder replace built-in ones of the
 /// same name. Errors: no folder, a table that cannot be read or lacks a column or rows, a folder with none of the
 /// tables.
 Result<GaitReference> read_gait_reference(const std::optional<std::filesystem::path>& folder);

@@ -25,7 +25,7 @@ double step_excursion_mm(const WalkedStride& stride) {
   return 1000 * (stride.com_highest_m - stride.com_lowest_m);
 }
 
-/// "Schwartz" of "Schwartz 2008".
+/// Returns "Schwartz" for "Schwartz 2008".
 std::string short_name(const MeasuredSet& set) {
   return set.name.substr(0, set.name.find(' '));
 }
@@ -47,7 +47,7 @@ std::string angle_line(const GaitReference& reference, const CurveFinding& findi
   return line + fmt::format(" {}", fmt::join(alone, ", "));
 }
 
-/// Moments are beside the measured ones scaled to our leg; in brackets also beside Schwartz' as they were published.
+/// Moments are compared with the measured ones scaled to our leg; in brackets also with Schwartz' as published.
 std::string force_line(const GaitReference& reference, GaitQuantity quantity, const CurveFinding& finding) {
   std::vector<std::string> peaks;
   for (const auto& peak : finding.peaks) {

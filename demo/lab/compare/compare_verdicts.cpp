@@ -20,14 +20,14 @@ constexpr PeakWindow hip_moment_peaks[] = {{"extensor", true, 0, 30}, {"flexor",
 constexpr PeakWindow knee_moment_peaks[] = {{"extensor", true, 6, 30}};
 constexpr PeakWindow ankle_moment_peaks[] = {{"plantarflexor", true, 30, 60}};
 
-/// Peaks near zero are not judged by their ratio: N m/kg.
+/// Minimum size of peaks that are judged by their ratio, N m/kg.
 constexpr double min_moment_peak = 0.2;
 
 constexpr std::array<std::span<const PeakWindow>, gait_quantity_count> peak_windows = {
     hip_peaks,      knee_peaks,       ankle_peaks,       vertical_peaks,
     fore_aft_peaks, hip_moment_peaks, knee_moment_peaks, ankle_moment_peaks};
 
-/// `own`: which of the pairs is of the set that walks; `scale`: how much each measured curve was scaled.
+/// `own` is the pair of the set that walks; `scale` contains the factor of each measured curve.
 PeakFinding examine_peak(std::span<const CurvePair> pairs, std::size_t own, const PeakWindow& window,
                          std::span<const double> scale, double least) {
   PeakFinding finding{window.name, find_peak(*pairs[own].ours, window), {}, {}, {}, 0, 1, 0};
@@ -73,7 +73,7 @@ class Verdicts {
   std::vector<Verdict> all;
 };
 
-/// How far the worst peak's size is from the references', as a share of them.
+/// Returns the largest difference of a peak's size from the references', as a share of them.
 double worst_size(const CurveFinding& finding) {
   double worst = 0;
   for (const auto& peak : finding.peaks) {
@@ -88,7 +88,7 @@ double worst_timing(const CurveFinding& finding) {
   return worst;
 }
 
-/// How much the lower hump stands over the valley between; negative where a hump is not one.
+/// Returns the height of the lower hump over the valley between; negative without two humps.
 double humps(const CurveFinding& vertical) {
   const Peak &first = vertical.peaks[0].ours, &valley = vertical.peaks[1].ours, &second = vertical.peaks[2].ours;
   if (!first.interior || !valley.interior || !second.interior) return -1;
@@ -132,14 +132,14 @@ void judge_forces(const Comparison& comparison, const ComparedWalk& walk, const 
   }
 }
 
-/// Highest in the middle half of single support, lowest in double support; excursion within one deviation.
+/// Bounds: highest in the middle half of single support, lowest in double support; excursion within one deviation.
 void judge_centre_of_mass(const Comparison& comparison, const ComparedWalk& walk, const std::string& name,
                           Verdicts& verdicts) {
   const double double_support = 100 * walk.stride.double_support_cycle;
   const double quarter = (50 - double_support) / 4;
   verdicts.within(name + ": centre of mass highest", walk.stride.com_highest_percent, double_support + quarter,
                   50 - quarter, "% of the cycle");
-  // from either side: a little before heel strike is not yet double support
+  // signed, because a little before heel strike is not yet double support
   const double lowest = walk.stride.com_lowest_percent;
   verdicts.within(name + ": centre of mass lowest", lowest > 49.5 ? lowest - 50 : lowest, -0.5, double_support,
                   "% of the cycle");
@@ -161,7 +161,7 @@ void judge_steps(const GaitReference& reference, const std::vector<VariedWalk>& 
   }
 }
 
-/// The least drop from one walk to the next of what `height` reads; positive where all go down.
+/// Returns the smallest decrease of `height` from one walk to the next; positive if all decrease.
 template <class Height>
 double min_drop(const std::vector<VariedWalk>& walks, Height height) {
   double least = walks.size() < 2 ? 0 : INFINITY;

@@ -18,7 +18,7 @@ using namespace geometry;
 
 constexpr double scene_tick_s = 1.0 / 240;
 
-/// Rotation vector per second from one attitude to the next, world axes.
+/// Returns the rotation vector per second from one attitude to the next, world axes.
 Vec turning(const Quat<double>& before, const Quat<double>& after, double span_s) {
   Quat<double> q = product(after, conjugate(before));
   if (q.w < 0) q = {-q.x, -q.y, -q.z, -q.w};
@@ -39,12 +39,12 @@ struct Request {
   double after_s;
   double speed_m_s;
   double heading_deg = 0;
-  double left_m = 0, ahead_m = 0;  // a step of somebody who stands
+  double left_m = 0, ahead_m = 0;  // a step of a standing person
 };
 
 struct Scene {
   std::string_view name;
-  std::vector<Request> requests;  // the first holds from the beginning; each until the next
+  std::vector<Request> requests;  // the first applies from the start; each until the next
   double seconds;
   float step_asymmetry = 0, time_asymmetry = 0;
 };
@@ -81,13 +81,13 @@ UnbalancedMoment walk_scene(const BodyRequest& body, GaitStyle style, const Scen
 }
 
 constexpr int settling_cycles = 3;
-constexpr double longest_s = 60;  // no gait within range takes as long for five strides
+constexpr double longest_s = 60;  // any gait within range takes less for five strides
 constexpr double margin_cycles = 0.1;
 
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr double tick_s = 1.0 / 240;
 
-/// What a tick leaves behind.
+/// Data of the ticks.
 struct TickRows {
   std::vector<double> phase;  // cycles since the end of the settling
   std::vector<double> hip, tilt, knee, ankle, com;
@@ -107,7 +107,7 @@ void add_motion(const Simulation& simulation, Entity entity, TickRows& rows) {
   rows.com.push_back(value(simulation.get<CentreOfMass>(entity)->position_m.y));
 }
 
-/// False where forces are not simulated.
+/// Returns false if forces are not simulated.
 bool add_forces(const Simulation& simulation, Entity entity, double mass_kg, TickRows& rows) {
   const auto ground = simulation.get<GroundReaction>(entity);
   const auto moments = simulation.get<JointMoments>(entity);

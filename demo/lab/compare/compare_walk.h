@@ -1,6 +1,6 @@
 #pragma once
-// One steady stride of a simulated walk, sampled as measured ones are published; and whether the ground's forces on it
-// could make its motion.
+// One steady stride of a simulated walk, sampled like published measurements; and its dynamic balance: whether the
+// ground's forces can cause its motion.
 
 #include <functional>
 
@@ -15,19 +15,19 @@
 
 namespace mobil {
 
-/// Moment of the ground less the rate of angular momentum of all 48 segments about their common centre of mass, N m per
-/// kg of body, about the axis across the pelvis (`pitch`) and along it (`roll`). The moment about
-/// the vertical is left out: the ground reaction does not contain a foot's frictional torque.
+/// Moment of the ground minus the rate of angular momentum of all 48 segments about their common centre of mass, N m
+/// per kg of body. `pitch` is about the axis across the pelvis, `roll` about the one along it. The moment about the
+/// vertical is omitted: the ground reaction does not contain a foot's frictional torque.
 struct UnbalancedMoment {
   double pitch_rms = 0, pitch_peak = 0, roll_rms = 0, roll_peak = 0;
 };
 
-/// Adds up a person's unbalanced moment tick by tick. Segments' inertias are those of assets/body/segment_inertia.h;
-/// velocities are differences of places, so ticks should be short and the person near the origin.
+/// Accumulates a person's unbalanced moment tick by tick, with inertias of assets/body/segment_inertia.h. Velocities
+/// are differences of places, so ticks should be short and the person near the origin.
 class BalanceMeter {
  public:
   explicit BalanceMeter(const Body& body);
-  /// After each tick of `tick_s`: the pose and the ground reaction. Nothing is known in the first two.
+  /// Adds the pose and the ground reaction after each tick of `tick_s`. The first two give no result.
   void add(const Pose<float>& pose, const GroundReaction<float>& ground, double tick_s);
   UnbalancedMoment result() const;
 
@@ -46,18 +46,18 @@ class BalanceMeter {
   double pitch_squares_ = 0, roll_squares_ = 0, pitch_peak_ = 0, roll_peak_ = 0;
 };
 
-/// One thing that people do while they walk.
+/// One action of people while they walk.
 struct BalancedScene {
   std::string_view name;
   UnbalancedMoment moment;
 };
 
-/// Straight on, faster and slower, turning, starting and stopping, limping. Errors: a body or style out of range.
+/// Runs straight, faster, slower, turning, starting, stopping and limping walks. Errors: a body or style out of range.
 std::vector<BalancedScene> walk_balance_scenes(const BodyRequest& body, const GaitStyle& style);
 
-/// Walks until steady, then through one more cycle of the right leg. After each tick of it `row` is told where in the
-/// cycle that leg is, in cycles from heel strike at 0 to the next at 1; from somewhat before to the first tick beyond
-/// 1.1. Error: a walk too slow to get there.
+/// Walks until steady, then through one more cycle of the right leg. After each tick calls `row` with the leg's place
+/// in the cycle, from heel strike at 0 to the next at 1; from somewhat before to the first tick beyond 1.1. Error: a
+/// walk too slow to get there.
 void over_steady_cycle(Simulation& simulation, Entity person, const std::function<void(double)>& row);
 
 /// Ground reaction of the right foot in body weights, moments of the right leg in N m/kg, over the right leg's cycle.
@@ -73,18 +73,18 @@ struct WalkedStride {
   double double_support_cycle;  // one double support as a fraction of the cycle
   CycleCurve hip_from_pelvis, hip_from_vertical, knee, ankle, com_height;
   double com_mean_m, com_lowest_m, com_highest_m;
-  /// Of the lowest and the highest point within a step: 0–50, from either heel strike.
+  /// Times of the lowest and the highest point within a step: 0–50, from either heel strike.
   double com_lowest_percent, com_highest_percent;
-  std::optional<StrideForces> forces;  // nothing where they are not simulated
+  std::optional<StrideForces> forces;  // nothing if not simulated
 
-  /// Null where it is not simulated. The hip as the set measures it.
+  /// Returns null if it is not simulated. The hip is measured as the set does.
   const CycleCurve* curve(GaitQuantity quantity, bool from_vertical) const;
 };
 
-/// Walks until steady and then one stride more, in ticks of 1/240 s. Errors: a body or gait out of range.
+/// Walks until steady and then one more stride, in ticks of 1/240 s. Errors: a body or gait out of range.
 WalkedStride walk_stride(const BodyRequest& body, const GaitRequest& gait);
 
-/// Values at rows of rising cycle phase (in cycles, from at most 0 to at least 1), at every 2 % between.
+/// Returns values at every 2 %, from rows of rising cycle phase (in cycles, from at most 0 to at least 1).
 CycleCurve sample_cycle(const std::vector<double>& phase, const std::vector<double>& value);
 
 }  // namespace mobil

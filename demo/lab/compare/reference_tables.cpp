@@ -1,7 +1,7 @@
 #include "demo/lab/compare/reference_tables.h"
 
-/// Puts a file of assets/reference into the program, from NAME_begin to NAME_end. CMake tells the assembler where it
-/// is.
+/// Includes a file of assets/reference in the program, from NAME_begin to NAME_end. CMake gives its place to the
+/// assembler.
 #define REFERENCE_TABLE(NAME)                                                                                     \
   asm(".pushsection .rodata\n" #NAME "_begin:\n.incbin \"" #NAME ".csv\"\n" #NAME "_end:\n.byte 0\n.popsection"); \
   extern "C" const char NAME##_begin[], NAME##_end[]

@@ -1,5 +1,5 @@
 #pragma once
-// The tables of assets/reference as the build put them into the program.
+// The tables of assets/reference, included in the program by the build.
 
 #include <span>
 #include <string_view>

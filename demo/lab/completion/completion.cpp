@@ -23,7 +23,7 @@ bool is_argument(const Option& option) {
   return !option.name.starts_with("-");
 }
 
-/// Each of `marks` with a backslash before it.
+/// Puts a backslash before each of `marks`.
 std::string escaped(std::string_view text, std::string_view marks) {
   std::string out;
   for (const char c : text) {
@@ -33,7 +33,7 @@ std::string escaped(std::string_view text, std::string_view marks) {
   return out;
 }
 
-/// In single quotes, as bash and zsh read them.
+/// Puts text in single quotes, as bash and zsh read them.
 std::string shell_quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -90,7 +90,7 @@ std::string zsh_value(const Option& option) {
   return words.empty() ? "_files" : fmt::format("({})", fmt::join(words, " "));
 }
 
-/// One line of _arguments.
+/// Returns one line of _arguments.
 std::string zsh_option(const Option& option) {
   if (is_argument(option)) return shell_quoted(fmt::format("*:{}:{}", option.name, zsh_value(option)));
   const auto names = split(option.name, ',');

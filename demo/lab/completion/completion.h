@@ -1,5 +1,5 @@
 #pragma once
-// What a shell needs to complete command lines of the program, from the same tables as the command line.
+// Shell scripts that complete command lines of the program, from the same tables as the command line.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace mobil {
 
-/// Scripts: subcommands, options, and values where the tables know them; files elsewhere.
+/// Return scripts for subcommands, options, and values if the tables list them; otherwise for files.
 std::string bash_completion(const Program& program);
 std::string zsh_completion(const Program& program);
 std::string fish_completion(const Program& program);

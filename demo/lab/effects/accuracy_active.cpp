@@ -29,7 +29,7 @@ constexpr Cells solved_cells = {4, 4, 16}, point_cells = {2, 2, 8};
 constexpr int steps_a_tick = 4, solved_every = 6, led_in_ticks = 45;
 using Points = std::vector<double>;  // three displacements a control point, m
 
-/// A muscle over the ticks of a walk; of those that are compared what each level shows.
+/// A muscle over the ticks of a walk, and the points of each level in the compared ticks.
 struct MuscleTrack {
   MusclePlan plan;
   double foundation_hz = 0;
@@ -80,7 +80,7 @@ std::vector<MuscleTrack> walk_with_levels(const AccuracyPlan& plan, std::size_t 
       WalkLoad load;
       load.shortening = double{-simulation.get<EndDrive>(first)->to} / track.plan.belly_length_m;
       load.activation = double{simulation.get<Activation>(first)->activation};
-      // Who is not simulated feels nothing of the frame.
+      // Muscles that are not simulated have no load of the frame.
       const Entity moving = simulation.muscle(copies.back(), muscle, Side::right);
       if (const auto frame = simulation.get<FrameLoad>(moving)) load.push = push_of(*frame);
       track.load.push_back(load);
@@ -100,7 +100,7 @@ HexahedralMesh solved_mesh(const MusclePlan& plan) {
   return scaled(finite_mesh(plan.muscle, solved_cells), scale);
 }
 
-/// A part of a tick, in steps that are halved where they fail.
+/// Advances by a part of a tick, in steps that are halved if they fail.
 Result<void> follow(const FiniteBelly& belly, double tick_s, double foundation_hz, const WalkLoad& from,
                     const WalkLoad& to, double begin, double part, FiniteScratch& scratch, FiniteMotion& motion) {
   constexpr double min_part = 1.0 / 256;
@@ -120,8 +120,8 @@ Result<void> follow(const FiniteBelly& belly, double tick_s, double foundation_h
   });
 }
 
-/// Control points of 4×4×16 elements at rest at each tick's load, without what pushes, held sideways as what moves is
-/// held.
+/// Returns control points of 4×4×16 elements at rest at each tick's load, without push, held sideways like the moving
+/// ones.
 std::vector<Points> resting_points(const MuscleTrack& track) {
   const auto belly = must(make_finite_belly(solved_mesh(track.plan), {}, track.foundation_hz));
   FiniteScratch scratch = make_scratch(belly);
@@ -134,7 +134,7 @@ std::vector<Points> resting_points(const MuscleTrack& track) {
   return points;
 }
 
-/// As they move, led in from rest.
+/// Returns the points of the moving belly, led in from rest.
 std::vector<Points> moving_points(const MuscleTrack& track, double tick_s) {
   const auto belly = must(make_finite_belly(solved_mesh(track.plan), {}, 0));
   FiniteScratch scratch = make_scratch(belly);
@@ -151,7 +151,7 @@ std::vector<Points> moving_points(const MuscleTrack& track, double tick_s) {
   return points;
 }
 
-/// Static shapes of the ticks that are compared: the table's, and what solutions of every few ticks put it right by.
+/// Returns static shapes of the compared ticks: those of the table, corrected by solutions of every few ticks.
 std::vector<Points> static_points(const MuscleTrack& track) {
   const Muscle muscle = track.plan.muscle;
   const double across = double{track.plan.scale.across}, along = double{track.plan.scale.along};
@@ -196,8 +196,8 @@ double largest_distance_m(const Points& a, const Points& b) {
   return largest;
 }
 
-/// To the next eighth of an octave: a dearer level counts as nearer only where the reference is surer than what it
-/// gains.
+/// Rounds up to the next eighth of an octave, so that a dearer level counts as nearer only if its gain exceeds the
+/// reference's uncertainty.
 float rounded_up(float error) {
   return error > 0 ? std::exp2(std::ceil(8 * std::log2(error)) / 8) : 0;
 }
@@ -206,7 +206,7 @@ struct TrackErrors {
   std::array<float, level_count> error_m{}, volume_off{};
 };
 
-/// Of a muscle in both walks of a body at a speed.
+/// Compares a muscle in both walks of a body at a speed.
 std::array<TrackErrors, 2> compare(const std::array<const MuscleTrack*, 2>& track, double tick_s) {
   const auto shape = static_points(*track[0]);
   const auto still = resting_points(*track[0]);
@@ -232,7 +232,7 @@ std::array<TrackErrors, 2> compare(const std::array<const MuscleTrack*, 2>& trac
   return errors;
 }
 
-/// The rows of systems/accuracy/accuracy_table.cpp, and its costs.
+/// Prints the rows of systems/accuracy/accuracy_table.cpp, and its costs.
 void print_accuracy() {
   std::string rows, costs;
   for (const bool inertia : {false, true}) {

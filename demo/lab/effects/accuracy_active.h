@@ -1,29 +1,29 @@
 #pragma once
-// The accuracy table's part of muscles that pull: people walk with each level of their lod_table, beside tissue at
-// finite strain whose fibres pull (assets/finite/finite_motion.h).
+// The accuracy table of active muscles. People walk with each level of their lod_table, compared with tissue at finite
+// strain with active fibres (assets/finite/finite_motion.h).
 
 #include "assets/finite/finite_motion.h"
 #include "demo/lab/effects/accuracy_measure.h"
 
 namespace mobil {
 
-/// Loads on a belly at a tick's end: shortening over the mesh's length, activation, what pushes its mass.
+/// Loads on a belly at a tick's end: shortening over the mesh's length, activation, and push on its mass.
 struct WalkLoad {
   double shortening = 0, activation = 0;
   FinitePush push;
 };
 
-/// Moves a belly through a tick whose shortening and push change linearly; its activation is that of `to`. Takes
-/// `steps` equal steps, each halved where it fails; throws Stopped where a 256th of a tick fails.
+/// Moves a belly through a tick with linear change of shortening and push; its activation is that of `to`. Takes
+/// `steps` equal steps and halves each that fails. Throws Stopped if a 256th of a tick fails.
 void follow_tick(const FiniteBelly& belly, double tick_s, double foundation_hz, const WalkLoad& from,
                  const WalkLoad& to, int steps, FiniteScratch& scratch, FiniteMotion& motion);
 
-/// As accuracy_plan, for a shorter time, since a muscle's walk takes half a minute of a core: groups in two bodies;
-/// members in one, for those of the calf err by up to 1.6 times as much as their group.
+/// Returns plans like accuracy_plan, for a shorter time, because a muscle's walk takes half a minute of a core. Groups
+/// walk in two bodies. Members walk in one, because those of the calf err by up to 1.6 times as much as their group.
 std::array<AccuracyPlan, 2> active_plans();
 
-/// Rows without inertia and with, the right leg's. Where nonlinear tissue is: its static shape as the tables are made
-/// from, and what inertia adds to that on 4×4×16 elements.
+/// Returns rows without inertia and with, of the right leg. The reference is the static shape of nonlinear tissue, from
+/// which the tables are made, and the effect of inertia on it with 4×4×16 elements.
 std::vector<AccuracyRow> measure_active_errors(const AccuracyPlan& plan);
 
 }  // namespace mobil

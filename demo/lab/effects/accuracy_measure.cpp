@@ -21,9 +21,9 @@ namespace mobil {
 namespace {
 
 constexpr std::size_t classes = speed_class_m_s.size();
-constexpr std::size_t driving_level = 1;  // whose lines move the references
+constexpr std::size_t driving_level = 1;  // its lines move the references
 
-/// Copies of one walker, one a level, and the references of their muscles, right and left.
+/// Copies of one walker, one for each level, and the references of their muscles, right and left.
 struct Walk {
   std::size_t body = 0, speed = 0;
   std::array<Entity, level_count> person{};
@@ -231,7 +231,7 @@ LevelCost measure_costs(std::size_t people, bool inertia, bool active) {
       for (std::size_t g = 0; g < muscle_group_count; ++g)
         must(simulation.set_method(person, static_cast<Muscle>(g), level_method(level, points, active)));
     }
-    for (int i = 0; i < 60; ++i) simulation.tick();  // until nothing fades any more
+    for (int i = 0; i < 60; ++i) simulation.tick();  // until all fades have ended
     constexpr int repeats = 12, ticks = 10;
     double least = INFINITY;
     for (int i = 0; i < repeats; ++i) {
@@ -247,10 +247,10 @@ LevelCost measure_costs(std::size_t people, bool inertia, bool active) {
     return 1e6 * least / (ticks * 2.0 * muscle_group_count * static_cast<double>(crowd.size()));
   };
   LevelCost cost;
-  const double nothing = measure(0, false);  // what asking for the time takes
+  const double nothing = measure(0, false);  // time of reading the clock
   for (std::size_t r = 1; r < level_count; ++r) {
     const LodLevel& level = levels_of(active)[r];
-    if (level.cells == reference_cells) {  // in a tick a finer mesh's modes are modes like others
+    if (level.cells == reference_cells) {  // in a tick a finer mesh's modes cost the same as others
       cost.state_us[r] = cost.state_us[r - 1];
       cost.points_us[r] = cost.points_us[r - 1];
       continue;

@@ -1,4 +1,4 @@
-// `mobil effects`: what can be simulated, what each effect costs, and what a scene that asks for little pays.
+// `mobil effects`: the effects that can be simulated, the cost of each, and the cost of a minimal scene.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ namespace {
 struct Effect {
   std::string name, adds, needs;
   double us = 0;        // a person and tick (of pictures and files: a person and frame), measured in this run
-  std::string systems;  // whose time that is, as the schedule calls them
+  std::string systems;  // the systems with that time, by their names in the schedule
 };
 
 struct EffectAccount {
@@ -35,12 +35,12 @@ struct EffectAccount {
   std::vector<std::string> notes;
 };
 
-/// The schedule's own account of some ticks, by system, s a person and tick.
+/// The schedule's own timings of some ticks, by system, s a person and tick.
 class Meter {
  public:
   Meter(Simulation& simulation, std::size_t count) : simulation_(simulation), people_(count) {}
 
-  /// Seconds of the systems that `counts` takes, the least of a few rounds; their names into `names`.
+  /// Returns the seconds of the systems that `counts` selects, the minimum of a few rounds. Adds names to `names`.
   template <class Counts>
   double operator()(Counts counts, std::string* names = nullptr) {
     constexpr int rounds = 6, ticks = 5;
@@ -86,8 +86,8 @@ std::string_view level_adds(const LodLevel& level) {
   return "as the fine mesh moves, to a percent or two";
 }
 
-/// Measures by switching each effect on in a crowd of that many and reading Simulation::report(). `progress` is told
-/// what is measured. Errors: what the simulation refuses.
+/// Measures each effect by switching it on in a crowd of `count` and reading Simulation::report(). `progress` receives
+/// the current measurement. Errors: refusals of the simulation.
 EffectAccount measure_effects(std::size_t count, const std::function<void(const std::string&)>& progress) {
   Simulation simulation;
   EffectAccount account{count, 2 * muscle_group_count, simulation.tick_s(), {}, {}};
@@ -105,7 +105,7 @@ EffectAccount measure_effects(std::size_t count, const std::function<void(const 
   std::string systems;
 
   progress("walking");
-  for (int i = 0; i < 90; ++i) simulation.tick();  // until nobody steps in time with anybody else
+  for (int i = 0; i < 90; ++i) simulation.tick();  // until people no longer step in time with each other
   double us = meter(named({"gait", "replan", "turn"}), &systems);
   add("gait", "steps: where each foot falls, and when", "spawn()", us, systems);
   us = meter(named({"kinematics", "centre of mass"}), &systems);
@@ -153,14 +153,14 @@ EffectAccount measure_effects(std::size_t count, const std::function<void(const 
         must(simulation.set_method(person, static_cast<Muscle>(g), method));
     }
   };
-  constexpr std::size_t shown_level = 5;  // whose control points and inertia are reported
+  constexpr std::size_t shown_level = 5;  // its control points and inertia are reported
   constexpr int fading_ticks = 30;
   const auto settle = [&] {
     for (int i = 0; i < fading_ticks; ++i) simulation.tick();
   };
   double moving_us = 0;
   for (std::size_t r = 1; r < level_count; ++r) {
-    if (levels[r].cells == Cells{8, 8, 32}) continue;  // costs in a tick what the coarser one does, and long to make
+    if (levels[r].cells == Cells{8, 8, 32}) continue;  // same cost in a tick as the coarser one, and slow to make
     progress(fmt::format("muscles, {}", levels[r].name));
     set_all(r, !levels[r].moving);
     settle();
@@ -182,7 +182,7 @@ EffectAccount measure_effects(std::size_t count, const std::function<void(const 
   change_all();
   set_all(shown_level, true);
   settle();
-  us = meter(named({"finite shape, modal"}), &systems) - points_us;  // it places them too
+  us = meter(named({"finite shape, modal"}), &systems) - points_us;  // also places them
   add("finite shape", "bellies keep their volume, and are thick where they pull",
       "control points; LegMuscles::finite_shape", std::max(us, 0.0), systems);
   choice.finite_shape = false;

@@ -1,4 +1,4 @@
-// `mobil fit-shapes`: the tables of bellies at finite strain, made again.
+// `mobil fit-shapes`: makes the tables of bellies at finite strain again.
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 namespace mobil {
 namespace {
 
-// Between those that tables are made from.
+// Between the values from which tables are made.
 constexpr std::array held_shortenings = {-0.175, -0.075, 0.025, 0.075, 0.125, 0.175, 0.225};
 constexpr std::array held_activations = {0.02, 0.1, 0.25, 0.7};
 constexpr std::array held_ratios = {0.9, 1.0, 1.1};
@@ -42,7 +42,7 @@ void write_table(Muscle muscle, const std::string& folder) {
   fmt::print("{}\n", line);
 }
 
-/// Also prints how near each is to shapes that it was not made from.
+/// Also prints the errors for shapes from which the tables were not made.
 void write_finite_tables(const std::string& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);

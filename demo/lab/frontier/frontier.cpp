@@ -61,7 +61,7 @@ std::vector<FrontierLevel> short_levels() {
 
 struct Answers {
   std::vector<FrontierError> error;                          // of each level
-  std::vector<std::vector<FrontierIndividual>> individuals;  // empty where it could not be stepped
+  std::vector<std::vector<FrontierIndividual>> individuals;  // empty if it could not be stepped
   FrontierReference reference;
 };
 
@@ -102,7 +102,7 @@ FrontierRow row_of(const FrontierLevel& level, bool loads) {
   return row;
 }
 
-/// Of each scene and muscle, on as many threads as asked for.
+/// Answers of each scene and muscle, on the requested number of threads.
 struct AnswerTable {
   AnswerTable(const FrontierRequest& of, std::span<const FrontierDrive> all, std::size_t count)
       : request(of), drives(all), answers(count), why(count) {}
@@ -126,7 +126,7 @@ struct AnswerTable {
   }
 };
 
-/// Which muscles a level is without, and why.
+/// Returns the muscles that a level lacks, and the reason.
 std::string left_out(const FrontierLevel& level, const FrontierRow& row, const std::string& muscles,
                      const std::string& why) {
   const auto& dt_s = level.method.choice.dt_s;

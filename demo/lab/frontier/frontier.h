@@ -1,6 +1,6 @@
 #pragma once
-// What accuracy costs: every way to deform a muscle over the same walks, how far it is from a converged reference and
-// what a tick of it takes. The parts of `mobil frontier`.
+// Accuracy and cost of every method of deformation over the same walks: its error relative to a converged reference,
+// and its time a tick. The parts of `mobil frontier`.
 
 #include <functional>
 #include <string>
@@ -12,36 +12,36 @@
 
 namespace mobil {
 
-/// A way that is measured. `name`: of the csv's column. `mark`: what it is of the paper's, empty for nothing.
+/// A measured method. `name` is for the csv's column. `mark` is its role in the paper, or empty.
 struct FrontierLevel {
   std::string name;
   FrontierMethod method;
   std::string mark{};
 };
 
-/// What is measured. `reference`: cells of the mesh that the reference is made on.
-/// `bytes`: of a method's crowd, so that caches do not flatter, unless a tick of it then took longer than `call_s`.
+/// Scope of a measurement. `reference`: cells of the reference's mesh. `bytes`: size of a method's crowd, so that
+/// caches do not flatter, unless a tick of it would take longer than `call_s`.
 struct FrontierRequest {
   std::vector<Muscle> muscles = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
                                  Muscle::tibialis_anterior};
   std::vector<FrontierWalk> walks = frontier_walks();
   double seconds = 1.5;
   std::vector<bool> scenes = {false, true};  // with the frame's loads
-  std::vector<FrontierLevel> levels;         // the first is what ratios are to
+  std::vector<FrontierLevel> levels;         // ratios are relative to the first
   Cells reference = {8, 8, 32};
   std::size_t bytes = std::size_t{48} << 20;
   double call_s = 0.02;
   int rounds = 5;
-  int threads = 0;  // of the answers; costs are one thread's
+  int threads = 0;  // for answers; costs are of one thread
   std::function<void(std::string_view what, double part)> progress = [](std::string_view, double) {};
 };
 
-/// A minute at most on two cores; and everything.
+/// Return a measurement of at most a minute on two cores, and the full one.
 FrontierRequest short_frontier();
 FrontierRequest long_frontier();
 
-/// One way under one scene's loads. Costs are µs of one muscle in a tick of 1/60 s; `points_us` with control points
-/// placed, which finite elements always have.
+/// One method under one scene's loads. Costs are µs of one muscle in a tick of 1/60 s. `points_us` includes placing
+/// control points, which finite elements always have.
 struct FrontierRow {
   std::string method, cells, mark;
   bool loads = false;
@@ -56,8 +56,7 @@ struct FrontierRow {
   bool uncertain = false;  // the reference's own change is more than a tenth of the error
 };
 
-/// How far the reference moves, relative as errors are: against the same on half its cells; with 24 modes instead of
-/// 32.
+/// Uncertainty of the reference, relative like errors: change with half its cells; change with 24 modes instead of 32.
 struct FrontierChange {
   bool loads = false;
   double mesh = 0, modes = 0;
@@ -72,34 +71,34 @@ struct Frontier {
   std::vector<FrontierChange> change;  // a scene each
   double shared_us = 0;                // the first level's cost with the template's own size, line load alone
   std::size_t min_muscles = 0;         // of the crowds
-  std::vector<std::string> notes;      // what was left out, and why
+  std::vector<std::string> notes;      // omissions, with reasons
 };
 
-/// Fails on walks or bodies out of range or a reference that cannot be made. A level that somebody cannot be stepped by
-/// is left out with a note.
+/// Measures the frontier. Fails on walks or bodies out of range or a reference that cannot be made. Leaves out a level
+/// that cannot step an individual, with a note.
 Frontier measure_frontier(const FrontierRequest& request);
 
-/// Marks the rows of each scene that no other is both nearer and cheaper than (at least as near and as cheap, and one
+/// Marks the rows of each scene for which no other is both nearer and cheaper (at least as near and as cheap, and one
 /// of them more), by cost_us and by points_us.
 void mark_frontier(std::vector<FrontierRow>& rows);
 
-/// The rows of a scene with control points or without that are within `error`, the cheapest; null for none.
+/// Returns the cheapest row of a scene, with or without control points, within `error`; null without one.
 const FrontierRow* cheapest_within(std::span<const FrontierRow> rows, bool loads, bool points, double error);
 
 std::string frontier_csv(const Frontier& frontier);
 PlotFigure frontier_figure(const Frontier& frontier);
-/// The frontier as a table, and what it shows.
+/// Returns the frontier as a table, with conclusions.
 std::string frontier_text(const Frontier& frontier);
 
-/// A muscle's reference under a scene's loads and its change.
+/// A muscle's reference under a scene's loads, and its uncertainty.
 struct FrontierReference {
   FrontierAnswer truth;
   FrontierError mesh, modes;
 };
 FrontierReference make_reference(const FrontierDrive& drive, const Cells& cells, bool loads);
 
-/// Fills in cost_us, points_us, memory_bytes, dt_s and the ratios of the rows of one scene. `individuals`: of each
-/// row's level, of each drive, its sixteen.
+/// Sets cost_us, points_us, memory_bytes, dt_s and the ratios of the rows of one scene. `individuals`: the sixteen of
+/// each drive, for each row's level.
 struct FrontierPriced {
   const FrontierLevel* level;
   std::span<const std::vector<FrontierIndividual>> individuals;

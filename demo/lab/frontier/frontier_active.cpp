@@ -36,7 +36,7 @@ struct ActiveWay {
   LegMuscles choice;
 };
 
-/// Where the control points are at the end of each tick: three displacements a point, m.
+/// Control points at the end of each tick: three displacements a point, m.
 using ActivePoints = std::vector<std::vector<double>>;
 
 using Words = std::vector<Lanes<float>>;
@@ -57,7 +57,7 @@ Belly active_belly(Muscle muscle, const ActiveWay& way, BellyLibrary& library) {
   return must(library.belly(plan, way.choice, active_tick_s));
 }
 
-/// Sixteen alike.
+/// Sixteen identical bellies.
 class ActiveBellies {
  public:
   ActiveBellies(const Belly& belly, const LegMuscles& choice)
@@ -138,7 +138,7 @@ class ActiveBellies {
   Words points_, shown_, velocity_, scratch_, state_, motion_, shape_;
 };
 
-/// Statics, the paper's explicit mesh and modal bellies; with and without finite shape and tension.
+/// Returns statics, the paper's explicit mesh and modal bellies, with and without finite shape and tension.
 std::vector<ActiveWay> active_ways() {
   LegMuscles choice;
   choice.inertia = true;
@@ -174,8 +174,8 @@ std::vector<ActiveWay> active_ways() {
   return ways;
 }
 
-/// A belly of the muscle's template size over `loads`, that of the first tick's end first; it begins at rest, unloaded.
-/// Fails as the library does.
+/// Returns the points of a belly of the muscle's template size under `loads`, the first of which is at the end of the
+/// first tick. It starts at rest, unloaded. Fails as the library does.
 ActivePoints active_points_of(Muscle muscle, const ActiveWay& way, std::span<const WalkLoad> loads,
                               BellyLibrary& library) {
   const auto belly = active_belly(muscle, way, library);
@@ -188,7 +188,7 @@ ActivePoints active_points_of(Muscle muscle, const ActiveWay& way, std::span<con
   return points;
 }
 
-/// A muscle's tick with its control points, µs, among a thousand alike.
+/// Returns the time of a muscle's tick with its control points, µs, among a thousand identical ones.
 double active_cost_us(Muscle muscle, const ActiveWay& way, BellyLibrary& library) {
   constexpr std::size_t blocks = 64;
   const auto belly = active_belly(muscle, way, library);
@@ -204,8 +204,8 @@ double active_cost_us(Muscle muscle, const ActiveWay& way, BellyLibrary& library
 constexpr int active_ticks = 84, compared_every = 6, steps_a_tick = 8, first_jolt = 33, jolt_apart = 30;
 constexpr Cells solved_cells = {4, 4, 16};
 
-/// Shortened by up to 11 % and stretched by 5 while fibres pull for half of the time; and, where it is shaken, twice
-/// 34 m/s² for a twentieth of a second: in full pull and relaxed.
+/// Returns the load of a tick: shortened by up to 11 % and stretched by 5 while fibres are active for half of the time.
+/// With `shaken` also twice 34 m/s² for a twentieth of a second, fully active and relaxed.
 WalkLoad load_at(int tick, bool shaken) {
   const double time_s = tick * active_tick_s, turn = 2 * std::numbers::pi * 0.9 * time_s;
   WalkLoad load;
@@ -238,9 +238,9 @@ ActivePoints nonlinear_motion(Muscle muscle, double foundation_hz, bool shaken) 
   return moved;
 }
 
-/// What jolts add in each tick; and in those that are compared all that there is.
+/// Effect of jolts in each tick, and the whole displacement in the compared ticks.
 struct Truth {
-  ActivePoints jolts, whole;  // of ticks not compared empty
+  ActivePoints jolts, whole;  // empty in ticks that are not compared
 };
 
 Truth truth_of(Muscle muscle, double foundation_hz) {
@@ -259,7 +259,7 @@ Truth truth_of(Muscle muscle, double foundation_hz) {
   return truth;
 }
 
-/// Sums of squares, and the largest.
+/// Sums of squares, and the largest value.
 struct Squares {
   double all = 0, across = 0, worst = 0;
 
@@ -306,7 +306,7 @@ ActiveFrontier measure_one(Muscle muscle, const std::vector<ActiveWay>& ways) {
   return found;
 }
 
-/// Roots of the means of squares, and the worst, of all muscles.
+/// Returns roots of the mean squares, and the worst, over all muscles.
 ActiveFrontier together(const std::vector<ActiveFrontier>& muscles) {
   const auto count = static_cast<double>(muscles.size());
   const auto mean = [&](auto&& number) {
@@ -395,7 +395,7 @@ PlotFigure active_figure(const std::vector<ActiveFrontier>& muscles) {
   double least = 1e9, most = 0;
   PlotPoints linear{{}, {}, {}, "#1f77b4", "linear"}, shaped{{}, {}, {}, "#2ca02c", "finite strain"};
   for (const ActiveError& way : muscles.back().ways) {
-    const bool finite = way.way.find("finite") != std::string::npos;  // shape or method
+    const bool finite = way.way.find("finite") != std::string::npos;  // in shape or method
     PlotPoints& points = finite ? shaped : linear;
     points.x.push_back(way.cost_us);
     points.y.push_back(100 * way.across);

@@ -20,7 +20,7 @@
 namespace mobil {
 namespace {
 
-/// Lanes that are stepped alike.
+/// Lanes that are stepped in the same way.
 struct Group {
   const FrontierIndividual* individual;
   std::uint32_t lanes = 0;  // bits
@@ -37,7 +37,7 @@ std::vector<Group> groups_of(const std::vector<FrontierIndividual>& individuals)
   return groups;
 }
 
-/// The least number of ticks that is a whole number of steps.
+/// Returns the minimum number of ticks that is an integer number of steps.
 std::size_t meeting(double dt_s) {
   for (std::size_t ticks = 1; ticks <= 60; ++ticks) {
     const double steps = static_cast<double>(ticks) * frontier_tick_s / dt_s;
@@ -47,7 +47,7 @@ std::size_t meeting(double dt_s) {
       fmt::format("frontier: steps of {} s never meet ticks of {:.6g} s; give another step", dt_s, frontier_tick_s));
 }
 
-/// When a group's calls begin, and which of them are answers.
+/// Start of a group's calls, and the calls that give samples.
 struct Calendar {
   double call_s = frontier_tick_s;
   std::size_t calls = 1;  // between samples, `stride` ticks
@@ -93,7 +93,7 @@ void answer_by_elements(const FrontierDrive& drive, const FrontierMethod& method
       [&](Lanes<float>* to) { sampler.sample(displacement.data()->lane, group.lanes, to); });
 }
 
-/// Sixteen individuals' numbers, sixteen lanes at each.
+/// Returns sixteen individuals' numbers, one in each lane. Lanes outside the group repeat its individual.
 std::vector<Lanes<float>> in_lanes(const std::vector<FrontierIndividual>& individuals,
                                    std::vector<float> FrontierIndividual::*numbers, const Group& group) {
   std::vector<Lanes<float>> all((group.individual->*numbers).size());
@@ -142,7 +142,7 @@ Cells half(const Cells& cells) {
   return {cells[0] / 2, cells[1] / 2, cells[2] / 2};
 }
 
-/// Sixteen individuals, each with modes of its own size alone, of a mesh and one of half its cells extrapolated.
+/// Returns sixteen individuals with modes of their own sizes, extrapolated from a mesh and one of half its cells.
 std::vector<FrontierIndividual> own_modes(const FrontierDrive& drive, const Cells& cells, std::uint32_t modes,
                                           bool loads) {
   LegMuscles choice;

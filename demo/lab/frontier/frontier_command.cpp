@@ -1,4 +1,4 @@
-// `mobil frontier`: what accuracy costs.
+// `mobil frontier`: accuracy and cost of methods.
 
 #include <fmt/format.h>
 

@@ -15,10 +15,10 @@
 namespace mobil {
 namespace {
 
-constexpr double ramp_s = 1, calm_s = 0.5;  // to grow to the walk, and to ring down
-constexpr double walked_before_s = 2;       // strides that nobody records
+constexpr double ramp_s = 1, calm_s = 0.5;  // time to grow to the walk, and to ring down
+constexpr double walked_before_s = 2;       // strides that are not recorded
 
-/// 0 to 1 with three derivatives that begin and end with zero.
+/// Returns a ramp from 0 to 1 with three derivatives that are zero at both ends.
 double ramp(double x) {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * x * x * (35 + x * (-84 + x * (70 - 20 * x)));
@@ -39,7 +39,7 @@ struct Moment {
   double part;
 };
 
-/// A time past the end is the end.
+/// Returns the moment of a time; times past the end count as the end.
 Moment moment(double time_s, std::size_t ticks) {
   const double at = std::clamp(time_s / frontier_tick_s, 0.0, static_cast<double>(ticks));
   const auto tick = std::min(static_cast<std::size_t>(at), ticks - 1);
@@ -55,7 +55,7 @@ void mix(const Vec3<Lanes<float>>& a, const Vec3<Lanes<float>>& b, double part, 
   mix(a.z, b.z, part, to.z);
 }
 
-/// One walker's muscles into one lane of each drive.
+/// Records one walker's muscles in one lane of each drive.
 void record(const FrontierWalk& walk, std::size_t lane, std::vector<FrontierDrive>& drives) {
   Simulation simulation({.tick_s = frontier_tick_s});
   const auto person = must(simulation.spawn(walk.body, {.speed_m_s = walk.speed_m_s}));

@@ -1,6 +1,6 @@
 #pragma once
-// A way to deform a muscle, made ready for sixteen individuals, and what moves and loads them: recorded from walking
-// people, the same for every method. For `mobil frontier`.
+// A method of deformation, prepared for sixteen individuals, and their drives and loads: recorded from walking people,
+// the same for every method. For `mobil frontier`.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,18 +27,18 @@ struct FrontierWalk {
   float speed_m_s;
 };
 
-/// What a belly of each lane feels of its frame at one moment, as FrameLoad.
+/// Load of the frame on a belly of each lane at one moment, as in FrameLoad.
 struct FrontierFrame {
   Vec3<Lanes<float>> constant;
   Mat3<Lanes<float>> gradient;
 };
 
-/// Sixteen right legs' bellies of one muscle, a walk each; walks that are fewer are repeated. Displacement of the far
-/// end (m) and load of the frame a tick, both linear between ticks. All begin at rest without load: over the first
-/// second displacement and load grow smoothly to their values. From tick `first` on answers are compared.
+/// Bellies of one muscle in sixteen right legs, each with its own walk; fewer walks are repeated. Contains displacement
+/// of the far end (m) and load of the frame in each tick, both linear between ticks. All start at rest without load:
+/// over the first second displacement and load grow smoothly to their values. Comparison begins with tick `first`.
 struct FrontierDrive {
   Muscle muscle;
-  std::size_t walks;  // of the lanes, how many are walks of their own
+  std::size_t walks;  // number of lanes with distinct walks
   std::vector<MusclePlan> plan;
   BellyScale<Lanes<float>> scale;
   std::vector<Lanes<float>> end_m;
@@ -46,15 +46,15 @@ struct FrontierDrive {
   std::size_t first;
 
   std::size_t ticks() const { return end_m.size() - 1; }
-  /// At a time between ticks; from and to over the time from `from_s` to `to_s`.
+  /// Return drive and load over the time from `from_s` to `to_s`, interpolated between ticks.
   EndDrive<Lanes<float>> end(double from_s, double to_s) const;
   FrameLoad<Lanes<float>> load(double from_s, double to_s) const;
 };
 
-/// Five bodies, light to heavy, at 0.9, 1.4 and 2.0 m/s each, and one more.
+/// Returns five bodies, light to heavy, at 0.9, 1.4 and 2.0 m/s each, and one more.
 std::vector<FrontierWalk> frontier_walks();
 
-/// Of each muscle what up to sixteen walkers' right legs do: `seconds` that are compared, after the beginning. Fails
+/// Records the right legs of up to sixteen walkers for each muscle: `seconds` to compare, after the start. Fails
 /// without walks or with more than sixteen, on a body or a speed out of range, or less than a tick's time.
 std::vector<FrontierDrive> record_walks(std::span<const Muscle> muscles, std::span<const FrontierWalk> walks,
                                         double seconds);
@@ -62,20 +62,20 @@ std::vector<FrontierDrive> record_walks(std::span<const Muscle> muscles, std::sp
 inline constexpr Cells frontier_points = {2, 2, 8};  // the control points: this mesh's nodes
 inline constexpr std::size_t point_width = nodal_width(frontier_points);
 
-/// `fixed_step`: steps of just choice.dt_s, however ticks fall, instead of equal parts of a tick; answers are compared
-/// where both meet. The choice's muscles and inertia are not read.
+/// `fixed_step`: steps of exactly choice.dt_s, independent of ticks, instead of equal parts of a tick; they are
+/// compared where both coincide. Muscles and inertia of the choice are not used.
 struct FrontierMethod {
   LegMuscles choice;
   bool fixed_step = false;
 
   bool modal() const { return choice.method == Method::modal; }
   bool moving() const { return !modal() || choice.modal.moving; }
-  /// Of the mesh that the answer is of.
+  /// Returns the cells of the resulting mesh.
   const Cells& cells() const { return modal() ? choice.modal.cells : choice.cells; }
 };
 
-/// What one individual is stepped with. Finite elements have `steps` a tick, and those that solve a solver; the others
-/// a basis and their own numbers.
+/// Data to step one individual. Finite elements have `steps` a tick and, for solving methods, a solver. Other methods
+/// have a basis and their own numbers.
 struct FrontierIndividual {
   std::shared_ptr<const MuscleTemplate> shape;
   std::uint32_t steps = 1;
@@ -88,16 +88,16 @@ struct FrontierIndividual {
   }
 };
 
-/// Makes `own` move along those modes, with that body's motions.
+/// Makes `own` move in those modes, with that body's motions.
 void set_modes(FrontierIndividual& own, std::shared_ptr<const ModalBasis> basis, const ModalBelly& belly,
                double damping_per_s);
 
-/// The drive's sixteen, set up as people's muscles are. `loads`: for the frame's too. Fails on a choice out of range,
-/// or a step above somebody's critical one.
+/// Returns the drive's sixteen individuals, set up like people's muscles; `loads` prepares them for the frame's. Fails
+/// on a choice out of range, or a step above an individual's critical one.
 std::vector<FrontierIndividual> frontier_individuals(const FrontierDrive& drive, const FrontierMethod& method,
                                                      bool loads, BellyLibrary& library);
 
-/// The muscle's template's mesh in any cells.
+/// Returns the mesh of the muscle's template with any cells.
 HexahedralMesh frontier_mesh(Muscle muscle, const Cells& cells);
 
 }  // namespace mobil

@@ -1,5 +1,5 @@
-// What each way costs in a crowd, with memory streamed, no reports and one thread; all in turn so that a busy moment
-// hits all alike.
+// Costs of each method in a crowd, with memory streamed, no reports and one thread. Methods alternate, so that other
+// load affects all equally.
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ void fill(const std::vector<float>& of, Lanes<float>* to) {
   for (std::size_t i = 0; i < of.size(); ++i) std::ranges::fill(to[i].lane, of[i]);
 }
 
-/// One lane of a component's block in all of its lanes.
+/// Returns one lane of a component's block, repeated in all of its lanes.
 template <template <class> class C>
 C<Lanes<float>> alike(const C<Lanes<float>>& of, std::size_t lane) {
   static_assert(sizeof(C<Lanes<float>>) % sizeof(Lanes<float>) == 0);
@@ -32,11 +32,11 @@ C<Lanes<float>> alike(const C<Lanes<float>>& of, std::size_t lane) {
   return all;
 }
 
-/// Blocks of sixteen alike, as a crowd's tables have them, of every muscle and individual as many as `bytes` ask for;
-/// at most `max_blocks`, and at least one of each muscle.
+/// Blocks of sixteen identical individuals, as in a crowd's tables. There are as many of every muscle and individual as
+/// fit in `bytes`: at most `max_blocks`, and at least one of each muscle.
 class FrontierCrowd {
  public:
-  /// `individuals`: of each drive its sixteen, or none; of one at least. They and `drives` must outlive the crowd.
+  /// `individuals`: sixteen or none for each drive, for at least one. They and `drives` must outlive the crowd.
   FrontierCrowd(const FrontierMethod& method, std::span<const FrontierDrive> drives,
                 std::span<const std::vector<FrontierIndividual>> individuals, bool loads, Stiffness stiffness,
                 std::size_t bytes, std::size_t max_blocks)
@@ -71,7 +71,7 @@ class FrontierCrowd {
       if (individuals[m].empty()) continue;
       const FrontierDrive& drive = drives[m];
       for (std::size_t b = 0; b < each; ++b) {
-        // The first walks are everybody's once; of few blocks those in the middle.
+        // The first walks contain each individual once. A few blocks take the middle ones.
         const std::size_t lane = each < lane_count ? (2 * b + 1) * lane_count / (2 * each) : b * lane_count / each;
         Block& block = blocks_.emplace_back();
         block.individual = &individuals[m][lane];
@@ -96,8 +96,8 @@ class FrontierCrowd {
     }
   }
 
-  /// Everybody by a tick, or with a fixed step by the whole number of steps that is nearest to one. With
-  /// `control_points` those of a modal method are placed too.
+  /// Advances all by a tick or, with a fixed step, by the integer number of steps nearest to a tick. `control_points`
+  /// also places those of a modal method.
   void tick(bool control_points) {
     const FlushDenormals flush;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -111,11 +111,11 @@ class FrontierCrowd {
   }
 
   std::size_t muscles() const { return blocks_.size() * lane_count; }
-  /// How much of a tick one call of tick() is.
+  /// Returns the ticks in one call of tick().
   double ticks_a_call() const { return ticks_a_call_; }
-  /// Bytes of one individual that a tick reads or writes, control points included.
+  /// Returns the bytes of one individual that a tick reads or writes, control points included.
   std::size_t bytes_each() const { return bytes_each_; }
-  /// Steps in a tick, the mean of all.
+  /// Returns the mean number of steps in a tick.
   double steps_a_tick() const {
     if (method_.fixed_step) return frontier_tick_s / *method_.choice.dt_s;
     double sum = 0;
@@ -133,7 +133,7 @@ class FrontierCrowd {
   }
 
  private:
-  /// Its columns stand in a row, as in a world's table.
+  /// Its columns are in a row, as in a world's table.
   struct Block {
     const FrontierIndividual* individual;
     BellyScale<Lanes<float>> scale;
@@ -204,13 +204,13 @@ struct Meter {
     ticks.add(measure(repeats, [this] { crowd->tick(false); }));
     if (also_points) points.add(measure(repeats, [this] { crowd->tick(true); }));
   }
-  /// µs of one muscle in a tick of 1/60 s: the least time that the thread had a processor.
+  /// Returns µs of one muscle in a tick of 1/60 s: the minimum of the thread's processor time.
   double us(const Rounds& rounds) const {
     return *rounds.all().cpu_s / (static_cast<double>(crowd->muscles()) * crowd->ticks_a_call()) * 1e6;
   }
 };
 
-/// As many blocks as fill the memory, or as fit into the time.
+/// Returns as many blocks as fill the memory, or as fit in the time.
 std::unique_ptr<FrontierCrowd> crowd_of(const FrontierPriced& priced, std::span<const FrontierDrive> drives, bool loads,
                                         Stiffness stiffness, const FrontierRequest& request) {
   const FrontierMethod& method = priced.level->method;

@@ -1,4 +1,4 @@
-// `mobil frontier`'s results in words, numbers and a picture of error against cost.
+// Results of `mobil frontier` in words, numbers and a plot of error against cost.
 
 #include <fmt/format.h>
 
@@ -119,7 +119,7 @@ void add_line(const Frontier& frontier, bool loads, bool placed, PlotPanel& pane
   panel.lines.push_back(std::move(line));
 }
 
-/// The number of modes beside the point that is on the frontier, once a number.
+/// Returns the number of modes, as the label of a point on the frontier; each number once.
 std::string number_beside(const Frontier& frontier, const FrontierRow& row) {
   const bool bettered = std::ranges::any_of(frontier.rows, [&](const FrontierRow& other) {
     return other.loads == row.loads && other.on_frontier && other.modes == row.modes && other.error < row.error;

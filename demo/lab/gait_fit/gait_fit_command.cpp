@@ -24,16 +24,16 @@
 namespace mobil {
 namespace {
 
-/// The curves as source, fitted by least squares to bovi2011_emg.csv; and how near they are, a line a muscle and speed.
+/// Curves as source, fitted by least squares to bovi2011_emg.csv, and their quality, a line for each muscle and speed.
 struct ExcitationFit {
   std::string source, quality;
 };
 
 constexpr std::string_view table_name = "bovi2011_emg.csv";
 
-/// The table's classes and their speeds over √(g · leg). It gives speed over height, 0.83 free; the others are the
-/// middles of its classes (under 0.6, 0.6 to 0.8, 0.8 to 1, over 1), of the open ones a guess. Height 1.47 m, leg 0.53
-/// of it.
+/// Speed classes of the table, in heights per second. The table gives 0.83 for `free`; the others are the middles of
+/// its classes (under 0.6, 0.6 to 0.8, 0.8 to 1, over 1), estimated for the open ones. `over_leg` converts to √(g ·
+/// leg), with a height of 1.47 m and a leg of 0.53 of it.
 struct SpeedClass {
   std::string_view name;
   double heights_per_s;
@@ -46,7 +46,7 @@ double over_leg(double heights_per_s) {
   return heights_per_s * height / std::sqrt(9.81 * leg);
 }
 
-/// One measured point: where, how fast, which row.
+/// One measured point: place in the cycle, speed and row.
 struct Point {
   double cycle, speed;
   std::size_t row, speed_class;
@@ -161,7 +161,7 @@ std::string source(const std::vector<StepNode>& nodes) {
   return text + "}};\n// clang-format on\n\n}  // namespace mobil::inline v0_3\n";
 }
 
-/// Every usual node of the table that this program has.
+/// Returns the source of style changes, for every usual node of this program's table.
 std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
   std::vector<StyleChanges> changes(speed_count);
   in_parallel(jobs, speed_count, [&](std::size_t begin, std::size_t end) {

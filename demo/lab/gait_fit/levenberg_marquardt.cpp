@@ -17,7 +17,7 @@ double squares(const std::vector<double>& r) {
   return sum;
 }
 
-/// Derivatives of the residuals by the unknowns over their scale; `now` becomes the residuals themselves.
+/// Returns the derivatives of the residuals by the unknowns over their scale. Writes the residuals to `now`.
 Eigen::MatrixXd derivatives(const Residuals& residuals, std::span<const double> scale, std::span<const double> unknown,
                             std::vector<double>& now) {
   std::vector<double> there, tried(unknown.begin(), unknown.end());

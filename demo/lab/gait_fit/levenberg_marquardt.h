@@ -1,5 +1,5 @@
 #pragma once
-// Least squares: the step of Gauss and Newton, shortened where it leads astray (Levenberg and Marquardt).
+// Least squares by Gauss-Newton steps, shortened where they diverge (Levenberg and Marquardt).
 
 #include <functional>
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace mobil {
 
-/// What is to become small, of one set of unknowns; always as many numbers.
+/// Numbers to minimise, as a function of the unknowns. Their count is constant.
 using Residuals = std::function<void(std::span<const double> unknown, std::vector<double>& residual)>;
 
 struct LeastSquares {
@@ -15,8 +15,8 @@ struct LeastSquares {
   double min_gain = 3e-6;  // of the sum of squares, below which a step is the last
 };
 
-/// Changes `unknown` toward the least sum of squares, and returns that sum. `scale`: by how much each unknown is likely
-/// to change. Derivatives are difference quotients over 1e-4 of it. The same bits on every machine.
+/// Changes `unknown` toward the minimum of the sum of squares, and returns that sum. `scale` is the likely change of
+/// each unknown; derivatives are difference quotients over 1e-4 of it. Bits are the same on every machine.
 double least_squares(const Residuals& residuals, std::span<const double> scale, const LeastSquares& options,
                      std::span<double> unknown);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Curves that a step is made of, and the ankle of a foot that rolls on the ground.
+// Curves of a step, and the ankle of a foot that rolls on the ground.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ inline double legendre(std::size_t degree, double x) {
   return now;
 }
 
-/// Pitch of the toes, heel up, of a foot whose heel has risen by `heel_up`, with its derivatives by that.
+/// Returns the pitch of the toes, heel up, of a foot whose heel has risen by `heel_up`, with derivatives by `heel_up`.
 inline Moving toe_pitch(double heel_up) {
   constexpr double w2 = static_cast<double>(toe_rocker::within) * static_cast<double>(toe_rocker::within);
   constexpr double part = static_cast<double>(toe_rocker::part);
@@ -43,8 +43,8 @@ inline Moving toe_pitch(double heel_up) {
   return {part * d * d2 / s, part * d2 * (d2 + 3 * w2) / (s * s), part * 2 * d * w2 * (3 * w2 - d2) / (s * s * s)};
 }
 
-/// The ankle of a foot that rolls over the rim of its heel (toes up), or over its toes (heel up): its height, or its
-/// place ahead of the foothold.
+/// Returns the ankle's height (`up`) or its distance ahead of the foothold, with derivatives. The foot rolls over the
+/// rim of its heel (toes up) or over its toes (heel up).
 inline Moving rolled(const StepBody& b, const Moving& pitch, bool up) {
   if (pitch.value >= 0) {
     const double s = std::sin(pitch.value), c = std::cos(pitch.value), over = b.ankle_height - b.heel_radius;

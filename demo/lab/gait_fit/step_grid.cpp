@@ -21,7 +21,7 @@ CycleCurve thinned(const Samples& samples) {
 using namespace step_table;
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double evenness = 0.15;  // how strongly nodes are drawn to their neighbours', per scale of each number
+constexpr double evenness = 0.15;  // pull of nodes towards their neighbours, per scale of each number
 
 double solve(const StepNode& node, const StepWeights& weights, int max_steps, StepShape& shape) {
   static constexpr StepShape scales = shape_scales();
@@ -35,15 +35,15 @@ bool keep(StepNode& node, const StepShape& shape, double cost) {
   return true;
 }
 
-/// Straight at the last fit; a knee that is almost straight is hard to leave, so first the angles alone.
+/// Fits in stages, first mostly the angles: a direct fit hardly leaves an almost straight knee.
 double by_way_of_angles(const StepNode& node, StepShape& shape) {
   solve(node, {.angles = 1, .forces = 0.1, .moments = 0.03, .balance = 1}, 60, shape);
   solve(node, {.angles = 1, .forces = 0.5, .moments = 0.3, .balance = 8}, 60, shape);
   return solve(node, {}, 250, shape);
 }
 
-/// The mean of a node's neighbours on either side, in speed and in step length where it has both; its own shape where
-/// it has neither.
+/// Returns the mean of a node's neighbours in speed and in step length, for each of these with neighbours on both
+/// sides; without any, the node's own shape.
 StepShape between_neighbours(const std::vector<StepNode>& nodes, std::size_t i) {
   const std::size_t s = i / length_count, l = i % length_count;
   StepShape sum{};
@@ -64,7 +64,7 @@ StepShape between_neighbours(const std::vector<StepNode>& nodes, std::size_t i) 
 constexpr std::size_t n = cycle_samples;
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// By how much each effect is changed to see what else changes: far, and to the side on which knees do not lock.
+/// Change of each effect by which side effects are found: large, and to the side on which knees do not lock.
 constexpr std::array<double, style_effects.size()> tried_by = {3,    5,    4,     -4,   0.01, 6, 3,
                                                                0.01, 0.01, -0.05, -0.2, 0.1,  5, 1};
 constexpr double insistence = 30;
@@ -73,8 +73,8 @@ constexpr double insistence = 30;
 struct Instants {
   std::size_t toe_off, mid_swing, release;
   std::size_t loaded;              // greatest knee flexion of early stance
-  std::size_t straightest;         // least one after that, before the heel rises
-  std::size_t max_bent;            // of the knee, in swing
+  std::size_t straightest;         // minimum after that, before the heel rises
+  std::size_t max_bent;            // maximum, of the knee, in swing
   std::size_t highest, lowest;     // of the hips
   std::size_t single, end_single;  // support on this foot: from, to
 };
@@ -209,7 +209,7 @@ StepNode step_node(const FitData& data, std::size_t speed_number, std::size_t le
   task.elbow_back = static_cast<double>(style.elbow_back_deg) * degree;
   task.elbow_forward =
       task.elbow_back + swinging * static_cast<double>(style.elbow_forward_deg - style.elbow_back_deg) * degree;
-  node.targets.rise.mean_m *= times * times;  // as of a leg of fixed length
+  node.targets.rise.mean_m *= times * times;  // as for a leg of fixed length
   node.shape = node.targets.likely = first_shape(task);
   return node;
 }
@@ -226,7 +226,7 @@ std::vector<StepNode> fit_grid(const FitData& data, const Jobs& jobs,
   for (std::size_t s = 0; s < speed_count; ++s) {
     for (std::size_t l = 0; l < length_count; ++l) nodes.push_back(step_node(data, s, l));
   }
-  /// Fits every node for which `from` names others, from all of these as they were before.
+  /// Fits every node from the nodes that `from` lists, in the shapes they had before.
   const auto stage = [&](const char* name, bool by_angles, auto from) {
     const std::vector<StepNode> before = nodes;
     std::vector<char> gained(nodes.size());
@@ -265,7 +265,7 @@ std::vector<StepNode> fit_grid(const FitData& data, const Jobs& jobs,
     stage("all from their neighbours", false, [](std::size_t, std::size_t) {
       return Others{{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     });
-  // Numbers that the aims leave free go evenly from node to node, so that steps between nodes are like them.
+  // Numbers that the aims leave free vary evenly between nodes, so that steps between nodes resemble them.
   for (int times = 0; times < 4; ++times) {
     const std::vector<StepNode> before = nodes;
     in_parallel(jobs, nodes.size(), [&](std::size_t begin, std::size_t end) {
@@ -314,14 +314,14 @@ std::array<double, style_effects.size()> style_values(const StepTask& task, cons
 }
 
 StyleChanges style_changes(const StepNode& node) {
-  StepNode own = node;  // what is to stay is the step itself
+  StepNode own = node;  // the step itself is kept
   StepCycle usual;
   evaluate_step(node.task, node.shape, usual);
   for (std::size_t q = 0; q < gait_quantity_count; ++q)
     own.targets.curve[q].mean = samples_of(usual, static_cast<GaitQuantity>(q));
-  own.targets.rise.sd_m = own.targets.rise.mean_m;  // how far the hips fall may change
+  own.targets.rise.sd_m = own.targets.rise.mean_m;  // the fall of the hips can change
   const Residuals step = step_residuals(own.task, own.targets, {.angles = 0.3, .forces = 0.3, .moments = 0.1});
-  std::vector<double> kept;  // no step lacks nothing: what the node lacks may stay
+  std::vector<double> kept;  // every step has residuals: those of the node can stay
   step(node.shape, kept);
   const auto before = style_values(node.task, node.shape, node.shape);
   const Instants at = instants(node.task, usual);

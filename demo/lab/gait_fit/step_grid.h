@@ -1,6 +1,6 @@
 #pragma once
-// A table of steps over speed and step length, fitted node by node; and how a step changes with the posture of a
-// walk, and stays in balance.
+// A table of steps over speed and step length, fitted node by node; and changes of a step with the posture of a walk,
+// in balance.
 
 #include <functional>
 #include <vector>
@@ -14,21 +14,21 @@
 namespace mobil {
 
 struct StepQuality {
-  std::array<double, gait_quantity_count> rms, correlation, rate;  // against the targets; rate: over theirs
-  double lacking_m;                                                // most that the centre of pressure is moved
-  double aside_m;                                                  // most that it lies beside the feet's lines
-  double slack_m;                                                  // least
-  double clearance_m;                                              // least in the middle two thirds of swing
-  double pad_m;                                                    // most that the heel slides
+  std::array<double, gait_quantity_count> rms, correlation, rate;  // against the targets; rate: relative to theirs
+  double lacking_m;                                                // maximum shift of the centre of pressure
+  double aside_m;                                                  // its maximum distance from the feet's lines
+  double slack_m;                                                  // minimum
+  double clearance_m;                                              // minimum in the middle two thirds of swing
+  double pad_m;                                                    // maximum slide of the heel
   double rise_m;                                                   // of the centre of mass
 };
 
 StepQuality step_quality(const StepTask& task, const StepTargets& targets, const StepShape& shape);
 
-/// samples_of the step every 2 %.
+/// Returns samples_of the step every 2 %.
 CycleCurve published(const StepCycle& cycle, GaitQuantity quantity);
 
-/// One node while it is fitted. `cost`: the least sum of squares found.
+/// One node during its fit. `cost` is the smallest sum of squares found.
 struct StepNode {
   StepTask task;
   StepTargets targets;
@@ -36,36 +36,36 @@ struct StepNode {
   double cost;
 };
 
-/// What nodes are fitted to: a set of a reference, perhaps without one class of its speeds.
+/// Input of a fit: a set of a reference, optionally without one of its speed classes.
 struct FitData {
   const GaitReference* reference;
   std::size_t set = 0, without = none_left_out;
 };
 
-/// Node (speed, length) of step_table, its shape not yet fitted.
+/// Returns node (speed, length) of step_table, with its shape not yet fitted.
 StepNode step_node(const FitData& data, std::size_t speed, std::size_t length);
 
-/// Fits a node from a shape, at once or by way of the angles alone, and keeps what is better than it was: true then.
+/// Fits a node from a shape, directly or first by the angles. Keeps the result and returns true if it is better.
 bool fit_node(StepNode& node, const StepShape& from, bool by_angles);
 
-/// Fits all nodes: usual steps from a first guess and from their neighbours until none gains, the others from those,
-/// and all from their neighbours. The same bits for any number of threads. `progress`: what is done, and the sum of all
-/// costs.
+/// Fits all nodes. Usual steps start from a first guess and from their neighbours, until none improves; the others
+/// start from those, and then all from their neighbours. Bits are the same for any number of threads. `progress`
+/// receives the stage, and the sum of all costs.
 std::vector<StepNode> fit_grid(const FitData& data, const Jobs& jobs,
                                const std::function<void(const char* stage, double cost)>& progress);
 
-/// Between metres of fitted_height_m and a body of height 1.
+/// Convert between metres of fitted_height_m and a body of height 1.
 TabledShape tabled(const StepShape& shape);
 StepShape fitted(const TabledShape& shape);
 
-/// By style_effects: the change of the node's shape (m, rad) for one unit of each.
+/// For each of style_effects, the change of the node's shape (m, rad) for one unit.
 using StyleChanges = std::array<StepShape, style_effects.size()>;
 
-/// The changes that disturb the fitted step least: a step near the node's that balances as well, clears the ground and
-/// is as smooth, and of which a parameter is different by a given amount; the difference, for one unit.
+/// Returns the changes that disturb the fitted step least, for one unit each. The changed step is near the node's,
+/// balances as well, clears the ground, is as smooth, and differs by a given amount in one parameter.
 StyleChanges style_changes(const StepNode& node);
 
-/// What style_effects' parameters are of, in their units, at a step. `usual` is the step that they are counted from.
+/// Returns the values of style_effects' parameters at a step, in their units, relative to the step `usual`.
 std::array<double, style_effects.size()> style_values(const StepTask& task, const StepShape& usual,
                                                       const StepShape& shape);
 

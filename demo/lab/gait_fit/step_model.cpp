@@ -11,24 +11,24 @@ namespace {
 constexpr double pi = std::numbers::pi, gravity = gravity_m_s2;
 constexpr std::size_t n = cycle_samples, half_cycle = n / 2;
 
-/// A leg's segments: masses, of the body (kneecap and toes included); centres of thigh and shank, of their lengths.
+/// A leg's segments: parts of the body's mass (with kneecap and toes); centres of thigh and shank, of their lengths.
 constexpr double thigh_mass = 0.100, shank_mass = 0.0465, foot_mass = 0.0145, rod_centre = 0.433;
-/// Usual foot flat and heel rise, of the cycle; the part of it in which the heel's pad yields.
+/// Usual foot flat and heel rise, fractions of the cycle; the fraction in which the heel's pad yields.
 constexpr double usual_flat = 0.09, usual_rise = 0.30, pad_part = 0.05;
-/// How much higher than the centre of mass the point is that the feet's forces lean toward.
+/// Height of the point toward which the feet's forces lean, relative to the centre of mass.
 constexpr double pivot_height = 1.4;
 
-/// Places over the cycle: forward, up, out on the leg's own side.
+/// Places over the cycle: forward, up, and outward on the leg's own side.
 struct Track {
   Samples z, y, x;
 };
 
-/// Per kg of body: what accelerates one segment, and turns it.
+/// Force and moment that accelerate one segment, per kg of body.
 struct Force {
   double z, y, spin;
 };
 
-/// What accelerates a leg with the arm that follows it, and the moments of it, about the axes across and along.
+/// Force that accelerates a leg with the arm that follows it, and its moments about the axes across and along.
 struct LegLoad {
   double z = 0, y = 0, pitch = 0, roll = 0;
 };
@@ -62,7 +62,7 @@ class Model {
   double second(const Samples& q, std::size_t i, double travel = 0) const;
   double rise(double u) const;
   static std::size_t other(std::size_t i) { return (i + half_cycle) % n; }
-  /// Part of double support that is over, `phase` of the cycle after a heel strike.
+  /// Returns the elapsed fraction of double support, at `phase` of the cycle after a heel strike.
   double landed(double phase) const { return std::clamp(phase / t_.double_support, 0.0, 1.0); }
   void place_masses();
   void accelerate_leg();
@@ -95,7 +95,7 @@ double Model::harmonics(const ShapePart& part, std::size_t count, double phase) 
   return sum;
 }
 
-/// (1 − u)³ times a polynomial that starts with the part's first number and no slope of its own; 0 from u = 1 on.
+/// Returns (1 − u)³ times a polynomial that starts with the part's first number and without slope; 0 from u = 1 on.
 double Model::falling(const ShapePart& part, std::size_t more, double u) const {
   const double left = std::max(1 - u, 0.0);
   double tail = 0;
@@ -107,7 +107,7 @@ Moving Model::falling_start(const ShapePart& part, double span) const {
   return per_second({at(part, 0), at(part, 1) / span, (2 * at(part, 2) - 6 * at(part, 1)) / (span * span)});
 }
 
-/// 64 (u (1 − u))³ times Legendre polynomials.
+/// Returns 64 (u (1 − u))³ times Legendre polynomials.
 double Model::bumps(const ShapePart& part, double u) const {
   double sum = 0;
   for (std::size_t i = 0; i < part.count; ++i) sum += at(part, i) * legendre(i, 2 * u - 1);
@@ -115,7 +115,7 @@ double Model::bumps(const ShapePart& part, double u) const {
   return 64 * bump * bump * bump * sum;
 }
 
-/// Pitch from heel rise on, u from 0 to 1 at toe-off: heel up, negative.
+/// Returns the pitch from heel rise on, for u from 0 to 1 at toe-off: heel up, negative.
 double Model::rise(double u) const {
   double sum = 0;
   for (std::size_t i = step_shape::rise.count; i > 0; --i) sum = at(step_shape::rise, i - 1) + u * sum;
@@ -125,7 +125,7 @@ double Model::rise(double u) const {
 void Model::move_foot() {
   const double flat = usual_flat + at(step_shape::times, 0), lift = usual_rise + at(step_shape::times, 1);
   const double rising = off_ - lift, swing_part = 1 - off_, span = swing_part * period_;
-  // Where the foot is at toe-off and at the next strike.
+  // State of the foot at toe-off and at the next strike.
   double sum = 0, slope = 0, bend = 0;
   for (std::size_t i = 0; i < step_shape::rise.count; ++i) {
     const double k = static_cast<double>(i + 3), v = at(step_shape::rise, i);
@@ -182,7 +182,7 @@ void Model::move_foot() {
   }
 }
 
-/// The hip of the right leg, and thigh and shank between it and the ankle.
+/// Moves the hip of the right leg, and thigh and shank between it and the ankle.
 void Model::move_leg() {
   namespace p = pelvis_phase;
   const StepBody& b = t_.body;
@@ -203,7 +203,7 @@ void Model::move_leg() {
     const double on = c_.ankle_forward[i] - hip_on, down = hip_up - c_.ankle_up[i], out = c_.ankle_out[i] - hip_out;
     const double across = std::hypot(down, out), reach = std::hypot(on, across);
     c_.slack[i] = full - reach;
-    // A leg out of reach is drawn in smoothly, so that a fit finds its way back.
+    // A leg out of reach is pulled in smoothly, so that a fit finds its way back.
     constexpr double least = 2e-4;
     const double bent =
         c_.slack[i] > least ? c_.slack[i] : least * std::exp(std::min(c_.slack[i] - least, 0.0) / least);
@@ -244,7 +244,7 @@ double Model::second(const Samples& q, std::size_t i, double travel) const {
   return (after - 2 * q[i] + before) / (dt * dt);
 }
 
-/// Knee, ankle and the centres of mass of thigh, shank and foot, from the hip down.
+/// Places knee, ankle and the centres of mass of thigh, shank and foot, from the hip down.
 void Model::place_masses() {
   const StepBody& b = t_.body;
   const double foot_on = 0.35 * b.ball_forward, foot_down = -0.5 * b.ankle_height;
@@ -268,7 +268,7 @@ void Model::place_masses() {
   }
 }
 
-/// What accelerates the leg against gravity, and its moments about the right foothold.
+/// Finds the force that accelerates the leg against gravity, and its moments about the right foothold.
 void Model::accelerate_leg() {
   const StepBody& b = t_.body;
   const double stride = 2 * t_.step_length_m;
@@ -294,7 +294,7 @@ void Model::accelerate_leg() {
   }
 }
 
-/// The left arm, which follows the right leg.
+/// Adds the left arm, which follows the right leg.
 void Model::add_arm() {
   const ArmBody& arm = arm_body;
   const auto& joint = upper_body.shoulder;
@@ -331,7 +331,7 @@ void Model::add_arm() {
   add(lower, lower_turn, arm.lower, arm.lower_spin);
 }
 
-/// The right foot's share of the weight, and its centre of pressure before balance is asked for.
+/// Finds the right foot's share of the weight, and its centre of pressure before balance is required.
 void Model::share_load() {
   const auto taken = [&](double u) {
     return 1 - (1 - u) * (1 - u) *
@@ -349,7 +349,7 @@ void Model::share_load() {
   }
 }
 
-/// Ground reaction of both feet, where it must press, and what of it the right foot has.
+/// Finds the ground reaction of both feet, the place where it must act, and the right foot's share of it.
 void Model::balance() {
   const double step = t_.step_length_m, h = t_.body.height;
   Samples upper_z, upper_y, upper_x;
@@ -398,7 +398,7 @@ void Model::balance() {
   }
 }
 
-/// Joint moments from the foot up, about the axis across, forward pitch positive; the ground pushes by (fz, fy).
+/// Finds joint moments from the foot up, about the axis across, forward pitch positive; the ground pushes by (fz, fy).
 void Model::find_moments(std::size_t i, double fz, double fy) {
   const auto moment_of = [](double z, double y, double qz, double qy) { return y * qz - z * qy; };
   const double az = ankle_.z[i], ay = ankle_.y[i];

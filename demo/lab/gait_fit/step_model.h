@@ -1,6 +1,6 @@
 #pragma once
-// A steady walk of two equal steps in double precision: where everything is over the cycle of the right leg, and the
-// forces that it takes. Twice continuously differentiable through heel strike and toe-off by the form of its curves.
+// A steady walk of two equal steps in double precision: positions over the cycle of the right leg, and the forces for
+// them. The form of its curves makes it twice continuously differentiable through heel strike and toe-off.
 //
 // Right leg's cycle from its heel strike; the left leg is half a cycle later, mirrored. World axes: x to the left, y
 // up, z forward, the origin at the right foothold (the ground under the ankle of the flat foot, on the walking line).
@@ -25,7 +25,7 @@ struct StepBody {
 };
 StepBody step_body(double height_m);
 
-/// What does not change while a step is fitted. Angles rad.
+/// Constants of a fit. Angles in rad.
 struct StepTask {
   StepBody body;
   double speed_m_s, step_length_m;
@@ -39,10 +39,10 @@ struct StepTask {
 inline constexpr std::size_t cycle_samples = 200;
 using Samples = std::array<double, cycle_samples>;
 
-/// Of the right leg, at equal times from its heel strike.
+/// The right leg at equal intervals from its heel strike.
 struct StepCycle {
   Samples hips_forward, hips_up, hips_left, trunk;
-  Samples pitch, stance_pitch;  // of the foot; and as if it stood all the time
+  Samples pitch, stance_pitch;  // of the foot; and as if it were always in stance
   Samples ankle_forward, ankle_up, ankle_out;
   Samples thigh, shank, tilt;  // angles: in the leg's plane, and of the pelvis
   Samples hip, knee, ankle;    // flexion, dorsiflexion; the hip from the tilted pelvis
@@ -54,18 +54,18 @@ struct StepCycle {
   Samples centre_up;                          // of mass
   Samples total_forward, total_up;            // ground reaction of both feet, N/kg
   Samples share, pressure;                    // of the right foot: of the weight; centre of pressure ahead of the ankle
-  Samples pressure_aside;   // how far the motion wants it from between the feet's lines, to the left, m
-  Samples wanted_pressure;  // of both feet, where the motion asks for it
-  Samples lacking;          // how much further forward that is than where `pressure` has it, m
-  Samples borne;            // centre of pressure of the right foot ahead of the ankle, as the forces have it
-  Samples forward, up;      // ground reaction of the right foot, body weights
+  Samples pressure_aside;                     // required distance from between the feet's lines, to the left, m
+  Samples wanted_pressure;                    // of both feet, as the motion requires
+  Samples lacking;                            // distance of that ahead of `pressure`, m
+  Samples borne;        // centre of pressure of the right foot ahead of the ankle, used by the forces
+  Samples forward, up;  // ground reaction of the right foot, body weights
   Samples hip_moment, knee_moment, ankle_moment;  // N m/kg, extensor and plantarflexor positive
 };
 
-/// Both feet's centres of pressure are moved by what they lack, so that no moment is left unbalanced.
+/// Evaluates a step. Both feet's centres of pressure are shifted by `lacking`, so that no moment is left unbalanced.
 void evaluate_step(const StepTask& task, const StepShape& shape, StepCycle& cycle);
 
-/// A shape to begin with.
+/// Returns a shape to start from.
 StepShape first_shape(const StepTask& task);
 
 }  // namespace mobil

@@ -11,9 +11,9 @@ namespace {
 constexpr std::size_t n = cycle_samples;
 constexpr double degrees = 180 / std::numbers::pi, gravity = gravity_m_s2;
 
-constexpr double rise_margin = 0.001;  // m, kept from the bounds
+constexpr double rise_margin = 0.001;  // m, distance kept from the bounds
 
-/// Straight between the 2 % at which curves are published.
+/// Interpolates linearly between the 2 % at which curves are published.
 Samples resampled(const CycleCurve& curve) {
   Samples out;
   for (std::size_t i = 0; i < n; ++i) {
@@ -24,8 +24,8 @@ Samples resampled(const CycleCurve& curve) {
   return out;
 }
 
-/// Weights of the classes of a set at a speed: the cubic of Catmull and Rom through the two on either side, of all but
-/// `without`.
+/// Returns weights of the classes of a set at a speed: the Catmull-Rom cubic through the two on either side, among all
+/// classes except `without`.
 std::array<double, speed_class_count> class_weights(const MeasuredSet& set, double speed, std::size_t without) {
   std::array<double, speed_class_count> weight{};
   std::vector<std::size_t> kept;
@@ -51,7 +51,7 @@ std::array<double, speed_class_count> class_weights(const MeasuredSet& set, doub
   return weight;
 }
 
-/// By how much a curve changes in a cycle if it goes on as fast as there, over 4 % of it.
+/// Returns the change of a curve in a whole cycle at its rate there, taken over 4 % of it.
 double rate(const Samples& q, std::size_t i) {
   return std::abs(q[(i + 4) % n] - q[(i + n - 4) % n]) / 8 * n;
 }
@@ -77,7 +77,7 @@ class Gathered {
   std::vector<double>& to_;
 };
 
-/// Rearmost and foremost place of the centre of pressure under a foot of that pitch, ahead of the ankle.
+/// Rearmost and foremost possible centre of pressure under a foot of that pitch, ahead of the ankle.
 struct Sole {
   double back, front;
 };
@@ -107,8 +107,8 @@ struct Aims {
   void peaks(GaitQuantity quantity, double weight, double spare, const Samples& ours, Gathered& all) const;
 };
 
-/// Where the curve goes further than its target's peak and `spare` more, as a part of that: upward against the peak of
-/// that half of stance or of swing, so that no hump hides behind another, and downward.
+/// Adds the excess of a curve over its target's peak and `spare`, as a fraction of that. Upward, it counts against the
+/// peak of the same half of stance or of swing, so that no hump hides behind another; also downward.
 void Aims::peaks(GaitQuantity quantity, double weight, double spare, const Samples& ours, Gathered& all) const {
   constexpr double each = 120;
   constexpr std::array<std::size_t, 4> part = {0, n * 3 / 10, n * 6 / 10, n};
@@ -184,8 +184,8 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   all.curve(8000, [&](std::size_t i) { return beyond(std::abs(c.pad_forward[i]), 0.003); });
   static constexpr StepShape scale = shape_scales();
   for (std::size_t k = 0; k < step_shape::size; ++k) all.one(targets.drawn * (shape[k] - targets.likely[k]) / scale[k]);
-  // Two ways of rolling lead to steps nearly as good, with heel rise early and with it late. All nodes take one of
-  // them: between steps of unlike ways there would be neither.
+  // Two ways of rolling give steps nearly as good, with early and with late heel rise. All nodes use one of them,
+  // because a step between nodes of both ways would have neither.
   constexpr std::size_t heel_rise = step_shape::times.first + 1;
   all.one((shape[heel_rise] - first_shape(task)[heel_rise]) / scale[heel_rise]);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Head and trunk with the pelvis as one piece: how its centre of mass and its angular momentum follow the lean of the
+// Head and trunk with the pelvis as one piece: change of their centre of mass and angular momentum with the lean of the
 // chest and the attitude of the pelvis, for small angles; and the arms. A body of height 1 m and mass 1 kg.
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace mobil {
 struct UpperBody {
   double mass;
   double up, forward;                    // of the centre of mass from the middle of the hips, upright
-  double by_chest, by_pelvis;            // how far the centre goes per rad of either
+  double by_chest, by_pelvis;            // shift of the centre per rad of either
   double spin_by_chest, spin_by_pelvis;  // angular momentum about the centre per rad/s of either
   double spin_by_list;                   // of the pelvis, about the axis along
   struct {
@@ -53,8 +53,8 @@ constexpr ArmBody make_arm() {
 
 inline constexpr ArmBody arm_body = make_arm();
 
-/// Kinematics turns vertebra by vertebra from the pelvis' attitude to the chest's, and from the shoulders up to a head
-/// that stays upright.
+/// Returns the upper body. Kinematics turns vertebra by vertebra from the pelvis' attitude to the chest's, and from the
+/// shoulders up to a head that stays upright.
 constexpr UpperBody make_upper_body() {
   using enum Segment;
   const UnitBody& u = unit_body;

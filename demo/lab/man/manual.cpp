@@ -28,7 +28,7 @@ constexpr std::string_view exit_status =
     "0: done. 1: it ran, but something that is promised did not hold, or standard output could not be written.\n"
     "2: bad usage or input; one line on standard error says what, and how to mend it.\n";
 
-/// A character of UTF-8 that begins at `at`, which is moved behind it.
+/// Returns the UTF-8 character that begins at `at`, and moves `at` behind it.
 std::uint32_t code_point(std::string_view text, std::size_t& at) {
   const auto byte = [&] { return static_cast<unsigned char>(text[at++]); };
   const std::uint32_t first = byte();
@@ -42,7 +42,7 @@ std::uint32_t code_point(std::string_view text, std::size_t& at) {
 constexpr std::pair<char, std::string_view> escapes[] = {
     {'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}, {'"', "\\(dq"}};
 
-/// Text as troff prints it: what it would take for its own is written out, and hyphens are those that shells know.
+/// Returns text for troff: its special characters are escaped, and hyphens are those of shells.
 std::string plain(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -60,7 +60,7 @@ std::string plain(std::string_view text) {
   return out;
 }
 
-/// A line of its own, which is no request even where it begins with a full stop.
+/// Returns a line of text, which is not a request even if it begins with a full stop.
 std::string text_line(std::string_view text) {
   const std::string line = plain(text);
   return (line.starts_with('.') ? "\\&" : "") + line + "\n";
@@ -81,7 +81,7 @@ std::string option_text(const Option& option) {
   return text;
 }
 
-/// Those without a heading first, then heading by heading in the order in which headings first occur.
+/// Returns options without a heading first, then by heading, in the order in which headings first occur.
 std::string options_text(const std::vector<Option>& options, std::string_view heading_request) {
   std::vector<std::string> groups = {""};
   for (const Option& option : options)
@@ -95,7 +95,7 @@ std::string options_text(const std::vector<Option>& options, std::string_view he
   return text;
 }
 
-/// The end of --help: running text is filled again, what is indented stands as it is, examples come last.
+/// Returns the end of --help: running text is filled again, indented text is kept, examples come last.
 std::string footer_text(const std::string& footer) {
   std::string notes, examples;
   bool as_it_is = false, in_examples = false;

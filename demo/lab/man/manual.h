@@ -7,10 +7,10 @@
 
 namespace mobil {
 
-/// mobil(1): the program, and every option of every subcommand. ASCII, whatever the tables hold.
+/// Returns mobil(1): the program, and every option of every subcommand. Always ASCII, whatever the tables contain.
 std::string manual(const Program& program);
 
-/// mobil-walk(1): one subcommand with all that its --help says.
+/// Returns mobil-walk(1), for example: one subcommand with the whole text of its --help.
 std::string manual(const Program& program, const Subcommand& command);
 
 }  // namespace mobil

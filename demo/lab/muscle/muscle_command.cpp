@@ -34,7 +34,7 @@ struct ContractionRequest {
   std::filesystem::path out;
 };
 
-/// The CSV, a row a tick of 1/480 s, and its story in a few lines.
+/// The CSV, with a row per tick of 1/480 s, and its summary in a few lines.
 struct Contraction {
   std::string csv, summary;
 };
@@ -42,7 +42,7 @@ struct Contraction {
 constexpr double contraction_tick_s = 1.0 / 480;
 constexpr double on_at = 0.1, off_at = 0.6;  // of the time
 
-/// Area of the middle plane of control points over that at rest.
+/// Returns the area of the middle plane of control points relative to that at rest.
 double middle_section(const Simulation& simulation, Entity muscle) {
   const HexahedralMesh& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
   const BellyScale<float> scale = *simulation.get<BellyScale>(muscle);
@@ -66,8 +66,8 @@ double middle_section(const Simulation& simulation, Entity muscle) {
   return area[1] / area[0];
 }
 
-/// As typed. Fails, naming the option, on a muscle that is none of the table's, a level outside 0 to 1, seconds outside
-/// 0.05 to 60.
+/// Reads the options as typed. Fails, naming the option, on an unknown muscle, a level outside 0 to 1, or seconds
+/// outside 0.05 to 60.
 Result<ContractionRequest> read_contraction(const std::string& level, const std::string& muscle,
                                             const std::string& seconds, const std::string& out) {
   ContractionRequest request;

@@ -31,11 +31,11 @@ std::vector<std::string> muscle_words() {
   return names;
 }
 
-/// Without --dt: static writes a row for every picture of a display; CAA steps eight times as often, so that the beat
-/// of the default block's first stretch (12 Hz) is a fifth of a per cent long.
+/// Steps without --dt. Static writes a row for every frame of a display. CAA steps eight times as often, so that the
+/// period of the default block's first stretch (12 Hz) is 0.2 % too long.
 constexpr double static_step_s = 1.0 / 60, newmark_step_s = 1.0 / 480;
 
-/// Pulled by 1 N along z within 0.1 s, held, let go at 0.5 s.
+/// Returns the default load: a pull of 1 N along z within 0.1 s, held, released at 0.5 s.
 ForceHistory default_load() {
   return {{{0, {0, 0, 0}}, {0.1, {0, 0, 1}}, {0.5, {0, 0, 1}}, {0.5, {0, 0, 0}}}};
 }
@@ -45,7 +45,7 @@ Result<Cells> parse_cells(const std::string& text) {
   Cells cells{};
   bool good = parts.size() == cells.size();
   for (std::size_t i = 0; good && i < cells.size(); ++i) {
-    const auto count = parse_count(parts[i], 0, 999);  // make_block has the range, and says what it is
+    const auto count = parse_count(parts[i], 0, 999);  // make_block checks the range and reports it
     good = count.has_value();
     if (good) cells[i] = static_cast<std::uint32_t>(*count);
   }
@@ -67,7 +67,7 @@ Result<Grading> parse_grading(const std::string& text) {
                           text.substr(0, 60)));
 }
 
-/// The mass that a method takes, where nothing or the right thing was asked for.
+/// Returns the mass of a method, if none or a valid one was requested.
 Result<Mass> choose_mass(Method method, const std::string& text) {
   const Mass own = method == Method::implicit_central || method == Method::newmark ? Mass::consistent : Mass::lumped;
   if (text.empty()) return own;
@@ -115,7 +115,7 @@ Result<Choices> read_choices(const MuscleText& text) {
   return read.result(c);
 }
 
-/// Whether a factorised operator is needed.
+/// Returns true if a factorised operator is needed.
 bool solves(const Choices& choices) {
   return !choices.in_double && choices.method != Method::explicit_central && choices.method != Method::modal &&
          choices.method != Method::finite;
@@ -266,7 +266,7 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--of", &text.of, "Which muscle, by its name in mobil body", contraction, muscle_words()}};
 }
 
-/// Vectors of the block itself, so that 32 of them come close to its full model.
+/// Returns modes of the block itself, so that 32 of them come close to its full model.
 Result<ModalBasis> make_block_basis(const MuscleText& text, const MuscleTemplate& muscle, bool weighed) {
   const auto modes = read_value("--modes", text.modes, Quantity::ratio, 1, max_modes);
   if (!modes) return tl::unexpected(modes.error());

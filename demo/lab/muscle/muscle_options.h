@@ -20,7 +20,7 @@ struct MuscleText {
   std::string method = "explicit-central", mass, dt, seconds = "1", precision = "single", damping = "0",
               stiffness_damping = "0", foundation = "0", modes = "16";
   std::string load, gravity = "0,0,0", out = "disp.csv", glb;
-  std::string activation, of = "gastrocnemius_medial";  // activation: of a real muscle in place of a block
+  std::string activation, of = "gastrocnemius_medial";  // activation: of a real muscle instead of a block
 };
 
 struct MuscleRequest {
@@ -41,11 +41,11 @@ struct MuscleRequest {
 
 std::vector<Option> muscle_options(MuscleText& text);
 
-/// Fails, naming the option, the valid range and the mend: on values out of range, a mass that the method does not
-/// take, a step above the critical one, or too many steps.
+/// Fails, naming the option, the valid range and the remedy: on values out of range, a mass that the method does not
+/// support, a step above the critical one, or too many steps.
 Result<MuscleRequest> read_muscle_request(const MuscleText& text);
 
-/// "explicit-central: explicit central differences, lumped mass".
+/// Returns, for example, "explicit-central: explicit central differences, lumped mass".
 std::string describe_method(const MuscleRequest& request);
 
 }  // namespace mobil

@@ -33,7 +33,7 @@ class Belly {
 
 Result<ReferenceBelly> make_reference(const MuscleRequest& request) {
   const MuscleOptions& o = request.muscle.options;
-  // At rest finite strain has no elastic force either, so that it begins as ECD does.
+  // At rest finite strain has no elastic force either, so it starts like explicit central differences.
   const Method method = request.method == Method::finite ? Method::explicit_central : request.method;
   return ReferenceBelly::make(request.muscle.mesh, request.muscle.terms,
                               {method, o.mass, o.far_end, request.dt_s, o.damping_per_s, o.stiffness_damping_s,
@@ -63,7 +63,7 @@ void spread(const Vec3<double>& value, Vec3<Lanes<float>>& lanes) {
   }
 }
 
-/// Sixteen times the same belly in the kernels of the walk.
+/// One belly in all sixteen lanes of the walk's kernels.
 class SingleBelly : public Belly {
  public:
   explicit SingleBelly(const MuscleRequest& request)
@@ -117,7 +117,7 @@ class SingleBelly : public Belly {
   BellyReport<Lanes<float>> report_{};
 };
 
-/// Sixteen times the same belly along the block's own modes.
+/// One belly in all sixteen lanes, in the block's own modes.
 class ModalOne : public Belly {
  public:
   static Result<std::unique_ptr<ModalOne>> make(const MuscleRequest& request) {
@@ -137,7 +137,7 @@ class ModalOne : public Belly {
     return static_cast<double>(displacement_[3 * node + axis][0]);
   }
 
-  /// The modal coordinates of the displacement.
+  /// Returns the modal coordinates of the displacement.
   std::vector<float> coordinates() const {
     std::vector<float> shown;
     for (const Lanes<float>& lanes : displacement_) shown.push_back(lanes[0]);
@@ -164,7 +164,7 @@ class ModalOne : public Belly {
     row.resize(shape_.size());
     write_shape(own, damping, row);
     fill(row, shape_);
-    // at rest at t = 0, whatever loads it then
+    // at rest at t = 0, regardless of the load then
     const Vec3<double> f = force_at(request.load, 0), &g = request.gravity_m_s2;
     std::vector<double> input = {f.x, f.y, f.z, g.x, g.y, g.z};
     input.resize(basis_.inputs);
@@ -186,7 +186,7 @@ class ModalOne : public Belly {
   ModalBlock block_{basis_, scale_, state_.data()->lane, motion_.data()->lane, basis_.inputs > 3 ? &frame_ : nullptr};
 };
 
-/// What a GLB of a modal run shows, frames to come.
+/// Returns the recording for a GLB of a modal run, still without frames.
 BasisRecording begin_recording(const MuscleRequest& request) {
   const ModalBasis& basis = *request.basis;
   const std::size_t width = nodal_width(request.muscle.mesh.cells), row = basis.modes + std::size_t{1};
@@ -203,8 +203,8 @@ bool loaded_at_start(const MuscleRequest& request) {
   return any(force_at(request.load, 0)) || any(request.gravity_m_s2);
 }
 
-/// Of central differences the half-step velocity before t = 0 belongs to the state: −½Δt·M⁻¹·f(0). Of static the first
-/// row is the answer to the first load.
+/// Sets the state at rest. With central differences the half-step velocity before t = 0 is part of it: −½Δt·M⁻¹·f(0).
+/// With static, the first row is the deflection under the first load.
 Result<void> start_at_rest(const MuscleRequest& request, SingleBelly& belly) {
   const auto force = force_at(request.load, 0);
   if (request.method == Method::statics) belly.step(force, force);

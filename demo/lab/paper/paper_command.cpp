@@ -60,7 +60,7 @@ std::string help_footer() {
          "          mobil paper anatomy --anatomy DIR";
 }
 
-/// Names all that can be made where none was named.
+/// Returns the named entries, or all that can be made if none was named.
 Result<std::vector<Entry>> choose(const PaperText& text) {
   auto chosen = choose_named(entries, text.names, "entry");
   if (!chosen || !text.anatomy.empty()) return chosen;

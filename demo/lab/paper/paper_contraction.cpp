@@ -1,5 +1,5 @@
-// What the paper leaves for later: muscles that contract. Excitation, fibre and tendon over a stride; and legs relaxed
-// and at full activation, where bellies are short and thick.
+// The paper's future work: muscles that contract. Excitation, fibre and tendon over a stride; and legs relaxed and at
+// full activation, with short and thick bellies.
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ LegMuscles pulling(ExcitationSource source, Method method) {
   return choice;
 }
 
-/// A man who stands on his toes or straight, every muscle of his legs excited at that level for a second.
+/// Returns a man standing on his toes or straight, with all leg muscles excited at that level for a second.
 ShownWalk standing(const LegBend& bend, float level) {
   Simulation simulation;
   const auto entity = must(simulation.spawn_posed(paper_body()));
@@ -57,7 +57,7 @@ Image leg(const ShownWalk& shown, const Camera& camera) {
   return take_picture({camera, 260, 440, false}, {&actor, 1});
 }
 
-/// Calf from behind and thigh from the front, each relaxed and contracted; push-off, linear and contracting.
+/// Draws calf from behind and thigh from the front, each relaxed and contracted; and push-off, linear and contracting.
 Image legs(const CycleRequest& push_off) {
   struct View {
     LegBend bend;
@@ -89,7 +89,7 @@ constexpr std::array shown_muscles = {
     ShownMuscle{"gastrocnemius_medial", "gastrocnemius medialis"}, ShownMuscle{"vastus_lateralis", "vastus lateralis"},
     ShownMuscle{"biceps_femoris_long_head", "biceps femoris"}};
 
-/// Over the right leg's cycle.
+/// Curves over the right leg's cycle.
 struct MuscleCurves {
   CycleCurve activation{}, line_mm{}, fibre_mm{}, tendon_mm{}, force_n{};
 };

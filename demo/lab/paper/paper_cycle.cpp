@@ -50,7 +50,7 @@ struct TickRows {
   std::vector<MuscleRows> muscle;
 };
 
-/// Area of the largest section of a mesh, m²; `moved` is at rest where its `first` is null. Sections are the mesh's
+/// Returns the area of the largest section of a mesh, m², at rest if `moved.first` is null. Sections are the mesh's
 /// planes of nodes, seen along z.
 double largest_section(const HexahedralMesh& mesh, const BellyScale<float>& scale, const NodalView& moved) {
   const auto place = [&](std::uint32_t n) {
@@ -130,7 +130,7 @@ PaperCycle sample(const Simulation& simulation, const Person& person, const Tick
   return cycle;
 }
 
-/// Those of the right leg: every muscle's right mesh comes before its left one, and all have as many edges.
+/// Returns the right leg's edges. Each muscle's right mesh precedes its left one, and all have as many edges.
 std::vector<Vec3<float>> right_mesh_edges(const Simulation& simulation, const Person& person) {
   const auto both = mesh_edges(simulation, person);
   std::vector<Vec3<float>> own;
@@ -146,13 +146,13 @@ using namespace geometry;
 using capture_math::radians;
 
 constexpr Colour mesh_ink{0.13F, 0.16F, 0.20F};
-constexpr float field_deg = 8;  // so narrow that rows of people are seen alike
+constexpr float field_deg = 8;  // narrow, so that rows of people look alike
 
 bool in_right_leg(Segment s) {
   return s == Segment::pelvis || (s >= Segment::thigh_right && s <= Segment::toes_right);
 }
 
-/// One frame of a walk, ready to be drawn.
+/// Returns one frame of a walk, ready to be drawn.
 WalkRecording part_of(const Actor& actor) {
   const WalkRecording& whole = actor.walk->recording;
   WalkRecording part;

@@ -1,6 +1,6 @@
 #pragma once
-// One steady gait cycle of one person with leg muscles, as `mobil paper` tells and shows it; people put on a
-// stage, and pictures taken of it.
+// One steady gait cycle of one person with leg muscles, as numbers and pictures of `mobil paper`; people on a stage,
+// and pictures of it.
 
 #include <cstddef>
 #include <filesystem>
@@ -22,19 +22,18 @@
 
 namespace mobil {
 
-/// Length from origin to insertion over that in the anatomical position, as the paths of the gait2392 model have it on
-/// measured joint angles; the deviation is that of the angles, carried over. Without one (`sd` zero) where none was
-/// published.
+/// Length from origin to insertion relative to that in the anatomical position, from the paths of the gait2392 model at
+/// measured joint angles. The deviation is that of the angles, propagated; `sd` is zero where none was published.
 struct PublishedLength {
   std::string muscle;  // hamstrings, rectus_femoris, gastrocnemius, soleus, tibialis_anterior
   MeasuredCurve curve;
 };
 
-/// All of one walk: opensim_normal_gait, schwartz_slow, schwartz_free or schwartz_fast; from the table that the program
-/// carries. Error: the table is not as it should be.
+/// Returns the lengths of one walk: opensim_normal_gait, schwartz_slow, schwartz_free or schwartz_fast, from the table
+/// in the program. Error: the table is damaged.
 std::vector<PublishedLength> read_published_lengths(std::string_view walk);
 
-/// `shown_at`: where in the cycle (0–1, ascending) pictures are to be made.
+/// `shown_at`: places in the cycle (0–1, ascending) of pictures.
 struct CycleRequest {
   BodyRequest body{};
   GaitRequest gait{};
@@ -43,22 +42,22 @@ struct CycleRequest {
   std::optional<std::filesystem::path> anatomy{};
 };
 
-/// A muscle of the right leg. Thickness: the diameter of a round bar of the muscle's volume and belly length, which
-/// grows and shrinks as the widest of its mesh's sections does.
+/// A muscle of the right leg. Thickness is the diameter of a round bar with the muscle's volume and belly length,
+/// scaled with the widest section of its mesh.
 struct MuscleCycle {
   MusclePlan plan;
   double rest_length_m = 0, rest_thickness_m = 0;
-  /// Of the line of action; the pull on the belly's far end, positive when longer than at rest; and the belly's own.
+  /// Length of the line of action; pull on the belly's far end, positive when longer than at rest; values of the belly.
   CycleCurve length_m{}, pull_n{}, elongation_m{}, volume_ratio{}, thickness_m{};
 };
 
-/// What pictures take: as many frames as places in the cycle were asked for.
+/// Input of pictures: one frame for each requested place in the cycle.
 struct ShownWalk {
   WalkRecording recording;                          // surfaces of the simulated muscles alone
   std::vector<std::vector<Vec3<float>>> mesh_edge;  // of the right leg by frame, two ends an edge, m, world
 };
 
-/// Over the right leg's cycle; heights over the ground, sideways positive to the left of the line walked along.
+/// Curves over the right leg's cycle: heights above the ground, sideways positive to the left of the walking line.
 struct PaperCycle {
   Body body;
   Gait<float> gait{};
@@ -68,10 +67,10 @@ struct PaperCycle {
   std::vector<MuscleCycle> muscles;
   ShownWalk shown;
 
-  const MuscleCycle& muscle(Muscle muscle) const;  // must have been asked for
+  const MuscleCycle& muscle(Muscle muscle) const;  // must have been requested
 };
 
-/// Walks until steady and then one cycle more, in ticks of 1/240 s. Errors: a body, gait or choice of muscles out of
+/// Walks until steady and then one more cycle, in ticks of 1/240 s. Errors: a body, gait or choice of muscles out of
 /// range; an anatomy folder that cannot be read.
 PaperCycle walk_cycle(const CycleRequest& request);
 
@@ -82,7 +81,7 @@ struct CycleRange {
 CycleRange range_of(const CycleCurve& curve);
 double mean_of(const CycleCurve& curve);
 
-/// One moment of a walk. The point of the ground below the pelvis is put at `at`.
+/// One moment of a walk. The point of the ground below the pelvis is placed at `at`.
 struct Actor {
   const ShownWalk* walk = nullptr;
   std::size_t frame = 0;
@@ -98,17 +97,18 @@ struct Stage {
   bool ground = true;
 };
 
-/// From the right of people who walk toward +z (which is to the right in the picture) and somewhat in front of them:
-/// `turn_deg` from the side, `rise_deg` above. Holds about `tall_m` of height at the target, hardly any perspective.
+/// Returns a camera at the right of people who walk toward +z (to the right in the picture) and somewhat in front of
+/// them: `turn_deg` from the side, `rise_deg` above. It shows about `tall_m` of height at the target, with hardly any
+/// perspective.
 Camera camera_at(const Vec3<float>& target, float tall_m, float turn_deg, float rise_deg);
 
-/// The direction to the right in pictures of that camera, of unit length.
+/// Returns the direction to the right in pictures of that camera, of unit length.
 Vec3<float> across(const Camera& camera);
 
-/// People `apart_m` from one another, each in their own first frame, from left to right before the camera.
+/// Returns people `apart_m` from one another, each in their own first frame, from left to right before the camera.
 std::vector<Actor> side_by_side(std::span<const PaperCycle> walks, const Camera& camera, float apart_m);
 
-/// Errors: no graphics device or driver.
+/// Draws a picture. Errors: no graphics device or driver.
 Image take_picture(const Stage& stage, std::span<const Actor> actors);
 
 }  // namespace mobil

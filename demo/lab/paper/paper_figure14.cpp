@@ -1,5 +1,5 @@
-// Figure 14: the hamstrings' mesh at three moments of the cycle, with the force that comes in from the line of action
-// and the displacement that goes out. Figure 15: how long muscles are over the gait cycle, beside published lengths.
+// Figure 14: the hamstrings' mesh at three moments of the cycle, with the force of the line of action as input and the
+// displacement as output. Figure 15: muscle lengths over the gait cycle, compared with published lengths.
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ struct Row {
   std::vector<Vec3<double>> node;  // where they are, m, muscle frame
 };
 
-/// `rest`: its nodes, m; `far_outline`: those round the far face, the first again at the end.
+/// Nodes at rest in `rest`, m; nodes around the far face in `far_outline`, with the first again at the end.
 struct Mesh {
   std::vector<Quad> boundary;
   std::vector<Vec3<double>> rest;
@@ -67,7 +67,7 @@ Mesh mesh_at_rest(const HexahedralMesh& mesh, const BellyScale<float>& scale) {
   return own;
 }
 
-/// Of the node in the middle of the far face, and of the whole mesh.
+/// Returns the row of the node in the middle of the far face, and of the whole mesh.
 Row row_now(const Simulation& simulation, Entity muscle, const BellyScale<float>& scale, double phase) {
   const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
   const NodalView moved = nodal_displacement(simulation.world(), muscle);
@@ -86,7 +86,7 @@ Row row_now(const Simulation& simulation, Entity muscle, const BellyScale<float>
   return row;
 }
 
-/// Longest, shortest, and half-way between them in time; in order of time.
+/// Returns the longest, the shortest, and the moment half-way between them, in order of time.
 std::vector<Moment> moments_of(const std::vector<Row>& rows) {
   const auto ends = std::ranges::minmax_element(rows, {}, &Row::displacement_mm);
   const auto first = std::min(ends.min, ends.max), last = std::max(ends.min, ends.max);
@@ -101,7 +101,7 @@ std::vector<Moment> moments_of(const std::vector<Row>& rows) {
   return moments;
 }
 
-/// Seen from the side of the leg and somewhat from before and above; right and up in mm.
+/// A view from the side of the leg, somewhat from the front and above; right and up in mm.
 struct View {
   Vec3<double> viewer = normalised(Vec3<double>{-1, 0.35, -0.30});
   Vec3<double> along = normalised(cross(Vec3<double>{0, 1, 0}, viewer)), up = cross(viewer, along);
@@ -120,7 +120,7 @@ void break_line(PlotLine& line) {
   line.y.push_back(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Adds the far face's outline at rest and the edges of the boundary: those of faces turned to the viewer over the
+/// Adds the far face's outline at rest and the edges of the boundary. Edges of faces turned to the viewer are above the
 /// others.
 void draw_mesh(const Mesh& mesh, const std::vector<Vec3<double>>& node, PlotPanel& panel) {
   const View view;
@@ -137,7 +137,7 @@ void draw_mesh(const Mesh& mesh, const std::vector<Vec3<double>>& node, PlotPane
   panel.lines.push_back(std::move(rest));
 }
 
-/// Between the lowest and the highest node at rest, mm.
+/// Returns the mean of the lowest and the highest node at rest, mm.
 double middle_height(const Mesh& mesh) {
   PlotLine all;
   for (const auto& p : mesh.rest) View{}.add(p, all);
@@ -161,7 +161,7 @@ PlotPanel curve_panel(const std::vector<Row>& rows, double Row::*quantity, const
   }
   const auto [low, high] = std::ranges::minmax(all.y);
   panel.y.low = low - 0.1 * (high - low);
-  panel.y.high = high + 0.25 * (high - low);  // there the points' names stand
+  panel.y.high = high + 0.25 * (high - low);  // room for the points' names
   panel.lines = {std::move(all), std::move(until)};
   const Row& now = rows[moment.row];
   panel.points.push_back({{now.percent}, {now.*quantity}, {std::string(1, moment.name)}, "#111", ""});
@@ -202,7 +202,7 @@ std::string csv_of(const std::vector<Row>& rows) {
   return text;
 }
 
-/// What a published length is of, and the muscles of ours whose lengths' mean it is held against.
+/// A published length, and our muscles whose mean length is compared with it.
 struct Compared {
   std::string_view published, title;
   std::array<std::string_view, 3> ours;
@@ -222,7 +222,7 @@ struct Walk {
 
 Walk walk_at(double speed_m_s, std::string published, std::string title) {
   CycleRequest request{paper_body(), paper_gait(), only({}), {}, {}};
-  request.muscles->cells = {2, 2, 2};  // only their lines are looked at
+  request.muscles->cells = {2, 2, 2};  // only their lines are used
   request.gait.speed_m_s = static_cast<float>(speed_m_s);
   for (const Compared& what : compared) {
     for (const std::string_view name : what.ours) {
@@ -235,7 +235,7 @@ Walk walk_at(double speed_m_s, std::string published, std::string title) {
               std::move(theirs)};
 }
 
-/// Mean of the muscles' lengths, each over its own in the anatomical position.
+/// Returns the mean of the muscles' lengths, each relative to its own in the anatomical position.
 CycleCurve our_length(const PaperCycle& walk, const Compared& what) {
   CycleCurve sum{};
   double count = 0;

@@ -1,6 +1,6 @@
-// Figures 16 and 17: the hamstrings in a walking skeleton, and as mesh and surface; and real meshes beside built-in
-// ones. How does the quadriceps of a person of 1.80 m, 80 kg and athletic constitution deform when he walks at 5 km/h?
-// And with a specific step length or step frequency?
+// Figures 16 and 17: the hamstrings in a walking skeleton, and as mesh and surface. Also a comparison of real meshes
+// with built-in ones. How does the quadriceps of a person of 1.80 m, 80 kg and athletic constitution deform when he
+// walks at 5 km/h? And with a specific step length or step frequency?
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,7 +26,7 @@ std::vector<double> evenly(std::size_t count) {
   return at;
 }
 
-/// The legs of a person seen from the side at every moment, in a row of pictures.
+/// Draws a person's legs from the side at every moment, as a row of pictures.
 std::vector<Image> row_of(const ShownWalk& walk) {
   std::vector<Image> row;
   for (std::size_t frame = 0; frame < walk.recording.frames.size(); ++frame) {
@@ -36,7 +36,7 @@ std::vector<Image> row_of(const ShownWalk& walk) {
   return row;
 }
 
-/// Of the frames of a sequence, and of the still as the last.
+/// Draws the frames of a sequence, and the still as the last.
 Image figure16(const ShownWalk& walk) {
   constexpr float apart_m = 0.92F;
   const Actor actor{&walk, sequence};
@@ -67,7 +67,7 @@ CycleRequest hamstrings_alone(std::vector<double> shown_at) {
 }
 
 constexpr float asked_length_m = 0.85F, asked_frequency_hz = 2.1F;
-/// Of the pictures: heel strike, mid-stance, toe-off, most bent in swing.
+/// Phases of the pictures: heel strike, mid-stance, toe-off, maximum flexion in swing.
 const std::vector<double> shown_at = {0.02, 0.30, 0.60, 0.72};
 
 struct Variant {
@@ -164,7 +164,7 @@ std::vector<double> percents(const std::vector<double>& cycles) {
   return all;
 }
 
-/// The right leg at each of the phases.
+/// Draws the right leg at each of the phases.
 Image quadriceps_picture(const PaperCycle& walk) {
   std::vector<Image> strip;
   for (std::size_t frame = 0; frame < shown_at.size(); ++frame) {

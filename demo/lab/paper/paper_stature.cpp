@@ -44,7 +44,7 @@ void add_muscle_columns(const std::string& name, PaperTable& table) {
   add("bulge_mm", "  thicker by up to, mm");
 }
 
-/// Length and thickness at rest, elongation, and by how much it gets thicker than at rest.
+/// Adds length and thickness at rest, elongation, and the increase of thickness over rest.
 void add_muscle_cells(const MuscleCycle& muscle, std::vector<double>& cells) {
   const CycleRange elongation = range_of(muscle.elongation_m);
   const double bulge = range_of(muscle.thickness_m).high - muscle.rest_thickness_m;
@@ -103,7 +103,7 @@ PlotFigure stature_figure(const std::vector<PaperCycle>& walks) {
   return figure;
 }
 
-/// "12.3 mm longer", "as long".
+/// Returns, for example, "12.3 mm longer" or "as long".
 std::string by(double difference_mm, const char* more, const char* less, const char* alike) {
   if (std::abs(difference_mm) < 0.05) return alike;
   return fmt::format("{:.1f} mm {}", std::abs(difference_mm), difference_mm > 0 ? more : less);

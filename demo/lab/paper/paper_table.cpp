@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view between_columns = "  ";
 
-/// Letters, not bytes.
+/// Counts letters, not bytes.
 std::size_t letters(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -38,7 +38,7 @@ void trim_end(std::string& text) {
   while (text.ends_with(' ')) text.pop_back();
 }
 
-/// As people read it; empty where it is none.
+/// Returns a number as text; empty without one.
 std::string cell_text(const PaperTable& table, const PaperTable::Row& row, std::size_t column) {
   const double v = column < row.value.size() ? row.value[column] : NAN;
   return std::isfinite(v) ? fmt::format("{:.{}f}", v, table.column[column].decimals) : "";
@@ -46,7 +46,7 @@ std::string cell_text(const PaperTable& table, const PaperTable::Row& row, std::
 
 using Lines = std::vector<std::vector<std::string>>;
 
-/// All lines as long as the first; the first column to the left, the others to the right.
+/// Aligns cells, with all lines as long as the first: the first column to the left, the others to the right.
 std::string aligned(const Lines& cells) {
   std::string text;
   std::vector<std::size_t> width(cells.front().size(), 0);
@@ -64,7 +64,7 @@ std::string aligned(const Lines& cells) {
   return text;
 }
 
-/// A line of cells for each line of the heads, which stand on what follows; the first column's is `label`.
+/// Returns a line of cells for each line of the heads, which are aligned at the bottom. The first column's is `label`.
 Lines head_lines(const std::string& label, const std::vector<std::string>& heads) {
   std::size_t most = 1;
   for (const auto& head : heads) most = std::max(most, lines_of(head).size());

@@ -6,7 +6,7 @@
 
 namespace mobil {
 
-/// A row's numbers go with the columns; one that is not finite is left empty.
+/// A row has a number for each column; one that is not finite is left empty.
 struct PaperTable {
   struct Column {
     std::string name, head;  // in the CSV, with its unit; for people
@@ -21,10 +21,10 @@ struct PaperTable {
   std::vector<Row> row;
 };
 
-/// Aligned, for a terminal; heads may have several lines, and so may labels where they become heads.
+/// Returns the table aligned for a terminal. Heads can have several lines, and so can labels that become heads.
 std::string table_text(const PaperTable& table);
 
-/// The same with a line for each column: for tables of few rows.
+/// Returns the table with a line for each column, for tables of few rows.
 std::string turned_table_text(const PaperTable& table);
 
 std::string table_csv(const PaperTable& table);

@@ -25,7 +25,7 @@ Index row_of(std::uint32_t node, std::size_t axis) {
   return 3 * static_cast<Index>(node) + static_cast<Index>(axis);
 }
 
-/// M = S²·l·M₁ of all components, kg.
+/// Returns M = S²·l·M₁ of all components, kg.
 Matrix mass_matrix(const StiffnessTerms& terms, const ReferenceOptions& o) {
   const double scale = o.across * o.across * o.along;
   Entries entries;
@@ -48,7 +48,7 @@ Matrix mass_matrix(const StiffnessTerms& terms, const ReferenceOptions& o) {
   return mass;
 }
 
-/// K = S·(A/r + B + r·C) of all components, N/m.
+/// Returns K = S·(A/r + B + r·C) of all components, N/m.
 Matrix stiffness_matrix(const StiffnessTerms& terms, const ReferenceOptions& o) {
   Entries entries;
   for_each_node(terms.cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
@@ -66,7 +66,7 @@ Matrix stiffness_matrix(const StiffnessTerms& terms, const ReferenceOptions& o) 
   return stiffness;
 }
 
-/// ω_f²·M in x and y.
+/// Returns ω_f²·M in x and y.
 Matrix foundation_matrix(const Matrix& mass, double frequency_1_s) {
   Entries entries;
   for (Index column = 0; column < mass.outerSize(); ++column) {
@@ -80,7 +80,7 @@ Matrix foundation_matrix(const Matrix& mass, double frequency_1_s) {
   return foundation;
 }
 
-/// The rows and columns of the moving components.
+/// Returns the rows and columns of the moving components.
 Matrix of_moving(const Matrix& matrix, const std::vector<Index>& moving) {
   std::vector<Index> place(static_cast<std::size_t>(matrix.rows()), -1);
   for (std::size_t i = 0; i < moving.size(); ++i) place[static_cast<std::size_t>(moving[i])] = static_cast<Index>(i);
@@ -130,8 +130,8 @@ struct ReferenceBelly::State {
   Matrix elastic;          // K, without it
   std::vector<Index> moving;
   std::vector<double> far_share;
-  Eigen::SimplicialLDLT<Matrix> operator_;  // what a step solves with: M, K, or CAA's
-  Vector u, v, before;                      // before: the displacement one step back
+  Eigen::SimplicialLDLT<Matrix> operator_;  // matrix of a step's equations: M, K, or CAA's
+  Vector u, v, before;                      // before: displacement of the previous step
 
   State(const HexahedralMesh& m, const StiffnessTerms& terms, const ReferenceOptions& options);
   Vector force(const ReferenceLoad& load) const;
@@ -177,7 +177,7 @@ ReferenceBelly::State::State(const HexahedralMesh& m, const StiffnessTerms& term
   u = v = before = Vector::Zero(mass.rows());
 }
 
-/// Traction and M·a, N.
+/// Returns traction and M·a, N.
 Vector ReferenceBelly::State::force(const ReferenceLoad& load) const {
   Vector f = Vector::Zero(u.size());
   if (accelerated(load)) f = mass * acceleration(load);
@@ -191,7 +191,7 @@ Vector ReferenceBelly::State::force(const ReferenceLoad& load) const {
   return f;
 }
 
-/// What every node would be accelerated by, m/s².
+/// Returns the acceleration of every node, m/s².
 Vector ReferenceBelly::State::acceleration(const ReferenceLoad& load) const {
   Vector a(u.size());
   for (std::uint32_t n = 0; n < node_count(mesh.cells); ++n) {
@@ -208,7 +208,7 @@ void ReferenceBelly::State::set_far_z(Vector& x, double value) const {
   for (std::uint32_t n = first_insertion_node(mesh.cells); n < node_count(mesh.cells); ++n) x(row_of(n, 2)) = value;
 }
 
-/// ECD and ICD: M·[(1 + αΔt/2)·v⁺ − (1 − αΔt/2)·v⁻] = Δt·[f − (K + K_f)·u − β·K·v⁻], u⁺ = u + Δt·v⁺.
+/// Advances ECD and ICD: M·[(1 + αΔt/2)·v⁺ − (1 − αΔt/2)·v⁻] = Δt·[f − (K + K_f)·u − β·K·v⁻], u⁺ = u + Δt·v⁺.
 void ReferenceBelly::State::step_explicitly(const ReferenceLoad& now, const ReferenceLoad& next) {
   const double dt = o.dt_s, h = o.damping_per_s * dt / 2;
   if (held()) set_far_z(v, (next.end.z - u(row_of(first_insertion_node(mesh.cells), 2))) / dt);
@@ -224,7 +224,7 @@ void ReferenceBelly::State::step_explicitly(const ReferenceLoad& now, const Refe
   if (held()) set_far_z(u, next.end.z);
 }
 
-/// CAA, for the change δ = w − v to the step's mean velocity, which rounds less than w itself:
+/// Advances CAA. It solves for the change δ = w − v to the step's mean velocity, which has less rounding than w:
 ///   [(2/Δt + α)·M + (Δt/2)·(K + K_f) + β·K]·δ = (f + f⁺)/2 − α·M·v − β·K·v − (K + K_f)·(u + ½Δt·v),
 /// u⁺ = u + Δt·(v + δ), v⁺ = v + 2δ.
 void ReferenceBelly::State::step_by_mean_acceleration(const ReferenceLoad& now, const ReferenceLoad& next) {
@@ -240,7 +240,7 @@ void ReferenceBelly::State::step_by_mean_acceleration(const ReferenceLoad& now, 
   if (held()) set_far_z(u, next.end.z);
 }
 
-/// Static: (K + K_f)·u = f.
+/// Solves static: (K + K_f)·u = f.
 void ReferenceBelly::State::settle(const ReferenceLoad& load) {
   u.setZero();
   if (held()) set_far_z(u, load.end.z);

@@ -1,7 +1,7 @@
 #pragma once
-// The methods of deformation.h for one belly, in double precision with sparse matrices and factors, written to be read
-// line by line beside the equations. It checks the kernels; a step of its one belly costs some twice as much as theirs
-// of sixteen.
+// The methods of deformation.h for one belly, in double precision with sparse matrices and factors, written to be
+// compared line by line with the equations. It checks the kernels. A step of its one belly costs about twice as much as
+// theirs of sixteen.
 
 #include <memory>
 #include <span>
@@ -15,63 +15,63 @@
 
 namespace mobil {
 
-/// One belly and how it is stepped: C = α·M + β·K, foundation K_f = ω_f²·M in x and y alone.
+/// One belly and its method: C = α·M + β·K, foundation K_f = ω_f²·M in x and y only.
 struct ReferenceOptions {
   Method method = Method::explicit_central;
-  Mass mass = Mass::lumped;  // of ECD lumped, of ICD consistent, whatever is asked
+  Mass mass = Mass::lumped;  // always lumped for ECD, consistent for ICD
   FarEnd end = FarEnd::free;
-  double dt_s = 0;                 // of static unused
+  double dt_s = 0;                 // unused by static
   double damping_per_s = 0;        // α
   double stiffness_damping_s = 0;  // β
   double foundation_1_s = 0;       // ω_f
   double across = 1, along = 1;    // S and l
 };
 
-/// What acts at one moment. `end`: total of a uniform traction on the far face, N (of a sliding one z alone); of a held
-/// one the displacement along z, m. Frame: acceleration `constant` + `gradient`·x of a mass at rest position x, as in
-/// FrameLoad.
+/// Load at one moment. `end`: total of a uniform traction on the far face, N (for a sliding one z only); for a held one
+/// the displacement along z, m. The frame's acceleration is `constant` + `gradient`·x for a mass at rest position x, as
+/// in FrameLoad.
 struct ReferenceLoad {
   Vec3<double> end{};
   Vec3<double> constant{};
   Mat3<double> gradient{};
 };
 
-/// As BellyReport, volume left out.
+/// Report like BellyReport, without volume.
 struct ReferenceReport {
   double elongation_m, reaction_n, kinetic_energy_j, strain_energy_j;
 };
 
-/// One belly at rest at t = 0. Displacement (m) and velocity (m/s; of ECD and ICD half a step back) are three a node, x
-/// fastest, the first plane's zero, and may be written.
+/// One belly at rest at t = 0. Displacement (m) and velocity (m/s; half a step back for ECD and ICD) have three numbers
+/// a node, x fastest, with zeros in the first plane. Both can be written.
 ///
-/// The far face of a held belly moves at an even speed within each step, so that its own acceleration (which a
-/// consistent mass would pass to its neighbours) is none.
+/// The far face of a held belly moves at constant speed within each step. Its own acceleration, which a consistent mass
+/// would pass to its neighbours, is therefore 0.
 class ReferenceBelly {
  public:
-  /// Fails on scales or a step that are not positive, on negative damping or foundation, or where the far face is not
-  /// free to move and the mesh has no other node.
+  /// Makes a belly. Fails on scales or a step that are not positive, on negative damping or foundation, or if the far
+  /// face is not free to move and the mesh has no other node.
   static Result<ReferenceBelly> make(const HexahedralMesh& mesh, const StiffnessTerms& terms,
                                      const ReferenceOptions& options);
   ReferenceBelly(ReferenceBelly&&) noexcept;
   ReferenceBelly& operator=(ReferenceBelly&&) noexcept;
   ~ReferenceBelly();
 
-  /// The velocity that goes with rest at t = 0 under `load`: of ECD and ICD v₋½ = −½Δt·M⁻¹·f(0). Of static, the
-  /// displacement under it.
+  /// Sets the velocity of rest at t = 0 under `load`: v₋½ = −½Δt·M⁻¹·f(0) for ECD and ICD. Static sets the displacement
+  /// under the load.
   void start(const ReferenceLoad& load);
 
-  /// One step, from the load at its start to that at its end. ECD and ICD feel the former's force and the latter's held
-  /// displacement, CAA both, static the latter alone.
+  /// Advances by one step, from the load at its start to that at its end. ECD and ICD use the former's force and the
+  /// latter's held displacement, CAA both, static only the latter.
   void step(const ReferenceLoad& now, const ReferenceLoad& next);
 
   std::span<double> displacement();
   std::span<double> velocity();
 
-  /// Energies as in BellyReport: of ECD and ICD ½·v½ᵀ·M·v½ and ½·uₙᵀ·K·uₙ₊₁, of CAA ½·vᵀ·M·v and ½·uᵀ·K·u. Their sum
-  /// is constant where nothing is loaded, driven or damped.
+  /// Returns energies as in BellyReport: ½·v½ᵀ·M·v½ and ½·uₙᵀ·K·uₙ₊₁ for ECD and ICD, ½·vᵀ·M·v and ½·uᵀ·K·u for CAA.
+  /// Their sum is constant without load, drive or damping.
   ReferenceReport report() const;
 
-  /// Whether every displacement is a number.
+  /// Returns true if every displacement is finite.
   bool finite() const;
 
  private:

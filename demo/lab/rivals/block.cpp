@@ -8,7 +8,7 @@ namespace {
 
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
 
-/// Of a box with edges a × a × c.
+/// Returns the element stiffness of a box with edges a × a × c.
 Matrix24 element_stiffness(double a, double c) {
   const double lambda = young_pa * poisson / ((1 + poisson) * (1 - 2 * poisson)), mu = young_pa / (2 * (1 + poisson));
   Eigen::Matrix<double, 6, 6> elasticity = Eigen::Matrix<double, 6, 6>::Zero();

@@ -1,5 +1,5 @@
 #pragma once
-// The paper's block by the textbook: trilinear elements, 2×2×2 Gauss points, its fixed components left out.
+// The paper's block by the textbook: trilinear elements, 2×2×2 Gauss points, its fixed components removed.
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
@@ -27,14 +27,14 @@ struct Block {
 };
 Block make_block(double across, double along);
 
-/// Total force on the far face during a step, N, of muscle `m`: axial pull, and a part of it sideways.
+/// Axial pull on the far face during a step, N, and the factor of muscle `m`. A part of it, `sideways`, is sideways.
 double pull_n(int step);
 double strength(int m);
 inline constexpr double sideways = 0.05;
 
-/// Mean axial and sideways displacement of the far face, m.
+/// Returns the mean axial and sideways displacement of the far face, m.
 Eigen::Vector2d far_mean(const Block& block, const Eigen::VectorXd& u);
-/// Static answer to the constant force `pull` and its part sideways.
+/// Returns the static deflection under the constant force `pull` and its sideways part.
 Eigen::VectorXd deflection(const Block& block, double pull);
 
 }  // namespace rivals

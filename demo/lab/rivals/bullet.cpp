@@ -22,10 +22,10 @@ namespace {
 
 constexpr double bullet_pull_n = 0.1;  // 1 % of strain
 
-/// A world of its own with `bodies` blocks, side by side; everything that is not the deformation is switched off.
+/// A separate world with `bodies` blocks, side by side. Everything except deformation is switched off.
 class BulletWorld {
  public:
-  /// `damping`: Bullet's own, of the mass, 1/s.
+  /// `damping` is Bullet's own, of the mass, 1/s.
   BulletWorld(int bodies, double damping)
       : dispatcher_(&configuration_),
         world_(&dispatcher_, &broadphase_, &constraints_, &configuration_, &deformable_),
@@ -48,7 +48,7 @@ class BulletWorld {
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
-  /// A total traction over the far face of one body during the step that follows, N: along z, and a part of it along x.
+  /// Applies a total traction to the far face of one body during the next step, N: along z, and a part of it along x.
   void pull(int number, double newton, double dt) {
     for (int i = 0; i < nodes_a_plane; ++i) {
       btSoftBody::Node& node = bodies_[static_cast<std::size_t>(number)]->m_nodes[nodes - nodes_a_plane + i];
@@ -60,7 +60,7 @@ class BulletWorld {
   }
   void step(double dt) { world_.stepSimulation(btScalar(dt), 0); }
 
-  /// Mean displacement of a body's far face: along z, along x.
+  /// Returns the mean displacement of a body's far face along z and along x.
   Eigen::Vector2d far_mean(int number = 0) const {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (int n = nodes - nodes_a_plane; n < nodes; ++n) {
@@ -72,7 +72,7 @@ class BulletWorld {
   }
 
  private:
-  // In rows about the origin: single precision is lost on bodies further away, which then leap about.
+  // In rows about the origin: single precision is too coarse for more distant bodies, which then jump.
   static constexpr int a_row = 32, half_row = a_row / 2;
   static double start_x(int number) { return 4 * cube_m * (number % a_row - half_row); }
   static double start_y(int number) {
@@ -128,7 +128,7 @@ class BulletWorld {
   std::vector<std::unique_ptr<btSoftBody>> bodies_;
 };
 
-/// Undamped, for two seconds from a sudden pull: never further than thrice the static answer.
+/// Returns true if an undamped body stays within 3 times the static deflection, for two seconds after a sudden pull.
 bool bullet_is_stable(double dt, double static_m) {
   BulletWorld world(1, 0);
   for (int n = 0; n * dt < 2; ++n) {
@@ -140,7 +140,7 @@ bool bullet_is_stable(double dt, double static_m) {
   return true;
 }
 
-/// By bisection, within 1 %.
+/// Finds the largest stable step by bisection, within 1 %.
 double bullet_largest_step(double static_m) {
   double low = 0.001, high = 0.008;
   if (!bullet_is_stable(low, static_m)) return 0;

@@ -7,7 +7,7 @@
 namespace rivals {
 namespace {
 
-/// The stiffness as Eigen multiplies it with a matrix of states.
+/// Stiffness as Eigen multiplies it with a matrix of states.
 struct Sparse {
   Eigen::SparseMatrix<float, Eigen::RowMajor> k;
   explicit Sparse(const Block& block) : k(block.stiffness.cast<float>()) {}
@@ -35,7 +35,7 @@ struct Dense {
   }
 };
 
-/// A plane of nodes couples to itself and its two neighbours only: dense blocks of 27 × 81.
+/// Dense blocks of 27 × 81: a plane of nodes couples only to itself and its two neighbours.
 struct DensePlanes {
   static constexpr int plane = 3 * nodes_a_plane;
   std::array<Eigen::MatrixXf, nodes_along - 1> row;
@@ -108,7 +108,7 @@ struct Crowd {
   }
 };
 
-/// Muscle 0 in double precision, the same loads.
+/// Returns the history of muscle 0 in double precision, under the same loads.
 Eigen::VectorXd expected_history(const Block& block, int steps) {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(moving), v = u;
   const double half = 0.5 * damping_per_s * step_s;

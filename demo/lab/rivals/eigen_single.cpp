@@ -9,7 +9,7 @@ struct State {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(moving), v = Eigen::VectorXd::Zero(moving);
 };
 
-/// What a muscle's step needs besides its stiffness.
+/// Factors of a muscle's step, in addition to its stiffness.
 struct Factors {
   Eigen::VectorXd push, load;  // Δt·M⁻¹/(1 + αΔt/2), and times the force of a unit pull
   double keep;
@@ -27,7 +27,7 @@ void step(const Eigen::SparseMatrix<double, Eigen::RowMajor>& k, const Factors& 
   s.u += step_s * s.v;
 }
 
-/// Steps everybody for a tick, `visit` steps of one muscle before the next one's turn.
+/// Steps all muscles for a tick, `visit` steps of one muscle before the next muscle.
 template <class Stiffness, class FactorsOf>
 void tick(std::vector<State>& states, int first_step, int visit, Eigen::VectorXd& elastic, Stiffness&& stiffness,
           FactorsOf&& factors) {
@@ -41,7 +41,7 @@ void tick(std::vector<State>& states, int first_step, int visit, Eigen::VectorXd
   }
 }
 
-/// Half a second of one muscle of the template's size, by matrices written down otherwise: the oracle of the others.
+/// Returns half a second of one muscle of the template's size, by separate matrices: the reference of the others.
 Eigen::VectorXd dense_history(const Block& block, int steps) {
   const Eigen::MatrixXd k = block.stiffness;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(moving), before = u;

@@ -1,4 +1,4 @@
-// mobil_rivals [--quick] [NAME…]: one JSON object a line for each measurement asked for, all by default.
+// mobil_rivals [--quick] [NAME…]: one JSON object a line for each requested measurement, all by default.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 #pragma once
-// Repeated timing by this thread's time on a processor: on a machine that others use too, the wall's clock counts them.
+// Repeated timing by this thread's processor time, because wall-clock time includes other load on the machine.
 
 #include <algorithm>
 #include <ctime>

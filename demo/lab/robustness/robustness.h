@@ -1,9 +1,8 @@
 #pragma once
-// What every entry of `mobil robustness` is made of: hard cases, each a promise with its bound, and what came of it.
+// Common parts of all entries of `mobil robustness`: hard cases, each with a promise, its bound and the result.
 //
 // An entry is one function, `void robustness_x(RobustnessRun&)`, and one line in the list of robustness_command.cpp. It
-// adds rows; a row holds where its measured value is on the promised side of its bound, and never where that is
-// NaN.
+// adds rows. A row holds if its measured value is on the promised side of its bound; NaN never holds.
 
 #include <cmath>
 #include <string>
@@ -17,21 +16,21 @@ namespace mobil {
 
 enum class Promise : unsigned char { at_most, at_least };
 
-/// One promise and what came of it.
+/// One promise and its result.
 struct RobustnessRow {
   std::string tried;     // the hard case
-  std::string quantity;  // what is held to the bound, with its unit
+  std::string quantity;  // quantity with a bound, and its unit
   Promise promise = Promise::at_most;
   double bound = 0;
-  std::string reason;  // of the bound: theory, or the margin over what was measured
+  std::string reason;  // of the bound: theory, or the margin over the measured value
   double value = 0;
   std::string detail{};      // further figures, or empty
-  std::string_view entry{};  // which of the list it belongs to
+  std::string_view entry{};  // its entry in the list
 
   bool held() const { return promise == Promise::at_most ? value <= bound : value >= bound; }
 };
 
-/// Keeps the larger of both; NaN stays.
+/// Keeps the larger of both; NaN is kept.
 inline void keep_worst(double& worst, double value) {
   if (!(value <= worst) && !std::isnan(worst)) worst = value;
 }

@@ -1,4 +1,4 @@
-// Muscles that pull, at finite strain: what hosts may ask of them, and legs that no walk has.
+// Active muscles at finite strain: permitted requests of hosts, and leg postures that do not occur in walks.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ LegMuscles hosted(Method method) {
   return choice;
 }
 
-/// What a person's muscles come to at worst since it was made; NaN stays.
+/// Worst values of a person's muscles so far; NaN is kept.
 struct Worst {
   double moved_m = 0, volume_off = 0, fibre_off = 0, end_off_m = 0;
 
@@ -53,7 +53,7 @@ void excite_all(Simulation& simulation, Entity person, float level) {
   }
 }
 
-/// Stiffness that goes up and down as fast as activation can, at any rate: what shakes must not be pumped up by it.
+/// Stiffness that rises and falls as fast as activation can, at any rate, must not pump up vibrations.
 void robustness_tuned(RobustnessRun& run) {
   Worst walking, standing;
   double grown = 0;
@@ -149,7 +149,7 @@ void robustness_excitation(RobustnessRun& run) {
 }
 
 void robustness_contraction(RobustnessRun& run) {
-  // Every method, then another in each tick: knees and ankles bent as far as they go while all pull at their most.
+  // Every method, then another in each tick: knees and ankles bent to their limits while all muscles are fully active.
   constexpr std::array methods = {Method::explicit_central, Method::implicit_central, Method::newmark, Method::statics,
                                   Method::modal};
   Worst steady, flickering;

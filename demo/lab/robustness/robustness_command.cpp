@@ -1,4 +1,4 @@
-// `mobil robustness`: the hard cases, what is promised of each, and what happened.
+// `mobil robustness`: hard cases, the promise of each, and the result.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,5 @@
-// Loads that come all at once, for one step alone, or at the resonance, against what theory allows; and
-// whether energy stays over very many steps.
+// Sudden loads, loads of a single step, and loads at the resonance, compared with theory; and conservation of energy
+// over very many steps.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double load_step_s = 0.001;  // about half of the critical step
 
-/// A straight block, which a load along z only stretches, free at its end: sixteen times alike, and once in double.
+/// A straight block with a free end, which a load along z only stretches: sixteen identical lanes, and one in double.
 struct Pair {
   Bellies lanes;
   ReferenceBelly reference;
@@ -44,7 +44,7 @@ Pair make_pair(Method method, double stiffness_damping_s) {
   return Pair{std::move(lanes), std::move(reference), settled.report().elongation_m};
 }
 
-/// The lanes' state as the reference's.
+/// Copies the reference's state to the lanes.
 void copy_state(Pair& pair) {
   const auto v = pair.reference.velocity();
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -62,8 +62,8 @@ void step(Pair& pair, double from_n, double to_n) {
   pair.reference.step({{0, 0, from_n}, {}, {}}, {{0, 0, to_n}, {}, {}});
 }
 
-/// The lowest frequency that a load along z excites (1/s), in the time of central differences: pulled and let go, with
-/// so much stiffness damping that after a second it rings alone.
+/// Returns the lowest frequency that a load along z excites (1/s), in the time of central differences. The block is
+/// pulled and released, with so much stiffness damping that after a second only this frequency remains.
 double lowest_stretch(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
   auto belly = must(ReferenceBelly::make(mesh, terms,
                                          {.method = Method::explicit_central,
@@ -119,7 +119,7 @@ void robustness_resonance(RobustnessRun& run) {
   const double period = 2 * std::numbers::pi / omega;
   for (const Method method : {Method::explicit_central, Method::newmark}) {
     const auto name = method_name[static_cast<std::size_t>(method)];
-    // a load of its own frequency in the method's time: central differences beat fast, mean acceleration slow
+    // a load at its own frequency in the method's time: central differences ring faster, mean acceleration slower
     const double exact = 2 / load_step_s * std::sin(omega * load_step_s / 2);
     const double own =
         method == Method::explicit_central ? omega : 2 / load_step_s * std::atan(exact * load_step_s / 2);

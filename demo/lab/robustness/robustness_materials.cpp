@@ -1,4 +1,4 @@
-// Materials at the ends of their ranges, and damping beyond all measure.
+// Materials at the ends of their ranges, and extreme damping.
 
 #include <fmt/format.h>
 
@@ -14,14 +14,14 @@ std::string_view name(Element element) {
   return element_name[static_cast<std::size_t>(element)];
 }
 
-/// How far a far face moves sideways under 1 N sideways, m.
+/// Returns the sideways displacement of a far face under 1 N sideways, m.
 double flexibility(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
   auto belly = must(ReferenceBelly::make(mesh, terms, {.method = Method::statics, .end = FarEnd::free}));
   belly.start({{1, 0, 0}, {}, {}});
   return belly.displacement()[3 * std::size_t{insertion_centre(mesh.cells).front()}];
 }
 
-/// The motion of sixteen shaken sizes over some ticks by a method, in steps that scale with the material's period.
+/// Returns the motion of sixteen shaken sizes over some ticks, in steps that scale with the material's period.
 Bellies ring(const Material& material, double dt_s, Method method, int ticks) {
   Bellies bellies(must(make_muscle_template(spindle({2, 2, 8}), material, {FarEnd::held, 0, 0.5, 2})));
   make_sixteen_sizes(bellies);
@@ -103,8 +103,8 @@ void robustness_poisson(RobustnessRun& run) {
               static_cast<double>(accepted), "no stiffness, or one that no precision holds");
 }
 
-/// Rings of materials whose square root of stiffness over mass is a power of two from one to the next: in steps of the
-/// same part of their periods they are the same numbers.
+/// Compares materials whose square roots of stiffness over mass are successive powers of two. In steps of the same
+/// fraction of their periods they ring with the same numbers.
 void robustness_young(RobustnessRun& run) {
   constexpr int lowest = -3, highest = 4;
   const int ticks = run.quick ? 5 : 60;

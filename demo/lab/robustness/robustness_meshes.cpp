@@ -1,4 +1,4 @@
-// Bad elements: what is accepted still works, what is refused is named.
+// Bad elements: accepted ones still work, refused ones are named.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 namespace mobil {
 namespace {
 
-/// Moves a random node until the worst element has about that scaled Jacobian.
+/// Moves a random node until the worst element has about this scaled Jacobian.
 HexahedralMesh sliver(std::mt19937& random, double quality) {
   const Cells cells = {2, 2, 4};
   const HexahedralMesh block = make_block(cells, 0.015).value();
@@ -23,7 +23,7 @@ HexahedralMesh sliver(std::mt19937& random, double quality) {
     p = {p.x + by * way.x, p.y + by * way.y, p.z + by * way.z};
     return mesh;
   };
-  double low = 0, high = 0.2;  // beyond any node's neighbours, whatever the way
+  double low = 0, high = 0.2;  // beyond any node's neighbours, in any direction
   for (int i = 0; i < 80; ++i) {
     const double middle = 0.5 * (low + high);
     (smallest_scaled_jacobian(moved(middle)) > quality ? low : high) = middle;
@@ -31,8 +31,8 @@ HexahedralMesh sliver(std::mt19937& random, double quality) {
   return moved(low);
 }
 
-/// Force on the nodes inside that a uniform strain leaves, over the largest force that one node's row can make of it:
-/// none, by equilibrium, whatever the elements' shape (the patch test).
+/// Returns the force that a uniform strain leaves on interior nodes, over the largest force of one node's row. By
+/// equilibrium it is 0, regardless of the elements' shape (the patch test).
 double patch_residual(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
   const auto strained = [](const Vec3<double>& p) {
     return std::array{0.01 * p.x + 0.003 * p.y, 0.002 * p.x - 0.02 * p.y + 0.005 * p.z, 0.004 * p.y + 0.03 * p.z};
@@ -71,7 +71,7 @@ struct MeshFigures {
   void take(const HexahedralMesh& mesh, Element element, FarEnd end, std::uint32_t steps) {
     const auto terms = assemble(mesh, Material{}, element);
     if (!terms) {
-      ++refused;  // inverted inside, between corners that are not
+      ++refused;  // inverted inside, between sound corners
       if (terms.error().message.starts_with("element ")) return;
       throw Stopped(terms.error().message);
     }
@@ -125,7 +125,7 @@ HexahedralMesh stretched(double aspect) {
   return mesh;
 }
 
-/// Relative errors of static lanes, all alike, after some ticks under one load.
+/// Relative errors of static lanes, all identical, after some ticks under one load.
 struct StaticError {
   double pulled;  // elongation against F·L/(E·A), which is exact for every element where ν = 0
   double bent;    // the tip's sideways displacement against double precision
@@ -156,7 +156,7 @@ StaticError static_error(double aspect, Element element) {
   return error;
 }
 
-/// The elements with a corner whose three edges are left-handed or flat, reckoned from the node numbers alone.
+/// Returns the elements with a corner whose three edges are left-handed or flat, computed from the node numbers alone.
 std::vector<std::uint32_t> folded(const HexahedralMesh& mesh) {
   std::vector<std::uint32_t> found;
   const std::uint32_t nx = mesh.cells[0], ny = mesh.cells[1], nz = mesh.cells[2];

@@ -1,4 +1,4 @@
-// NaN, too large and too small numbers in one lane of a block, and its fifteen neighbours.
+// NaN, too large and too small numbers in one lane of a block, and the effect on its fifteen neighbours.
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ std::string_view name(Method method) {
   return method_name[static_cast<std::size_t>(method)];
 }
 
-/// All that a block is given.
+/// All inputs of a block.
 struct Inputs {
   Bellies bellies;
   EndDrive<Lanes<float>> end{};
@@ -34,7 +34,7 @@ struct Inputs {
 
   void tick() { bellies.tick(drive(), substeps, static_cast<float>(robustness_tick_s)); }
 
-  /// Every word that one lane reads.
+  /// Returns every word that one lane reads.
   std::vector<Lanes<float>*> words() {
     std::vector<Lanes<float>*> all = {&bellies.scale.across, &bellies.scale.along};
     const auto add = [&](Vec3<Lanes<float>>& v) { all.insert(all.end(), {&v.x, &v.y, &v.z}); };
@@ -212,7 +212,7 @@ void robustness_denormals(RobustnessRun& run) {
         "a ring by {} that dies away within {} ticks, as systems run it and without that", name(method), ticks);
     run.at_most(tried, "subnormal numbers left by the ticks as systems run them", 0, static_cast<double>(with),
                 "systems take them for zero, so that no tick takes a hundred times as long");
-    // what conjugate gradients square must not underflow: they let forces below some 1e-19 N be
+    // squares of conjugate gradients must not underflow: they ignore forces below some 1e-19 N
     const bool solves = method == Method::newmark;
     if (!solves) {
       run.at_least(tried, "subnormal numbers left without that", 1, static_cast<double>(without),

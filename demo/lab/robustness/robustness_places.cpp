@@ -1,5 +1,5 @@
-// Far from the origin, for a day, in ticks of any length; level of detail under cameras that flicker and budgets of
-// nothing.
+// Far from the origin, for a day, in ticks of any length; level of detail under cameras that flicker and with zero
+// budget.
 
 #include <fmt/format.h>
 
@@ -23,14 +23,14 @@ double distance_m(const Vec3<float>& a, const Vec3<float>& b) {
   return std::hypot(double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z});
 }
 
-/// Distances of all joints from the pelvis.
+/// Returns the distances of all joints from the pelvis.
 std::vector<double> shape_of(const Pose<float>& pose) {
   std::vector<double> shape;
   for (const auto& p : pose.position_m) shape.push_back(distance_m(p, pose.position_m[0]));
   return shape;
 }
 
-/// Distance between floats of that size.
+/// Returns the distance between floats of that size.
 double spacing_m(double far_m) {
   const auto at = static_cast<float>(far_m);
   return double{std::nextafter(at, std::numeric_limits<float>::infinity())} - double{at};

@@ -1,4 +1,4 @@
-// Steps: just below the critical one, just above it, and absurd ones of the method that takes any. Too much damping.
+// Steps just below and just above the critical one, and absurd ones with the method that accepts any. Too much damping.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ struct Block {
   std::string cells, young, damping;
 };
 
-/// What `mobil muscle` makes of a step a little below and a little above the limit that it names.
+/// Requests steps of `mobil muscle` a little below and a little above the limit that it names.
 void ask_for_steps(RobustnessRun& run) {
   const std::vector<Block> blocks = {
       {"2x2x8", "10666.7", "0"}, {"1x1x1", "1e6", "0"}, {"4x4x16", "10666.7", "8"}, {"3x2x5", "200", "1000"}};
@@ -79,7 +79,7 @@ void try_in_double(RobustnessRun& run) {
   }
 }
 
-/// The tabulated limit, which is that of individuals, in the kernel.
+/// Tries the tabulated limit, which is that of individuals, in the kernel.
 void try_in_lanes(RobustnessRun& run) {
   double drift = 0, growth = 1e300;
   std::size_t tried = 0;
@@ -123,7 +123,7 @@ void try_in_lanes(RobustnessRun& run) {
                "the table is at most 1 % low, which leaves at least e^0.2 a step");
 }
 
-/// The range of sizes that one solver serves (assets/fem/belly_solver.h).
+/// Sets the range of sizes for which one solver is valid (assets/fem/belly_solver.h).
 void make_sizes_of_one_solver(Bellies& bellies) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const auto part = [](std::size_t i) { return (static_cast<double>(i) - 1.5) / 1.5; };
@@ -133,7 +133,7 @@ void make_sizes_of_one_solver(Bellies& bellies) {
   }
 }
 
-/// Elongation of every lane that answers its load of 1 N at rest, m.
+/// Returns the static elongation of every lane under its load of 1 N, m.
 std::array<double, lane_count> static_elongation(const Bellies& bellies, FarEnd end) {
   std::array<double, lane_count> elongation{};
   for (std::size_t l = 0; l < lane_count; ++l) {
@@ -148,7 +148,7 @@ std::array<double, lane_count> static_elongation(const Bellies& bellies, FarEnd 
   return elongation;
 }
 
-/// The damped motion of a shaken free belly in lanes.
+/// Damped motion of a shaken free belly in lanes.
 struct Decay {
   double worst_rise = 0;  // largest energy after a tick over the one before it
   double left = 0;        // last energy over the first
@@ -176,7 +176,7 @@ Decay decay(const MuscleOptions& options, Method method, int ticks) {
         first[l] = last[l] = energy;
         continue;
       }
-      // below some 1e-9 of the first energy what is left is rounding
+      // below some 1e-9 of the first energy only rounding is left
       const double rise = (energy - last[l]) / (last[l] + 1e-9 * first[l]);
       if (!(rise <= result.worst_rise)) result.worst_rise = rise;
       last[l] = energy;

@@ -4,7 +4,7 @@
 #include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 // Whole simulations: one person whose state is NaN among sixteen who walk; every method with every effect, shaken
-// as no body can be.
+// beyond what bodies can do.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@
 namespace mobil {
 namespace {
 
-/// To write what only a broken host could.
+/// Returns writable rows, to write values that only a broken host could.
 World& rows_of(Simulation& simulation) {
   return const_cast<World&>(simulation.world());
 }
@@ -86,7 +86,7 @@ Poison in_nodes() {
 struct Case {
   const char* name;
   Poison poison;
-  std::optional<std::size_t> of{};  // whose belly has it in its state, and so must begin anew; else anybody's
+  std::optional<std::size_t> of{};  // whose belly has it in its state and must restart; if empty, any person's
 };
 
 std::vector<Case> poisons() {
@@ -134,8 +134,8 @@ struct Way {
   LegMuscles choice;
 };
 
-/// Methods times effects. Of what has no state of its own inertia means nothing; the force-driven end needs a method
-/// that steps.
+/// Returns methods times effects. Inertia does not apply to methods without a state. The force-driven end needs a
+/// method that steps.
 std::vector<Way> ways() {
   struct Kind {
     std::string_view name;
@@ -177,7 +177,7 @@ std::vector<Way> ways() {
   return all;
 }
 
-/// What a posed person is put through, tick by tick.
+/// Treatment of a posed person, tick by tick.
 struct Ordeal {
   std::string_view name;
   void (*tick)(Simulation& simulation, Entity person, const Body& body, int tick);
@@ -281,7 +281,7 @@ std::size_t different_words(const std::vector<std::uint32_t>& a, const std::vect
 void robustness_walkers(RobustnessRun& run) {
   Simulation sound;
   const auto people = walk_in(sound);
-  const int ticks = run.quick ? 45 : 120;  // some steps end in it, and are planned anew
+  const int ticks = run.quick ? 45 : 120;  // some steps end in it, and are planned again
   std::vector<std::vector<std::uint32_t>> expected(crowd);
   for (int tick = 0; tick < 20 + ticks; ++tick) sound.tick();
   for (std::size_t i = 0; i < crowd; ++i) expected[i] = person_words(sound, people[i]);
@@ -340,7 +340,7 @@ void robustness_ways(RobustnessRun& run) {
     Entity person, calm;
     double worst_m = 0;
   };
-  // All trials share one simulation, because set-up of each muscle takes longest; people do not meet.
+  // All trials share one simulation, because the set-up of each muscle takes longest; people do not meet.
   Simulation simulation;
   std::vector<Trial> trials;
   const auto all = ways();
@@ -372,7 +372,7 @@ void robustness_ways(RobustnessRun& run) {
     run.progress(0.3 + 0.7 * tick / ticks);
   }
   for (const Trial& trial : trials) {
-    // Of ωh ≫ 1 the trapezoidal rule keeps (1 − 4·α/(ω²·h)) a step: what rings faster than ticks hardly dies away.
+    // For ωh ≫ 1 the trapezoidal rule keeps (1 − 4·α/(ω²·h)) a step: vibrations faster than ticks hardly decay.
     const bool keeps_ringing = trial.way->choice.method == Method::newmark;
     run.at_most(fmt::format("{}: {}", trial.way->name, trial.ordeal->name),
                 fmt::format("control points off those of who stood still, {} s later, m", rest_s),

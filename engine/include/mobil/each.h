@@ -1,5 +1,5 @@
 #pragma once
-// All blocks of all tables that have some parts, for code between ticks, by the same signatures as systems:
+// Iteration over blocks between ticks, with the same parameters as systems:
 //   each(world, [](const Rows& rows, const Pose<Lanes<float>>& pose, Fatigue<Lanes<float>>& fatigue) { … });
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// Where a table has a component; false where it has none.
+/// Column of a component in a table; false if the table has none.
 template <template <class> class C>
 class TableColumn {
  public:
   explicit TableColumn(const Table& table) : first_word_(table.column(type_id<C<float>>())) {}
   explicit operator bool() const { return first_word_ != Table::no_column; }
 
-  /// Of a block of that table; what is written to a lane beyond the rows is lost.
+  /// Returns the component in a block of that table. Values written to lanes without a row are lost.
   C<Lanes<float>>& at(Table& table, std::size_t block) const {
     return *reinterpret_cast<C<Lanes<float>>*>(table.block(block) + first_word_ * lane_count);
   }
@@ -31,7 +31,7 @@ class TableColumn {
   std::uint32_t first_word_;
 };
 
-/// The loop behind `each`.
+/// Implements `each`.
 template <class F, class... P>
 void each_with(World& world, F& f, Parameters<P...>) {
   static_assert(!(is_timed<P> || ...), "between ticks there is neither a tick nor scratch memory: leave that out");
@@ -48,20 +48,20 @@ void each_with(World& world, F& f, Parameters<P...>) {
   }
 }
 
-/// Whether parameters only read.
+/// True if no parameter writes.
 template <class... P>
 constexpr bool writes_nothing(Parameters<P...>) {
   return ((Parameter<P>::access().mode != Access::Mode::write) && ...);
 }
 
-/// Calls `f` for each block of each table that has what its parameters name, as a system's (mobil/engine/access.h), on
-/// this thread, tables in the order of their making. Lanes from `Rows::live` on are parked copies. The structure of the
-/// world must stay as it is meanwhile.
+/// Calls `f` for each block of each table that matches its parameters, which are those of systems
+/// (mobil/engine/access.h). Runs on this thread, tables in the order of their creation. Lanes from `Rows::live` on are
+/// parked copies. `f` must not change the world's structure.
 template <class F>
 void each(World& world, F&& f) {
   each_with(world, f, Signature<std::remove_cvref_t<F>>{});
 }
-/// To read alone: `const` components, `Field<const Tag>`.
+/// Reads only: `const` components, `Field<const Tag>`.
 template <class F>
 void each(const World& world, F&& f) {
   using Taken = Signature<std::remove_cvref_t<F>>;

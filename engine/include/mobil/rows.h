@@ -1,5 +1,5 @@
 #pragma once
-// One row in all lanes of a block, and a lane of a block as a row: for what is computed of one entity off the tick.
+// Conversion between one row and a block, for computations on single entities outside of the tick.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// One row in all sixteen lanes.
+/// Copies one row into all sixteen lanes.
 template <template <class> class C>
 C<Lanes<float>> broadcast(const C<float>& row) {
   C<Lanes<float>> block;
@@ -25,7 +25,7 @@ C<Lanes<float>> broadcast(const C<float>& row) {
   return block;
 }
 
-/// One lane of a block as a row, and a row into one lane of a block.
+/// Reads one lane of a block as a row; `put_row` writes a row into one lane.
 template <template <class> class C>
 C<float> row_of(const C<Lanes<float>>& block, std::size_t lane) {
   C<float> row;

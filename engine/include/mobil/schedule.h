@@ -1,16 +1,35 @@
 #pragma once
-// Which systems run, on what, and in which order: all read off their signatures (mobil/engine/access.h).
+// Systems of a tick and their order, derived from their signatures (mobil/engine/access.h).
 //
 //   ScheduleBuilder systems;
 //   systems.add("gait", &gait).add("kinematics", &kinematics).add("sway", &sway).after("kinematics");
 //   Result<Schedule> schedule = systems.build();
 //   schedule->run(world, {1.0F / 60, 0}, threads.jobs());
 //
-// Order: who reads a component runs after who writes it; who reads it as Previous runs before. Where `after` says
-// otherwise, `after` wins. Two writers of one component need an `after`, be it on different tables, or are
-// alternatives. Ties go by the order of adding, so that the order is always the same. That is so of each block: systems
-// that need nothing of other blocks (no Lookup between them) go over one block after the other together, while it is in
-// a cache.
+// Order: readers of a component run after its writers; readers of its Previous run before them. An `after` overrides
+// both. Two writers of one component need an `after`, even on different tables, or must be alternatives. Ties are
+// resolved by the order of adding, so the order is always the same.
+//
+// Passes: neighbours in that order form one pass while they need only their own rows. A system begins a new pass if it
+// looks up (Lookup, LookupPublished) a part that the pass writes, or writes a part that the pass looks up. A packed
+// system (mobil/engine/packed.h) is a pass of its own. Threads wait for each other only between passes. For walkers:
+//
+//   phases ─► steps ahead, gait ─► replan ─► turn, … kinematics, … ─► lines of action, … deformation, … ─► phases
+//   1 thread  pass                 packed    pass                     pass                                 1 thread
+//
+// Tiles: a pass cuts each matching table into tiles of neighbouring blocks. A tile has about 128 kB, so that it fits
+// into a core's own cache. It has at least one block, and up to four in large tables of wide rows.
+//
+//   table A  │ b0 b1 │ b2 b3 │ b4 b5 │ b6 b7 │     4 tiles of 2 blocks of 16 rows:  A0 A1 A2 A3;
+//   table B  │ b0 │ b1 │                           2 tiles of 1 block, wider rows:  B0 B1.
+//
+// Tiles of all tables are interleaved in proportion, so that muscles of one person are close in time:
+// A0 A1 B0, A2 A3 B1. The job system hands out ranges of that list. A thread takes each tile through all systems that
+// match its table.
+//
+//   A0:  lines of action(b0, b1) ─► activation(b0, b1) ─► deformation(b0, b1) ─► …     then A1, B0, …
+//
+// A packed system instead chooses lanes tile by tile, and then runs on the chosen rows, sixteen at a time.
 
 #include <algorithm>
 #include <atomic>
@@ -35,27 +54,27 @@
 
 namespace mobil::inline v0_3 {
 
-/// A system with its type taken off.
+/// A type-erased system.
 struct System {
   std::string name;
-  std::string module{};          // that it belongs to (mobil/engine/module.h); may be empty
+  std::string module{};          // its module (mobil/engine/module.h); can be empty
   std::vector<Access> accesses;  // of its parameters
   std::size_t parameters = 0;
-  std::vector<std::string> after;  // names of systems, or of alternatives, that must have run
-  std::string alternatives{};      // name of a set of systems of which no table has two that write one component
+  std::vector<std::string> after;  // names of systems or alternatives that must run earlier
+  std::string alternatives{};      // name of a set of systems; no table has two that write one component
   bool (*bind)(const World&, const Table&, Bound*) = nullptr;
   std::function<void(const BlockView&, const Bound*)> run;
-  /// Packed systems only: which lanes of a block, as bits; and the work on at most sixteen rows.
+  /// Packed systems only: the chosen lanes of a block, as bits; and the work on at most sixteen rows.
   std::function<std::uint32_t(const BlockView&, const Bound*)> choose;
   std::function<void(std::span<const ChosenRow>, Tick)> run_rows;
-  std::size_t chooser_parameters = 0;  // what is bound begins with them
+  std::size_t chooser_parameters = 0;  // the first of `bound` are the chooser's
 };
 
-/// A type's name (Access::name) as people say it: "mobil::Pose<float>" is Pose.
+/// Returns a type's name (Access::name) without namespace and scalar: "mobil::Pose<float>" is Pose.
 std::string_view plain_name(std::string_view type);
 
-/// Ticks, rows worked on and time of a system in all, and the last tick's. Rows are entities: of a packed system those
-/// chosen. Time is that of all threads together. Where no table is a system's, its code does not run and takes no time.
+/// Ticks, rows and time of a system: totals, and those of the last tick. Rows are entities, in a packed system the
+/// chosen ones. Time is the sum over all threads, and 0 for a system without tables.
 struct Timing {
   std::uint64_t calls = 0;
   std::uint64_t rows = 0;
@@ -64,73 +83,72 @@ struct Timing {
   double last_seconds = 0;
 };
 
-/// A phase, its module, and the calling thread's time in it: in all, and in the last tick.
+/// A phase, its module, and the calling thread's time in it: total, and in the last tick.
 struct TimedPhase {
   Phase phase;
   std::string module;
   double seconds = 0, last_seconds = 0;
 };
 
-/// What systems added to their Tally: in the last tick, and in all since timings were last reset.
+/// Count of a Tally: in the last tick, and in total since timings were last reset.
 struct Counted {
   std::uint64_t last = 0, all = 0;
 };
 
-/// Systems that run block by block, one after the other while a block is in a cache, before any other of the order:
-/// `first` up to before `last` of the order. A packed system is a pass of its own.
+/// A pass: the systems from `first` to before `last` of the order, which run tile by tile. A packed system is a pass of
+/// its own.
 struct SystemRange {
   std::size_t first, last;
 };
 
 class Schedule {
  public:
-  /// One tick. In each pass some neighbouring blocks at a time go through all the systems whose tables they are in.
-  /// Takes memory only when tables have been made since the last run, another world comes along, or more threads work
-  /// at once, more rows may be chosen or tables have more blocks than ever before. Denormals are zero while a system
-  /// runs.
+  /// Runs one tick. In each pass, tiles of neighbouring blocks go through all systems that match their table. Allocates
+  /// only after new tables or a change of world, or if threads, chosen rows or blocks exceed all earlier ticks.
+  /// Denormals are zero while a system runs.
   void run(World& world, Tick tick, const Jobs& jobs = {});
 
-  /// A whole tick: phases before the systems, `run`, and phases after them. `tick.index` grows by one once the systems
-  /// have run. Throws what phases throw (mobil/engine/phase.h); the next tick then begins with the phase that threw.
+  /// Runs a whole tick: phases before the systems, `run`, and phases after them. `tick.index` is incremented after the
+  /// systems. Throws what phases throw (mobil/engine/phase.h); the next tick then begins with the phase that threw.
   void tick(World& world, Tick& tick, Workspace& workspace, const Jobs& jobs = {});
-  /// After the world became another one, as by a restored snapshot: the next tick begins with its first phase. Within a
-  /// phase it changes nothing of the tick under way.
+  /// Lets the next tick begin with its first phase; for worlds that were replaced, for example by a restored snapshot.
+  /// It does not affect a tick in progress.
   void begin_anew() { phases_done_ = 0; }
 
-  /// In the order of running.
+  /// In running order.
   std::span<const System> systems() const { return systems_; }
   std::span<const TimedPhase> before() const { return before_; }
   std::span<const TimedPhase> after() const { return after_; }
   std::span<const SystemRange> passes() const { return passes_; }
   std::span<const Timing> timings() const { return timings_; }
-  /// Null when there is no system of that name.
+  /// Returns null if no system has that name.
   const Timing* timing(std::string_view name) const;
   /// Sets timings and tallies to zero.
   void reset_timings();
-  /// The sum over all systems that take a Tally<Tag>.
+  /// Returns the sum over all systems that take a Tally<Tag>.
   template <class Tag>
   Counted tally() const {
     return tally(type_id<Tag>());
   }
-  /// What time is read from, s; nullptr: the machine's steady clock. A clock of the calling thread's processor time
-  /// says what systems cost while others use the machine.
+  /// Sets the clock of timings, s; nullptr: the steady clock. A clock of the calling thread's processor time measures
+  /// systems correctly on a loaded machine.
   void measure_with(double (*clock)());
 
-  /// The order as text, a line a phase or system: what a system reads and writes.
+  /// Returns the order as text, one line a phase or system with its reads and writes.
   std::string describe() const;
 
  private:
   friend class ScheduleBuilder;
-  /// A system on a table.
+  /// A system bound to a table.
   struct Step {
     std::size_t system;
     std::vector<Bound> bound;
   };
-  /// What a pass does to a table: some blocks at a time, a tile, so that they stay in a cache.
+  /// A table in a pass. It is worked on in tiles of some blocks, which stay in a cache.
   struct Match {
     Table* table;
     std::vector<Step> steps;
-    std::size_t tile_blocks = 1, first_block = 0;  // this tick; the latter among all of the pass
+    std::size_t tile_blocks = 1, first_block = 0;  // this tick; `first_block` counts all blocks of the pass
 
     std::size_t tiles() const { return (table->block_count() + tile_blocks - 1) / tile_blocks; }
   };
@@ -155,17 +173,17 @@ class Schedule {
 
   std::vector<System> systems_;
   std::vector<TimedPhase> before_, after_;
-  std::size_t phases_done_ = 0;  // of those before the systems, in a tick that did not get further
+  std::size_t phases_done_ = 0;  // of `before_`, if an earlier attempt at this tick threw
   bool ticking_ = false;
   std::vector<SystemRange> passes_;
   std::vector<Timing> timings_;
   std::vector<Counted> counted_;                           // by system
   std::vector<std::vector<Match>> matches_;                // by pass
   std::vector<std::pmr::vector<Tile>> tiles_;              // by pass, in the order of this tick
-  std::pmr::vector<std::uint32_t> round_;                  // where each round of tiles ends, kept for its memory
-  std::pmr::vector<std::uint16_t> chosen_lanes_;           // by block of a packed system that runs, kept for its memory
+  std::pmr::vector<std::uint32_t> round_;                  // end of each round of tiles, kept for its memory
+  std::pmr::vector<std::uint16_t> chosen_lanes_;           // by block of a running packed system, kept for its memory
   std::pmr::vector<ChosenRow> chosen_;                     // the same as rows
-  std::vector<std::size_t> scratch_floats_;                // by pass, the most that a table of it needs
+  std::vector<std::size_t> scratch_floats_;                // by pass, the maximum of its tables
   std::unique_ptr<std::atomic<std::int64_t>[]> spent_ns_;  // by system, this tick
   std::unique_ptr<std::atomic<std::uint64_t>[]> tally_;    // the same
   std::unique_ptr<ScratchPool> scratch_;
@@ -174,42 +192,42 @@ class Schedule {
   std::shared_ptr<const char> world_;
 };
 
-/// Collects systems, by module, and orders them.
+/// Collects systems by module and orders them.
 class ScheduleBuilder {
  public:
-  /// Systems added from now on are that module's.
+  /// Assigns all systems added later to that module.
   void begin_module(std::string name) { module_ = std::move(name); }
 
-  /// A free function or a lambda whose parameters are those of mobil/engine/access.h. It is called from several threads
-  /// at once, for different blocks.
+  /// Adds a free function or a lambda whose parameters are those of mobil/engine/access.h. Several threads call it at
+  /// once, for different blocks.
   template <class F>
   ScheduleBuilder& add(std::string name, F function) {
     systems_.push_back(erase(std::move(name), std::move(function), Signature<F>{}));
     systems_.back().module = module_;
     return *this;
   }
-  /// A packed system (mobil/engine/packed.h): `choose` takes a block like any system, writes nothing, and returns the
-  /// lanes to work on as bits; `function` takes components and the tick alone.
+  /// Adds a packed system (mobil/engine/packed.h). `choose` takes a block like any system, writes nothing, and returns
+  /// the lanes to work on as bits. `function` takes only components and the tick.
   template <class Choose, class F>
   ScheduleBuilder& add_packed(std::string name, Choose choose, F function) {
     systems_.push_back(erase_packed(std::move(name), choose, function, Signature<Choose>{}, Signature<F>{}));
     systems_.back().module = module_;
     return *this;
   }
-  /// The system added last runs after that one, or after all alternatives of that name.
+  /// Orders the system added last after that one, or after all alternatives of that name.
   ScheduleBuilder& after(std::string name) {
     systems_.back().after.push_back(std::move(name));
     return *this;
   }
-  /// The system added last is one of the alternatives of that name: they may write one component without an order among
-  /// each other, for no table has two of them. A tick that finds such a table throws std::logic_error, which names
-  /// both.
+  /// Makes the system added last one of the alternatives of that name. Alternatives can write one component without an
+  /// order, because no table matches two of them. A tick that finds such a table throws std::logic_error with both
+  /// names.
   ScheduleBuilder& one_of(std::string alternatives) {
     systems_.back().alternatives = std::move(alternatives);
     return *this;
   }
 
-  /// Phases run in the order of adding.
+  /// Adds a phase before or after the systems; phases run in the order of adding.
   ScheduleBuilder& before(Phase phase) {
     before_.push_back({std::move(phase), module_});
     return *this;
@@ -219,10 +237,10 @@ class ScheduleBuilder {
     return *this;
   }
 
-  /// Fails on two systems or phases of one name, on an `after` that names no system, on a system that takes a component
-  /// twice and writes it, on two writers without an order that are no alternatives, and on cycles. `memory` serves the
-  /// systems' scratch memory and the lists of chosen rows; it is asked by one thread at a time, perhaps during a run,
-  /// and must outlive the schedule.
+  /// Returns an error for two systems or phases of one name; an `after` without such a system; a system that takes a
+  /// component twice and writes it; two writers without an order that are not alternatives; and cycles. `memory` serves
+  /// scratch memory and lists of chosen rows. One thread at a time calls it, possibly during a run. It must outlive the
+  /// schedule.
   Result<Schedule> build(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const;
 
  private:
@@ -253,7 +271,7 @@ class ScheduleBuilder {
     System system;
     system.name = std::move(name);
     system.accesses = {Parameter<P>::access()...};
-    for (const Access& read : {Parameter<C>::access()...}) {  // the chooser may read what the function writes
+    for (const Access& read : {Parameter<C>::access()...}) {  // the chooser can read what the function writes
       const auto same = [&](const Access& a) { return a.id == read.id; };
       if (std::none_of(system.accesses.begin(), system.accesses.end(), same)) system.accesses.push_back(read);
     }

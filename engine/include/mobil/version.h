@@ -1,5 +1,5 @@
 #pragma once
-// Of which version these headers are. CMakeLists.txt says the same, and namespaces say its first two numbers.
+// Version of these headers. CMakeLists.txt has the same numbers, and the inline namespaces the first two.
 
 #define MOBIL_VERSION_MAJOR 0
 #define MOBIL_VERSION_MINOR 3

@@ -1,6 +1,5 @@
 #pragma once
-// The host's own parts (mobil/engine/archetype.h) on people and muscles, and entities of the host's own: the one door
-// to what rows are made of.
+// Adds the host's own parts (mobil/engine/archetype.h) to people and muscles, and creates the host's own entities.
 //
 //   simulation.parts().add(person, Fatigue<float>{0.2F});
 //   simulation.parts().each([](const Rows& rows, const Pose<Lanes<float>>& pose, Fatigue<Lanes<float>>& fatigue) { …
@@ -19,15 +18,15 @@
 
 namespace mobil::inline v0_3 {
 
-/// Parts are in the state hash; in snapshots where a module names them (SimulationOptions::modules). A part of a muscle
-/// stays with it whatever its method. What is the library's, and its people and muscles, answer Status::not_yours: for
-/// these are the calls of Simulation.
+/// Access to the host's own parts (Simulation::parts). They are in the state hash, and in snapshots if a module names
+/// them (SimulationOptions::modules). A part of a muscle stays when the muscle's method changes. Calls for the
+/// library's parts, people and muscles return Status::not_yours; use the functions of Simulation for them.
 class HostParts {
  public:
-  /// `ours`: ids of the library's parts, ascending.
+  /// `ours` are the ids of the library's parts, ascending.
   HostParts(World& world, std::span<const std::uint64_t> ours) : world_(world), ours_(ours) {}
 
-  /// Adds a part that is not there yet.
+  /// Adds a part that the entity does not have yet.
   template <class P>
   Result<void> add(Entity entity, const P& part) {
     return result_of("add", ours(component_id(part).id) ? Status::not_yours : world_.add(entity, part));
@@ -37,7 +36,7 @@ class HostParts {
   Result<void> set(Entity entity, const C<float>& row) {
     return result_of("set", ours(type_id<C<float>>()) ? Status::not_yours : world_.set(entity, row));
   }
-  /// Overwrites a field; `values` is as long as the field is wide.
+  /// Overwrites a field. `values` must be as long as the field is wide.
   template <class Tag>
   Result<void> set_field(Entity entity, std::span<const float> values) {
     return result_of("set_field", ours(type_id<Tag>()) ? Status::not_yours : world_.set_field<Tag>(entity, values));
@@ -51,7 +50,7 @@ class HostParts {
   Result<void> remove(Entity entity) {
     return result_of("remove", ours(type_id<Tag>()) ? Status::not_yours : world_.remove<Tag>(entity));
   }
-  /// An entity of the host's own, of its own parts.
+  /// Creates an entity from the host's own parts.
   template <class... P>
   Result<Entity> create(const P&... parts) {
     if ((ours(component_id(parts).id) || ...)) return fail(Status::not_yours);
@@ -65,14 +64,14 @@ class HostParts {
     if (std::ranges::any_of(place.table->key(), one_of_ours)) return fail(Status::not_yours);
     return result_of("destroy", world_.destroy(entity));
   }
-  /// Takes a share in an immutable resource, for a Shared part.
+  /// Registers an immutable resource, for a Shared part.
   template <class T>
   Shared<T> share(std::shared_ptr<const T> resource) {
     return world_.share(std::move(resource));
   }
-  /// Calls `f` with each block of all that have what its parameters name (mobil/each.h). The library's parts are there
-  /// to be read: where `f` would write one, nothing is done and the answer is Status::not_yours. Within ticks a
-  /// module's systems may write them.
+  /// Calls `f` for each block of entities that have the parts of its parameters (mobil/each.h). `f` can only read the
+  /// library's parts: if it has a parameter that writes one, the call does nothing and returns Status::not_yours.
+  /// During ticks a module's systems can write them.
   template <class F>
   Result<void> each(F&& f) {
     if (writes_ours(Signature<std::remove_cvref_t<F>>{})) return fail(Status::not_yours);

@@ -1,5 +1,5 @@
 #pragma once
-// The meshes, operators and bases that a simulation's muscles share. They are made when first called for, or before.
+// Meshes, operators and bases that a simulation's muscles share. They are made at first use, or ahead of it.
 //
 //   simulation.muscle_library().prepare({.muscles = muscle_groups()});
 //   const std::vector<std::byte> baked = simulation.muscle_library().bake();  // for a file
@@ -15,20 +15,20 @@
 
 namespace mobil::inline v0_3 {
 
-/// Of a simulation (Simulation::muscle_library), and of those that share its (SimulationOptions::library_of).
+/// A simulation's library (Simulation::muscle_library). Simulations can share one (SimulationOptions::library_of).
 class MuscleLibrary {
  public:
   explicit MuscleLibrary(const Frame& frame) : frame_(frame) {}
 
-  /// Makes the templates and bases that typical bodies share for this choice, with the simulation's jobs: then spawning
-  /// them and changing their methods does not wait for that. Errors: a choice out of range; nothing has changed.
+  /// Makes the templates and bases of typical bodies for this choice, in parallel. Spawning people and changing methods
+  /// then do not wait for them. Errors: a choice out of range; the library is then unchanged.
   Result<void> prepare(const LegMuscles& choice);
-  /// All meshes, operators and bases that have been made so far, by `prepare` or by adding muscles, as bytes for a
-  /// file: a program that loads them need not make them. They depend on no body and on no scene.
+  /// Returns all meshes, operators and bases made so far, by `prepare` or by adding muscles, as bytes for a file. They
+  /// do not depend on bodies or scenes.
   std::vector<std::byte> bake() const;
-  /// Takes in what `bake` wrote, in milliseconds: the bits are those that would be made here. The bytes are not needed
-  /// afterwards. Errors, in one line: bytes that were cut or altered, or baked by another version of the library or on
-  /// a processor that computes otherwise; nothing has changed then.
+  /// Loads the result of `bake` in milliseconds, with the same bits that this program would compute. The bytes can be
+  /// freed afterwards. Errors: truncated or altered bytes, another version of the library, a processor that computes
+  /// differently; the library is then unchanged.
   Result<void> load(std::span<const std::byte> baked);
 
  private:

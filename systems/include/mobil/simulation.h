@@ -1,5 +1,5 @@
 #pragma once
-// The facade: spawn people, give them muscles, advance time, read what became of them.
+// The main interface: spawns people, gives them muscles, advances time and returns results.
 //
 //   Simulation simulation;
 //   const Entity person = *simulation.spawn({.height_m = 1.80F, .mass_kg = 80});
@@ -7,19 +7,19 @@
 //   simulation.advance(frame_seconds);
 //   simulation.get<Pose>(person)->position_m[index(Segment::head)];
 //
-// Everything else is a table: `world()` has all components to read (mobil/engine/world.h; mobil/each.h for a block at a
-// time), `schedule()` all systems in the order they run.
-// Nothing is global; any number of simulations may live side by side.
+// Data is stored in tables. `world()` gives read access to all components (mobil/engine/world.h; mobil/each.h reads
+// them in blocks), and `schedule()` lists all systems in the order in which they run. Nothing is global, so a program
+// can have any number of simulations.
 //
-// Threads: one at a time may change a simulation. Between changes any number may read it at once: every const call but
-// `save`, `snapshot_bytes` and `state_hash`, which work with the simulation's jobs or keep what they learn; PoseWriter
-// and SurfaceWriter too, one of them a thread.
+// Threads: one thread at a time can change a simulation. Between changes any number of threads can call its const
+// functions, except `save`, `snapshot_bytes`, `state_hash` and `state_sum`, which use the simulation's jobs or cache
+// results. Each reading thread needs its own PoseWriter and SurfaceWriter.
 //
-// Whatever can fail answers with a Result: what was asked for, or an Error with a code for the program and a line for
-// its user. What failed has changed nothing. (World and Schedule, inside, answer with the code alone.)
+// Errors: a call that can fail returns a Result, which is the value or an Error with a status code for the program and
+// a one-line message for the user. A failed call changes nothing. (World and Schedule return the status code alone.)
 //
-// Where memory runs out as people come or change, std::bad_alloc is thrown and the simulation is unchanged, including
-// future handles. Despawning never allocates.
+// Memory: if it runs out while people are spawned or changed, std::bad_alloc is thrown and the simulation is unchanged,
+// including future handles. Despawning never allocates.
 
 #include <array>
 #include <cstdint>
@@ -45,25 +45,24 @@ namespace mobil::inline v0_3 {
 
 class Simulation;
 
-/// Time, threads, memory and modules of a simulation. Ranges: `tick_s` 1e-5 to 1 s, `max_frame_s` from one tick to 60
-/// s.
+/// Time, threads, memory and modules of a simulation.
 struct SimulationOptions {
-  double tick_s = 1.0 / 60;
-  double max_frame_s = 0.25;   // of a longer frame the rest is dropped and reported
-  int threads = 1;             // of the built-in pool; 0: as many as the machine has
-  std::optional<Jobs> jobs{};  // the caller's own job system instead
-  /// Of all that grows with people: tables, handles, what systems work in. From the heap are the tables that bodies
-  /// share, what a call works with until it returns, and what level of detail, avoidance and terrain work in.
+  double tick_s = 1.0 / 60;    // 1e-5 to 1
+  double max_frame_s = 0.25;   // one tick to 60 s; time beyond it is dropped and reported
+  int threads = 1;             // of the built-in pool; 0: one for each hardware thread
+  std::optional<Jobs> jobs{};  // the host's job system, used instead of the pool
+  /// Allocates everything that scales with the number of people: tables, handles, scratch memory. The heap is used for
+  /// tables that bodies share, for temporaries of a call, and by level of detail, avoidance and terrain.
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
-  /// The host's own effects (mobil/engine/module.h), behind the library's.
+  /// The host's own modules (mobil/engine/module.h). They follow the library's modules.
   std::vector<Module> modules{};
-  /// Another simulation, whose meshes, solvers and bases this one uses and adds to. Simulations that
-  /// share a library must not add to it concurrently: preparing and loading, muscles and their methods, waking,
-  /// restoring, ticks with level of detail.
+  /// Another simulation whose meshes, solvers and bases this one shares. Simulations that share a library must not add
+  /// to it concurrently: by `prepare` and `load`, by setting muscles or methods, by waking or restoring people, or by
+  /// ticks with level of detail.
   const Simulation* library_of = nullptr;
 };
 
-/// How a posed person came to a pose.
+/// Relation of a posed person's new pose to the last one. After `jumped` muscles and fat feel no motion in between.
 enum class Arrival : std::uint8_t { moved, jumped };
 
 class Avoidance;      // mobil/avoidance.h
@@ -78,195 +77,195 @@ class World;          // mobil/engine/world.h
 
 class Simulation {
  public:
-  /// Errors, in one line: tick_s or max_frame_s out of range (mobil/engine/clock.h), a module that does not fit the
-  /// others (mobil/engine/module.h).
+  /// Creates a simulation. Errors: `tick_s` or `max_frame_s` out of range (mobil/engine/clock.h), a module that
+  /// conflicts with another one (mobil/engine/module.h).
   static Result<Simulation> make(const SimulationOptions& options = {});
-  /// As `make`; throws std::invalid_argument with its line.
+  /// Creates a simulation like `make`, but throws std::invalid_argument with the message of the error.
   explicit Simulation(const SimulationOptions& options = {});
   ~Simulation();
-  /// What was moved from may be destroyed or assigned to. References to the world go along.
+  /// Moves a simulation. A moved-from one can only be destroyed or assigned to. References to its World stay valid.
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// A person at the origin, right heel striking, walking toward +Z. Errors: a body or a gait out of range or
-  /// unreachable, one line each; the simulation is unchanged.
+  /// Spawns a walker at the origin, at right heel strike, heading toward +Z. Errors: a body or a gait that is out of
+  /// range or unreachable.
   Result<Entity> spawn(const BodyRequest& body, const GaitRequest& gait = {});
-  /// A person whose host animates the skeleton, in the anatomical position at the origin: no gait, nothing of
-  /// kinematics. Errors: a body out of range, in one line; the simulation is unchanged.
+  /// Spawns a person whose skeleton the host animates, in the anatomical position at the origin. Gait and kinematics do
+  /// not run for posed people. Errors: a body out of range.
   Result<Entity> spawn_posed(const BodyRequest& body);
-  /// Where a posed person's skeleton is at the end of the next tick, taken as it is. Leg muscles follow. Errors, which
-  /// name the segment: a stale handle, a walker (Status::missing), a place not within 1000 km, a quaternion whose
-  /// length is not 1 within 1 %; the pose then stays. Muscles with inertia feel the way from the last pose, and so does
-  /// fat that wobbles, unless it has `jumped`.
+  /// Sets a posed person's skeleton for the end of the next tick (m, world frame). The pose is used without
+  /// corrections, and leg muscles follow it. Muscles with inertia and wobbling fat feel the motion from the last pose
+  /// to this one, unless the pose has `jumped`. Errors: a stale handle, a walker (Status::missing), a position not
+  /// within 1000 km or a quaternion whose length is not 1 within 1 %, with the segment's name; the old pose then stays.
   Result<void> set_pose(Entity person, const Pose<float>& pose, Arrival arrival = Arrival::moved);
-  /// The person goes, with their muscles; the handles are stale from then on. Errors: a stale handle.
+  /// Removes a person and their muscles. Their handles become stale. Errors: a stale handle.
   Result<void> despawn(Entity person);
 
-  /// Many at once, with the simulation's jobs: the same bits as one by one, in a fraction of the time. `entities` is as
-  /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is
-  /// unchanged; `entities` mean nothing then.
+  /// Spawns many walkers in parallel. The state has the same bits as after spawning them one by one, at a fraction of
+  /// the cost. `entities` receives the handles and must be as long as `people`. All or none: an error states the index
+  /// of the person, and `entities` is then unspecified.
   Result<void> spawn(std::span<const SpawnRequest> people, std::span<Entity> entities);
-  /// The same of many, all or none. Errors: one of them is stale, or named twice.
+  /// Removes many people, all or none. Errors: a stale handle, a person named twice.
   Result<void> despawn(std::span<const Entity> people);
-  /// Asks a person to walk otherwise, from the next step on; speeds far from the present one are reached over several
-  /// steps. A speed of 0 stops, a positive one starts again; what is left out stays, the style among it. Errors: a
-  /// stale handle, a gait out of range; nothing has changed then.
+  /// Changes parts of a walker's gait from the next step on. Unset fields keep their value, including the style. A
+  /// large change of speed takes several steps. Speed 0 stops the walker, and a positive one starts it again. Errors: a
+  /// stale handle, a posed person, a gait out of range.
   Result<void> change_gait(Entity person, const GaitChange& change);
-  /// The same with all of a walk said anew: what is left out is as in a GaitRequest{}.
+  /// Replaces a walker's whole gait from the next step on. Unset fields have the defaults of GaitRequest{}. Errors:
+  /// those of `change_gait`.
   Result<void> set_gait(Entity person, const GaitRequest& gait);
-  /// What a walker is to do, as set_gait takes it; nothing for a stale handle and for posed people.
+  /// Returns the requested gait in the form that `set_gait` takes; nothing for a stale handle or a posed person.
   std::optional<GaitRequest> gait_request(Entity person) const;
-  /// Asks a person to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left), the shorter way round, a
-  /// part of it each step; who stands turns on the spot. Errors: a stale handle, a heading that is not finite;
-  /// nothing has changed.
+  /// Turns a walker to a heading (rad about +Y, 0 toward +Z, positive to the left) by the shorter way, over several
+  /// steps. A standing walker turns on the spot. Errors: a stale handle, a posed person, a heading not within ±10000.
   Result<void> turn_to(Entity person, float heading_rad);
-  /// The same and turn_to of many walkers at once, each named once, with the simulation's jobs. Who cannot walk so (a
-  /// gait out of range, a posed person) is left as they are, and counted in the answer. Errors: a stale handle,
-  /// somebody named twice; nothing has changed.
+  /// Changes gaits and headings of many walkers in parallel. Skips people who cannot walk as requested (a gait out of
+  /// range, a posed person) and returns their number. Errors: a stale handle, a person named twice.
   Result<std::size_t> change_gait(std::span<const WalkChange> changes);
-  /// Asks somebody who stands to step aside: to `left_m` to the left and `ahead_m` ahead of where they stand, negative
-  /// to the right and back; at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.85 m, in proportion to the
-  /// leg. It begins within a quarter of a second and takes two steps of 0.3 to 0.5 s. Errors: a stale handle, a posed
-  /// person, somebody who is to walk, a way out of range; nothing has changed.
+  /// Makes a standing walker step `left_m` to the left and `ahead_m` ahead; negative values are right and back. The
+  /// limits for a leg of 0.85 m are ±0.25 m sideways and ±0.20 m ahead, in proportion to leg length. The motion begins
+  /// within 0.25 s and takes two steps of 0.3 to 0.5 s. Errors: a stale handle, a posed person, a walker with a
+  /// requested speed above 0, a displacement out of range.
   Result<void> step_aside(Entity person, float left_m, float ahead_m);
 
-  /// People become of that state who may (PersonState says who); those who are already are left alone. Returns how
-  /// many of these are in it now. Compact people who are to fall asleep and may not are full. `full` wakes sleepers and
-  /// expands compact people; muscles that begin are within `within_m` of where they would be, by running through the
-  /// last half a second (5 mm), one (1 mm) or two (4 µm) of a person's walk as it now is: 0.6 µs a tick and person.
-  /// From 15 mm on they begin at rest where the person stands in the stride; so do those of people who are turning or
-  /// changing speed, and muscles that follow moments. Level of detail no longer manages whom this puts to sleep.
-  /// Errors: a stale handle, somebody named twice, PersonState::posed; nothing has changed.
+  /// Changes people to a state where PersonState permits it, and returns how many of them are in that state now. A
+  /// compact person who cannot fall asleep becomes full. Level of detail stops managing people whom this puts to sleep.
+  ///
+  /// `full` wakes sleepers and expands compact people. Control points of muscles that begin are within `within_m` of
+  /// those of a person who was never asleep. For that the last 0.5 s (5 mm), 1 s (1 mm) or 2.1 s (4 µm) of the current
+  /// walk are simulated, at 0.6 µs a tick and person. Muscles start at rest, at the person's phase of the stride, if
+  /// `within_m` is 15 mm or more, if the person turns or changes speed, and if their excitation follows moments.
+  /// Errors: a stale handle, a person named twice, PersonState::posed.
   Result<std::size_t> set_state(std::span<const Entity> people, PersonState state, float within_m = 0.005F);
   Result<std::size_t> set_state(Entity person, PersonState state, float within_m = 0.005F) {
     return set_state(std::span(&person, 1), state, within_m);
   }
-  /// Nothing for a stale handle.
+  /// Returns a person's state; nothing for a stale handle.
   std::optional<PersonState> state(Entity person) const { return person_state(world(), person); }
 
-  /// Room for so many people more, beside what they themselves take.
+  /// Reserves entity handles for this many more people. Their rows are allocated when they spawn.
   void reserve(std::size_t people);
 
-  /// Puts a walker elsewhere at once: the point of the walking line beside the foot that bears, and the line's heading
-  /// there (rad, about +Y). Pose and muscles go along, as if the world had been moved under them: no inertia is felt,
-  /// and what the walker is about to do goes on, turned likewise: a walker spawned there has the same bits, but for the
-  /// rounding of places. Ground reaction follows with the next tick. Compact people stay compact, sleepers asleep, but
-  /// for those whom a level of detail put to sleep: they wake. Errors: a stale handle, a posed person, a place not
-  /// within 1000 km, a heading not within ±10000; nothing has changed then.
+  /// Moves a walker at once. `x_m` and `z_m` are the point of the walking line next to the supporting foot, and
+  /// `heading_rad` is the line's heading there (rad about +Y). Pose and muscles move rigidly with it and feel no
+  /// inertia. Pending turns and steps continue, rotated by the same angle. Except for rounding of positions, the walker
+  /// has the same bits as one spawned there. Ground reaction follows in the next tick. Compact people stay compact and
+  /// sleepers asleep, but sleepers under level of detail wake. Errors: a stale handle, a posed person, a position not
+  /// within 1000 km, a heading not within ±10000.
   Result<void> place(Entity person, float x_m, float z_m, float heading_rad);
-  /// The same of many. All or none. Errors: the same, with the number of the person; somebody named twice.
+  /// Moves many walkers, all or none. Errors: those of one walker, with the person's index; a person named twice.
   Result<void> place(std::span<const PlaceRequest> places);
 
-  /// The world's origin moves to (x, 0, z): every place becomes so much less, of people, of muscles and of what they
-  /// remember, and everybody goes on unchanged; no inertia is felt. For worlds of many kilometres: floats are half a
-  /// millimetre apart at 8 km. Shifts of whole multiples of 64 m toward where people are lose no bit of their places.
-  /// Where the host asked things to go (headings, ways aside) is not touched. Ground reaction follows with the next
-  /// tick. Errors: not within 1000 km; nothing has changed then.
+  /// Moves the world's origin to (x, 0, z): subtracts it from every stored position, including motion history. Motion
+  /// is unaffected, and no inertia is felt. Worlds of many kilometres need it, because floats are 0.5 mm apart at 8 km.
+  /// Shifts toward the people by multiples of 64 m are exact. Headings and steps aside that the host requested stay as
+  /// they are. Ground reaction follows in the next tick. Errors: a shift not within 1000 km.
   Result<void> shift_origin(float x_m, float z_m);
 
-  /// People have a feature (Feature) from the next tick on, or no more; who has it already, or has it not, is left
-  /// alone. All or none. Errors: a stale handle, somebody named twice, step events of a posed person (Status::missing);
-  /// nothing has changed.
+  /// Switches a feature of people on or off from the next tick on, all or none. People who have that setting already
+  /// are unchanged. Errors: a stale handle, a person named twice, step events of a posed person (Status::missing).
   Result<void> enable(std::span<const Entity> people, Feature feature, bool on = true);
   Result<void> enable(Entity person, Feature feature, bool on = true) {
     return enable(std::span(&person, 1), feature, on);
   }
-  /// Heel strikes, toe-offs, stops and starts of who is watched, in all ticks of the last `advance` or
-  /// `tick`: in order of time, at the same instant in the order of handles, whatever the threads. Until the next of
-  /// those calls; handles of who went since are stale. No state, but who is watched is: peers watch the same people.
+  /// Returns heel strikes, toe-offs, stops and starts of people with Feature::step_events in all ticks of the last
+  /// `advance` or `tick`, by time and then by handle, on any number of threads. Valid until the next of these calls.
+  /// Handles of people despawned since are stale. Events are not state, but the feature is: peers must enable it for
+  /// the same people.
   std::span<const StepEvent> events() const;
 
-  /// Where these people are on the ground `ahead_s` after the last tick (0 to 0.2 s; a frame's alpha times the tick),
-  /// and where they head, smooth along the walking line: `root_motion` (mobil/systems/poses/roots.h) tells the way
-  /// between two of them. Compact people and sleepers too. Errors, in one line: a stale handle, a time out of range,
-  /// spans not as long as each other; nothing is written then.
+  /// Writes the positions of people on the ground and their headings `ahead_s` after the last tick (0 to 0.2 s; a
+  /// frame's alpha times the tick), smooth along the walking line. `root_motion` (mobil/systems/poses/roots.h) returns
+  /// the motion between two roots. Compact people and sleepers have roots as well. Errors: a stale handle, a time out
+  /// of range, spans of different lengths; nothing is written then.
   Result<void> roots(std::span<const Entity> people, std::span<Root> out, double ahead_s = 0) const;
 
-  /// Sets the leg muscles of these people from the next tick on: lines of action and finite-element bellies of the
-  /// muscles chosen, both legs. With std::nullopt all muscles go. New muscles begin at rest at the person's phase of
-  /// the stride (with inertia: under the load of that moment). Muscles that stay keep their handles. They keep
-  /// displacement and velocity if their cells stay, with a velocity of zero after Method::statics; else they begin at
-  /// rest. If activation begins or ends, the belly's end moves at once. The belly then follows statically, and the
-  /// displayed points fade to it. Inertia that begins during a walk lets the bellies sag. Critical steps and substeps
-  /// are computed again; new choices are set up and kept. All or none, but for changes made before memory ran out.
-  /// Errors: a stale handle, a person named twice, a choice out of range, a step above an individual's critical step,
-  /// which names the muscle and the limit; nothing has changed.
+  /// Sets the leg muscles of people from the next tick on: lines of action and finite-element bellies of the chosen
+  /// muscles of both legs. std::nullopt removes all muscles. New muscles start at rest, at the person's phase of the
+  /// stride (with inertia: under the load of that moment).
+  ///
+  /// Muscles that stay keep their handles. If their cells stay, they keep displacement and velocity (zero velocity
+  /// after Method::statics); if not, they start at rest. If activation begins or ends, the belly's end moves at once,
+  /// the belly follows statically, and the displayed points fade to it. Bellies sag if inertia begins during a walk.
+  /// Critical steps and substeps are computed again. Shared tables of a new choice are made and kept.
+  ///
+  /// All or none, except changes made before memory ran out. Errors: a stale handle, a person named twice, a choice out
+  /// of range, a step above an individual's critical step, with the muscle and the limit.
   Result<void> set_muscles(std::span<const Entity> people, const std::optional<LegMuscles>& choice);
   Result<void> set_muscles(Entity person, const LegMuscles& choice = {}) {
     return set_muscles(std::span(&person, 1), choice);
   }
   Result<void> set_muscles(Entity person, std::nullopt_t none) { return set_muscles(std::span(&person, 1), none); }
 
-  /// Another method for one muscle, both sides, from the next tick on; the person's other choices hold. All or none,
-  /// but for changes made before memory ran out. The displayed control points show no jump in displacement or velocity:
-  /// the difference to the new method's start is added to its results and fades within `fade_s`. Errors: a stale
-  /// handle, a muscle that is not there, a choice out of range; nothing has changed.
+  /// Changes the method of one muscle, both sides, from the next tick on. The person's other choices stay. The
+  /// displayed control points have no jump in displacement or velocity: their difference from the new method's start is
+  /// added to its results and fades within `fade_s`. All or none, except changes made before memory ran out. Errors: a
+  /// stale handle, a muscle that is not there, a choice out of range.
   Result<void> set_method(std::span<const Entity> people, Muscle muscle, const MuscleMethod& method);
   Result<void> set_method(Entity person, Muscle muscle, const MuscleMethod& method) {
     return set_method(std::span(&person, 1), muscle, method);
   }
-  /// Current method; Method::none if the person has no such muscle.
+  /// Returns the current method of a muscle; Method::none if the person has no such muscle.
   MuscleMethod method(Entity person, Muscle muscle) const;
 
-  /// How hard a muscle is to pull from the next tick on, a share of the most that it can: for muscles chosen with
-  /// ExcitationSource::host, which begin at 0.01, or where another source left them. It holds until it is set again;
-  /// what lies outside 0.01 to 1 is taken as that end. Activation follows with 5 to 20 ms, or 20 to 78 when it falls.
-  /// A number for each; all or none. Errors: a stale handle, a muscle that is not there or not the host's to excite
-  /// (Status::missing), a number that is not finite; nothing has changed.
+  /// Sets the excitation of a muscle from the next tick on, a fraction of the maximum: one value for each person,
+  /// clamped to 0.01 to 1. The muscle must have ExcitationSource::host. It begins at 0.01, or at the value that another
+  /// source left, and a value holds until it is set again. Activation follows with a time constant of 5 to 20 ms, or 20
+  /// to 78 ms when it falls. All or none. Errors: a stale handle, a muscle that is not there or has another source
+  /// (Status::missing), a value that is not finite.
   Result<void> set_excitation(std::span<const Entity> people, Muscle muscle, Side side,
                               std::span<const float> excitation);
   Result<void> set_excitation(Entity person, Muscle muscle, Side side, float excitation) {
     return set_excitation(std::span(&person, 1), muscle, side, std::span(&excitation, 1));
   }
 
-  /// Who keeps out of each other's way, where the ground is, how finely whose muscles are computed, and the meshes and
-  /// bases that muscles share: verbs of one subject each, in mobil/avoidance.h, mobil/terrain.h, mobil/lod.h and
-  /// mobil/muscle_library.h. Each is valid as long as the simulation, also once that has been moved.
+  /// Interfaces of one subject each: collision avoidance between walkers, the ground, level of detail, and the meshes
+  /// and bases that muscles share (mobil/avoidance.h, mobil/terrain.h, mobil/lod.h, mobil/muscle_library.h). They stay
+  /// valid as long as the simulation, also after it is moved.
   Avoidance avoidance();
   Terrain terrain();
   Lod lod();
   MuscleLibrary muscle_library() const;
 
-  /// Runs as many whole ticks as fit into the accumulated time. Where a phase throws, the ticks that have not run are
-  /// run by the next call.
+  /// Adds the time of a frame, s, and runs as many whole ticks as fit into the accumulated time. If a phase throws, the
+  /// remaining ticks run in the next call.
   Ticks advance(double seconds);
   /// Runs `count` ticks.
   void tick(std::uint32_t count = 1);
-  /// Ticks run so far.
+  /// Number of ticks run so far.
   std::uint32_t ticks() const;
   /// Length of a tick, s.
   double tick_s() const;
-  /// Time simulated so far, s.
+  /// Simulated time so far, s.
   double time_s() const { return ticks() * tick_s(); }
-  /// What the last tick cost, and all of them, system by system.
+  /// Returns the time of each system and phase in the last tick, and in all ticks.
   StepReport report() const;
-  /// The state alone as bytes, in the caller's memory: all rows and handles, the tick and the time fed since. Neither
-  /// scene nor meshes nor bases: those are made again where they are missing. `save` says how many bytes it wrote,
-  /// `snapshot_bytes` of them, and takes memory only for resources that no snapshot had met before. Errors: too little
-  /// room; a shared resource that no module names.
+  /// Returns the size of a snapshot, bytes. It contains all rows and handles, the tick and the time accumulated since.
+  /// It does not contain the scene, nor meshes and bases: `restore` makes those that are missing.
   std::size_t snapshot_bytes() const;
-  /// Writes the snapshot; see `snapshot_bytes`.
+  /// Writes a snapshot to the caller's memory and returns its size, bytes. Allocates only for resources that no earlier
+  /// snapshot contained. Errors: too little room, a shared resource that no module names.
   Result<std::size_t> save(std::span<std::byte> out) const;
-  /// Restores what was saved to the last bit, handles included, here or in another simulation whose tick is as long and
-  /// which has the modules of the rows saved, in the same versions; where rows and people are as many as they were,
-  /// without taking memory. Bytes are never trusted: what was cut, altered or made by another format version is refused
-  /// in one line, and so is what does not fit in memory or is beyond the limits; the simulation is then unchanged
-  /// (meshes made on the way stay, for the next time). Threads and reports are not state.
+  /// Restores a snapshot bit for bit, handles included, in this or another simulation. Both must have the same tick
+  /// length, and the same versions of the modules of all saved rows. Allocates nothing if the numbers of rows and
+  /// people are the same as now. Bytes are never trusted: the call refuses truncated or altered ones, another format
+  /// version, and a snapshot that exceeds memory or `limits`. The simulation is then unchanged, but keeps meshes made
+  /// so far for the next attempt. Threads and reports are not state.
   Result<void> restore(std::span<const std::byte> in, const RestoreLimits& limits = {});
-  /// Hash of the whole state; independent of spawn order, row order and handles (engine/state_hash.h).
+  /// Returns a hash of the whole state, independent of spawn order, row order and handles (engine/state_hash.h).
   std::uint64_t state_hash() const;
-  /// The same without the tick and without globals, as a sum over all people: those of the simulations that a crowd is
-  /// divided into may be added up (state_hash_of in engine/state_hash.h).
+  /// Returns a hash without tick and globals, as a sum over all people. The sums of simulations that share a crowd can
+  /// be added (state_hash_of in engine/state_hash.h).
   std::uint64_t state_sum() const;
 
-  /// An entity's row of a component, or why there is none: get<Pose>(person).
+  /// Returns an entity's row of a component, get<Pose>(person). Errors: a stale handle, no such component.
   template <template <class> class C>
   Result<C<float>> get(Entity entity) const {
     Result<C<float>> row{tl::in_place};
     if (const Status status = read(entity, component_id<C>(), &*row); status != Status::ok) return fail(status);
     return row;
   }
-  /// The value of an entity's tag.
+  /// Returns the value of an entity's tag.
   template <class Tag>
   Result<std::uint64_t> get(Entity entity) const {
     static_assert(!is_row<Tag>, "name the component without its number type: get<Pose>(entity)");
@@ -275,26 +274,27 @@ class Simulation {
     return value;
   }
 
-  /// The host's own parts on people and muscles, and entities of its own (mobil/host_parts.h).
+  /// Returns access to the host's own parts on people and muscles, and to its own entities (mobil/host_parts.h).
   HostParts parts();
 
-  /// A person with body and plans of muscles, made when asked for (some microseconds); nothing for a stale handle.
+  /// Computes a person's body and muscle plans, in some microseconds; nothing for a stale handle.
   std::optional<Person> person(Entity entity) const;
-  /// All people, in the order of their rows; until somebody comes or goes.
+  /// Returns all people in the order of their rows, which holds until a person is spawned or despawned.
   std::vector<Entity> people() const;
-  /// False for a stale handle and for entities that are not people.
+  /// Returns true for people; false for other entities and stale handles.
   bool is_person(Entity entity) const;
-  /// A person's muscles in the table's order; empty for a stale handle, without muscles, asleep and compact.
+  /// Returns a person's muscles in the order of the muscle table; empty for a stale handle, for a person without
+  /// muscles, and for compact people and sleepers.
   std::vector<MuscleRef> muscles(Entity person) const;
-  /// A person's muscle; a stale handle where there is none.
+  /// Returns the handle of a person's muscle; a stale handle if the person has no such muscle.
   Entity muscle(Entity person, Muscle muscle, Side side) const;
 
-  /// All tables, to be read.
+  /// Returns all tables for reading.
   const World& world() const;
-  /// All systems, in the order in which they run; timings can be reset and read.
+  /// Returns all systems in the order in which they run. Timings can be read and reset.
   Schedule& schedule();
   const Schedule& schedule() const;
-  /// The library's, then the host's.
+  /// Returns the library's modules, then the host's.
   std::span<const Module> modules() const;
 
  private:

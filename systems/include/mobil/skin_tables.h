@@ -1,8 +1,8 @@
 #pragma once
-// Tables for skin over muscles that nobody simulates, made from muscles that are.
+// Makes tables for skin over muscles that are not simulated, from simulated muscles.
 //
 //   SkinTables tables;
-//   request.table = *tables.of(body);   // each person, once; SkinRequest
+//   request.table = *tables.of(body);   // SkinRequest, once for each person
 //   skin_writer.write(simulation.world(), requests);
 
 #include <map>
@@ -15,17 +15,17 @@
 
 namespace mobil::inline v0_3 {
 
-/// A table for a body, from its groups of muscles at rest in walks from 0.7 to 1.9 m/s and in poses anywhere within the
-/// table's angles. Lifts are in m of that body: for skins of SkinShape it must be as tall as `skin_body`. A second.
-/// Errors: as make_body; limbs of their own (BodyRequest::limbs); no memory.
+/// Makes a table for a body from its muscle groups: at rest, in walks from 0.7 to 1.9 m/s, and in poses within the
+/// table's angles. Lifts are in m of that body, so for SkinShape it must be as tall as `skin_body`. Takes one second.
+/// Errors: those of make_body, individual limb lengths (BodyRequest::limbs), out of memory.
 Result<std::unique_ptr<SkinTable>> make_skin_table(const BodyRequest& body);
 
-/// Tables that people of about one build share.
+/// Tables that people of similar build share. Not thread-safe.
 class SkinTables {
  public:
-  /// For a body: made for its sex and a body mass index within 1.5 kg/m² of its own, between 13.5 and 64.5 kg/m²;
-  /// limbs of their own are not followed. A second for the first of a build. Good as long as this lives. Errors: as
-  /// make_body. Not for several threads at once.
+  /// Returns a table for a body, made for its sex and a body mass index within 1.5 kg/m² of its own, between 13.5 and
+  /// 64.5 kg/m². Individual limb lengths are ignored. The first table of a build takes one second. Valid as long as
+  /// this object. Errors: those of make_body.
   Result<const SkinTable*> of(const BodyRequest& body);
 
  private:

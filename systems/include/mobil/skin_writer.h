@@ -1,13 +1,13 @@
 #pragma once
-// People's skin as vertices: positions and unit normals into the caller's buffers.
+// Writes people's skin as vertices: positions and unit normals into the caller's buffers.
 //
-//   BodySkins skins;                                             // keeps what many share
-//   const SkinShape shape = *skins.of(body, SkinDetail::near);   // each person, once
+//   BodySkins skins;                                             // stores shared skins
+//   const SkinShape shape = *skins.of(body, SkinDetail::near);   // once for each person
 //   SkinWriter writer;
 //   SkinRequest one{person, shape, {buffer, 24}, {buffer.subspan(12), 24}};
 //   writer.write(simulation.world(), {&one, 1}, jobs);           // each frame
 //
-// Triangles are skin_mesh(sex, detail)'s (mobil/assets/surfaces/body_skin.h), the same for all men and for all women.
+// The triangles are those of skin_mesh(sex, detail) (mobil/assets/surfaces/body_skin.h), one set for each sex.
 
 #include <array>
 #include <map>
@@ -28,22 +28,22 @@
 
 namespace mobil::inline v0_3 {
 
-/// A skin, and by how much a person is taller than the body that it was made for.
+/// A skin, and the ratio of the person's height to that of the skin's body.
 struct SkinShape {
   const BodySkin* skin = nullptr;
   float lengths = 1;
 };
 
-/// Skins that people of about one build share.
+/// Skins that people of similar build share. Not thread-safe.
 class BodySkins {
  public:
   explicit BodySkins(const SkinDress& dress = {}) : dress_(dress) {}
 
-  /// A skin for a body: made for its sex and a body mass index near its own, and as much larger as it is taller. Near
-  /// by that is within 0.75 kg/m² (1.5 % of its girths), from afar within 1.5, between 13.5 and 64.5 kg/m²; beyond, as
-  /// there. Limbs of their own are not followed: what they are longer by is drawn out at the joints. A quarter of a
-  /// second for the first of a build, half a second in full detail. Good as long as this lives. Errors: as make_body.
-  /// Not for several threads at once.
+  /// Returns a skin for a body, made for its sex and a similar body mass index and scaled by height. The index is
+  /// within 0.75 kg/m² (1.5 % of its girths) for near skins and 1.5 for distant ones, between 13.5 and 64.5 kg/m²;
+  /// values beyond are clamped. Individual limb lengths are ignored: longer limbs stretch the skin at the joints. The
+  /// first skin of a build takes 0.25 s, or 0.5 s in full detail. Valid as long as this object. Errors: those of
+  /// make_body.
   Result<SkinShape> of(const BodyRequest& body, SkinDetail detail);
 
  private:
@@ -52,31 +52,31 @@ class BodySkins {
   std::map<std::tuple<Sex, SkinDetail, int>, std::unique_ptr<BodySkin>> skin_;
 };
 
-/// One person with a skin, whose fat wobbles where they have the effect (Feature::fat) and are awake and
-/// whole. Positions in m, world axes, from `origin_m`, as of SurfaceRequest; normals may be left out.
+/// One person with a skin. The fat of full people with Feature::fat wobbles. Positions are in m and world axes,
+/// relative to `origin_m` as in SurfaceRequest. Normals are optional.
 struct SkinRequest {
   Entity person;
   SkinShape shape;
   VertexStream positions{}, normals{};
   Vec3<float> origin_m{0, 0, 0};
-  /// The vertices of each leg's muscles, by Side, in the world whatever `origin_m` is, as a SurfaceWriter wrote them;
-  /// none: the leg is as `table` says. A tenth of them serves (SurfaceChoice::detail); SurfaceChoice::sides binds each
-  /// side by itself.
+  /// Vertices of each leg's muscles, by Side, as a SurfaceWriter wrote them, always relative to the world's origin. If
+  /// empty, `table` shapes the leg. A detail of 0.1 is enough (SurfaceChoice::detail). SurfaceChoice::sides binds each
+  /// side separately.
   std::array<std::span<const Vec3<float>>, 2> muscles{};
-  /// Legs without vertices of muscles move as if they had some. Of the person's sex and build (SkinTables::of); good
-  /// until `write` returns. Null: they do not.
+  /// Table that shapes legs without vertices of muscles, for the person's sex and build (SkinTables::of). It must stay
+  /// valid until `write` returns. Null: those legs have no muscle shape.
   const SkinTable* table = nullptr;
-  const Pose<float>* pose = nullptr;  // Simulation::get<Pose> of who is compact or asleep; null: that on their row
+  const Pose<float>* pose = nullptr;  // null: that of the row; compact people and sleepers need get<Pose>
 };
 
 class SkinWriter {
  public:
   explicit SkinWriter(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-  /// Writes each request's vertices, as they are after the last tick, with `jobs`; the same bytes for any number of
-  /// threads. Streams of different requests must not lie over each other, which is not looked at. Errors, in one line
-  /// that names the request, before anything is written: a stale person, one without a pose on their row where none is
-  /// given (Status::missing), no skin, a stride or a buffer that is too small.
+  /// Writes the vertices of each request after the last tick, with `jobs`. The bytes are the same for any number of
+  /// threads. Streams of different requests must not overlap, which is not checked. Errors name the request and precede
+  /// any writing: a stale handle, a person without a pose when none is given (Status::missing), no skin, a stride or a
+  /// buffer that is too small.
   Result<void> write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs = {});
 
  private:

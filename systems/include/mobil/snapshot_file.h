@@ -1,10 +1,10 @@
 #pragma once
-// Snapshots in files, and a window of the last ticks to go back to. Snapshots themselves: Simulation::save and restore.
+// Snapshots in files, and rollback over the last ticks. Simulation::save and restore make the snapshots themselves.
 //
 //   Rollback window(8);
-//   window.keep(simulation);            // each tick, before it
+//   window.keep(simulation);            // before each tick
 //   …
-//   window.back(simulation, 5);         // as it was before the fifth tick from now; what came after is forgotten
+//   window.back(simulation, 5);         // the state before the last five ticks; later snapshots are discarded
 
 #include <cstddef>
 #include <filesystem>
@@ -15,26 +15,26 @@
 
 namespace mobil::inline v0_3 {
 
-/// Written beside the target, made safe on the disk and then put in its place: whenever the program is killed, there is
-/// the last good file, or this one whole. Errors, one line each: a folder that is not there or not writable, a full
-/// disk, what `save` refuses; what was there stays.
+/// Writes a snapshot to a file. The data is written next to the target, flushed to disk and then renamed, so that a
+/// killed program leaves the last good file or the complete new one. Errors: a folder that is missing or not writable,
+/// a full disk, the errors of `save`; an existing file then stays.
 Result<void> save_file(const Simulation& simulation, const std::filesystem::path& path);
-/// Errors: a file that cannot be read, what `restore` refuses; the simulation is unchanged. Without limits on how large
-/// a crowd is or how fine its meshes are: the file is one's own.
+/// Restores a snapshot from a file. The default has no limits on crowd and mesh sizes, because the file is trusted.
+/// Errors: a file that cannot be read, the errors of `restore`; the simulation is then unchanged.
 Result<void> restore_file(Simulation& simulation, const std::filesystem::path& path,
                           const RestoreLimits& limits = RestoreLimits::none());
 
-/// The last snapshots of one simulation, in memory of its own that grows with the crowd and is kept.
+/// The last snapshots of one simulation, in memory that grows with the crowd and is reused.
 class Rollback {
  public:
   explicit Rollback(std::size_t ticks) : kept_(ticks) {}
 
-  /// The oldest gives way once there are as many as asked for.
+  /// Adds a snapshot and replaces the oldest one when `ticks` are stored. Errors: those of `save`.
   Result<void> keep(const Simulation& simulation);
-  /// How many can be gone back.
+  /// Number of stored snapshots.
   std::size_t depth() const { return depth_; }
-  /// Restores the `times`-th most recent snapshot (1: the latest). That one and those after it are forgotten:
-  /// running on, they are kept anew. Errors: not so many kept, what `restore` refuses; the simulation is unchanged.
+  /// Restores the `times`-th most recent snapshot (1: the latest), and discards it and all later ones. The following
+  /// ticks add them again. Errors: fewer snapshots stored, the errors of `restore`; the simulation is then unchanged.
   Result<void> back(Simulation& simulation, std::size_t times);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What simulating costs, phase by phase and system by system.
+// Time of a tick by phases and systems.
 
 #include <cstdint>
 #include <string_view>
@@ -7,33 +7,33 @@
 
 namespace mobil::inline v0_3 {
 
-/// What one system cost: time of all threads together, and entities that it worked on.
+/// Time of one system, summed over all threads, and the number of entities that it processed.
 struct SystemReport {
-  std::string_view name, module;  // good as long as the simulation
+  std::string_view name, module;  // valid as long as the simulation
   double seconds = 0;             // in the last tick
   std::uint64_t entities = 0;
   double total_seconds = 0;  // in all ticks since the schedule's timings were last reset
   std::uint64_t total_entities = 0;
 };
 
-/// Time of one phase of a tick (mobil/engine/phase.h), of the thread that ticks.
+/// Time of one phase of a tick (mobil/engine/phase.h), on the thread that calls `tick`.
 struct PhaseReport {
-  std::string_view name, module;  // good as long as the simulation
-  bool after = false;             // the systems; else before them
+  std::string_view name, module;  // valid as long as the simulation
+  bool after = false;             // true: after the systems; false: before them
   double seconds = 0;             // in the last tick
   double total_seconds = 0;       // in all ticks since the schedule's timings were last reset
 };
 
-/// All of a tick, in the order of running. A system that matches no table reports 0 entities and 0 s.
+/// All systems and phases of a tick, in the order of execution. A system that matches no table has 0 entities and 0 s.
 struct StepReport {
   std::uint32_t ticks = 0;  // run so far
   std::vector<SystemReport> systems;
-  /// Bellies that were not finite at a tick's end and began anew, usually because a system of the host wrote NaN or
-  /// infinity: in the last tick, and in all since timings were last reset.
+  /// Number of bellies that were reset because they were not finite at the end of a tick: in the last tick, and since
+  /// timings were last reset. The usual cause is a system of the host that wrote NaN or infinity.
   std::uint64_t restarted_bellies = 0, total_restarted_bellies = 0;
-  /// People beyond a limit of joints, ground or pelvis while they change their walk, sleepers left out
+  /// Number of people, except sleepers, who violate a limit of joints, ground or pelvis while they change their walk
   /// (mobil/systems/limits/limit_monitor.h): in the last tick, and summed over all ticks since timings were last reset.
-  /// `limit_violations` tells which limits.
+  /// The function `limit_violations` returns the limits of a person.
   std::uint64_t limit_violations = 0, total_limit_violations = 0;
   std::vector<PhaseReport> phases{};
 };

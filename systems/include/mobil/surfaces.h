@@ -1,14 +1,14 @@
 #pragma once
-// People's surfaces as vertices: positions and unit normals into the caller's buffers.
+// Writes people's bones and muscles as vertices: positions and unit normals into the caller's buffers.
 //
 //   const auto bound = bind_surfaces(usual);                    // once: part, index, vertices (body_surfaces.h)
 //   const auto fit = fit_surfaces(*bound, body);                // each body
-//   SurfaceWriter writer;                                       // keeps what it works in
+//   SurfaceWriter writer;                                       // keeps its scratch memory
 //   SurfaceRequest one{person, muscles, &*bound, {buffer, 24}, {buffer.subspan(12), 24}, {}, &fit};
 //   writer.write(simulation.world(), {&one, 1}, jobs);          // each frame
 //
-// Triangles never change. Normals are the means of the vertices' triangles' normals weighted by their areas, on the
-// surface as it is deformed now.
+// Triangles never change. A vertex normal is the area-weighted mean of the normals of its triangles on the deformed
+// surface.
 
 #include <cstddef>
 #include <memory_resource>
@@ -25,53 +25,51 @@
 
 namespace mobil::inline v0_3 {
 
-/// One of a person's muscles, by Side: of Simulation::person, or of Simulation::muscle for each side.
+/// One of a person's muscles, with its entity by Side (Simulation::person, or Simulation::muscle for each side).
 struct SurfaceMuscle {
   Muscle muscle{};
   std::array<Entity, 2> entity;
 };
 
-/// One person, with the surfaces of a body like theirs. Positions in m, world axes, from `origin_m`, which is
-/// subtracted before anything is placed: far from the world's origin give a point near the person, for floats are half
-/// a millimetre apart at 8 km. Normals may be left out (no bytes), and tangents, which are four floats a vertex (stride
-/// at least 16), as glTF has them: the unit direction in which TexturePlace::along grows, at right angles to the
-/// normal, and ±1, of the side of normal × tangent where `around` grows. They need surfaces that were chosen
-/// `textured`.
+/// One person, with the surfaces of a similar body. Positions are in m and world axes, relative to `origin_m`, which is
+/// subtracted before anything is placed. Far from the world's origin use a point near the person, because floats are
+/// 0.5 mm apart at 8 km. Normals and tangents are optional (no bytes). A tangent has four floats (stride at least 16),
+/// as in glTF: the unit direction in which TexturePlace::along grows, perpendicular to the normal, and the sign (±1) of
+/// normal × tangent in which `around` grows. Tangents require `textured` surfaces.
 struct SurfaceRequest {
   Entity person;
-  std::span<const SurfaceMuscle> muscles;  // all that drive the surfaces; more are ignored
+  std::span<const SurfaceMuscle> muscles;  // all that drive the surfaces; others are ignored
   const BodySurfaces* surfaces = nullptr;
   VertexStream positions{}, normals{};
   Vec3<float> origin_m{0, 0, 0};
-  const SurfaceFit* fit = nullptr;  // of surfaces that were bound to another body; null: to one like theirs
+  const SurfaceFit* fit = nullptr;  // for surfaces bound to another body; null: bound to a similar one
   VertexStream tangents{{}, 4 * sizeof(float)};
 };
 
-/// Writes the vertices of bones and muscles for many people at once. It keeps what it works in; one thread uses it at a
-/// time.
+/// Writes the vertices of bones and muscles of many people. It keeps its scratch memory, and one thread at a time can
+/// use it.
 class SurfaceWriter {
  public:
   explicit SurfaceWriter(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-  /// Writes each request's vertices, as they are after the last tick, with `jobs`; the same bytes for any number of
-  /// threads. Streams of different requests must not lie over each other, which is not looked at. A muscle without
-  /// control points (Method::none, or nobody asked for them) is drawn as it is at rest, as much longer as its line is.
-  /// Takes memory only where there are more requests or larger surfaces than ever before. Errors, in one line that
-  /// names the request, before anything is written: a stale person or muscle; a person without a pose (Status::missing:
-  /// who is compact or asleep); a driving muscle that is not in the list, another person's, or of other cells than the
-  /// surfaces were bound to; a stride or a buffer that is too small, streams that lie over each other, tangents without
-  /// normals or of surfaces that are not textured.
+  /// Writes the vertices of each request after the last tick, with `jobs`. The bytes are the same for any number of
+  /// threads. Streams of different requests must not overlap, which is not checked. A muscle without control points
+  /// (Method::none, or switched off) has its rest shape, stretched to its line of action. Allocates only for more
+  /// requests or larger surfaces than in any earlier call. Errors, with the index of the request and before anything is
+  /// written: a stale person or muscle; a person without a pose (Status::missing: compact or asleep); a driving muscle
+  /// that is not in the list, belongs to another person, or has other cells than the bound surfaces; a stride or a
+  /// buffer that is too small; streams of one request that overlap; tangents without normals or textured surfaces.
   Result<void> write(const World& world, std::span<const SurfaceRequest> requests, const Jobs& jobs = {});
 
  private:
   struct Line {
     const float* line = nullptr;  // a lane of LineOfAction
-    const float* pull = nullptr;  // and of Musculotendon; null: none
-    const float* node = nullptr;  // and of control points; null: none
+    const float* pull = nullptr;  // a lane of Musculotendon, or null
+    const float* node = nullptr;  // a lane of control points, or null
   };
   struct Resolved {
     const float* pose = nullptr;  // a lane of Pose
-    std::size_t first_line = 0;   // two a driver
+    std::size_t first_line = 0;   // two for each driver
   };
   struct Work;
 

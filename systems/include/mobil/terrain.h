@@ -1,6 +1,6 @@
 #pragma once
-// Walkers on ground that is not level: slopes, kerbs, stairs, fields. A host answers how high the ground is; feet then
-// stand on it, tilted as it is, and pass over what lies between two footholds.
+// Walkers on uneven ground: slopes, kerbs, stairs, fields. The host returns the height of the ground. Feet then stand
+// on it at its tilt, and clear obstacles between two footholds.
 //
 //   Simulation simulation;
 //   simulation.terrain().set_heights([&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
@@ -9,10 +9,9 @@
 //   simulation.terrain().manage({&person, 1});
 //   simulation.advance(frame_seconds);
 //
-// The ground is asked for once a step and person: under the foothold to come and a little behind and ahead of it, for
-// feet keep clear of edges, and along the way of the foot to it. The
-// answers are state on the person's row (mobil/components/footing.h), so a restored world uses the same ones. Who is
-// not managed walks on the plane y = 0 and costs what they did.
+// Each step queries the ground once: under the next foothold, slightly behind and ahead of it because feet avoid edges,
+// and along the path of the foot. The heights are state on the person's row (mobil/components/footing.h), so a restored
+// world uses the same ones. Unmanaged people walk on the plane y = 0 at no extra cost.
 
 #include <cstddef>
 #include <functional>
@@ -25,69 +24,70 @@
 
 namespace mobil::inline v0_3 {
 
-/// Where the ground is asked for, m, and by whom.
+/// A query: a position on the ground, m, and the person who will step there.
 struct TerrainQuery {
   float x_m, z_m;
   Entity person;
 };
 
-/// The ground there: its height, m; how much it rises toward +X and toward +Z, m per m. Of a normal n: −n.x/n.y and
-/// −n.z/n.y.
+/// The ground at a queried position: height, m, and slopes toward +X and +Z, m per m. From a normal n the slopes are
+/// −n.x/n.y and −n.z/n.y.
 struct TerrainHeight {
   float height_m = 0, rise_x = 0, rise_z = 0;
 };
 
-/// Answers all queries of a tick at once, on the thread that ticks; `out` is as long and all zero. Heights within ±100
-/// km; rises within ±1, steeper ones are taken as that. Instead of an answer that is not a number the plane of another
-/// under the same sole is taken, or level ground at the height of the last foothold. Must not change the simulation.
-/// A run can be repeated if the same places get the same answers.
+/// Resolves all queries of a tick at once, on the thread that calls `tick`. `out` is as long as `at` and initially
+/// zero. Heights must be within ±100 km, and slopes are clamped to ±1. An unusable height is replaced by the plane of
+/// another query under the same sole, or by level ground at the height of the last foothold. The function must not
+/// change the simulation. Runs are reproducible if it always returns the same ground.
 using TerrainHeights = std::function<void(std::span<const TerrainQuery> at, std::span<TerrainHeight> out)>;
 
-/// What became of the ground in all ticks of the last `advance` or `tick`: people on it in the last of them; how often
-/// somebody's ground was asked for, at how many places; and how many answers were not numbers or out of range.
+/// Counts of all ticks of the last `advance` or `tick`: managed people (of the last tick), queried steps, queried
+/// positions, and heights that were not finite or out of range.
 struct TerrainReport {
   std::size_t people = 0, asked = 0, places = 0, unusable = 0;
 };
 
-/// `slows_down`: walkers slow down on slopes and stairs (assets/gait/slope_pace.h), one step after their feet come
-/// there, and go on as asked where it is level. Their Gait then is the slower one; a gait asked for meanwhile is one
-/// for level ground. Avoidance slows what it wants.
+/// With `slows_down` walkers reduce their speed on slopes and stairs (assets/gait/slope_pace.h), one step after their
+/// feet get there, and resume the requested gait on level ground. Their Gait is then the slower one, and a gait
+/// requested meanwhile is for level ground. Avoidance scales its desired velocities.
 struct TerrainOptions {
   bool slows_down = false;
 };
 
 struct TerrainWork;  // systems/terrain/terrain.cpp
 
-/// The ground of a simulation (Simulation::terrain). Each tick asks for the ground of those whose next foothold is new,
-/// or whose ground is not known: who was placed elsewhere, who woke. Takes memory where more people are asked for at
-/// once than ever before.
+/// Interface to the ground of a simulation (Simulation::terrain). Each tick queries the ground of people with a new
+/// next foothold, and of people whose ground is unknown after they were placed or woke. It allocates only if more
+/// people are queried at once than before. A call that fails changes nothing.
 class Terrain {
  public:
   explicit Terrain(const Frame& frame) : frame_(frame) {}
 
-  /// Answers from now on. Without a function, or with an empty one, ticks ask nothing: use `ask` and `answer`. It is no
-  /// state: a simulation that restores a snapshot keeps its own.
+  /// Sets the function that resolves queries from now on. Without one, or with an empty one, ticks query nothing; use
+  /// `query` and `resolve`. It is not state: a simulation that restores a snapshot keeps its own.
   void set_heights(TerrainHeights heights);
-  /// From the next answers on. Who is slowed and should no more be goes on as asked within a step.
+  /// Sets the options from the next resolved queries on. If `slows_down` is switched off, slowed walkers resume the
+  /// requested gait within a step.
   void set_options(const TerrainOptions& options);
 
-  /// From now on these walkers are on that ground; their pose follows it from the next tick on. All or none. Errors: a
-  /// stale handle, a posed person (Status::missing); nothing has changed.
+  /// Puts walkers on that ground. Their pose follows it from the next tick on. Sleepers and compact people become full.
+  /// All or none. Errors: a stale handle, a posed person (Status::missing).
   Result<void> manage(std::span<const Entity> people);
-  /// No more: from the next tick on they walk on the plane y = 0. All or none. Errors: a stale handle, somebody who is
-  /// not managed (Status::missing).
+  /// Returns walkers to the plane y = 0 from the next tick on. All or none. Errors: a stale handle, a person who is not
+  /// managed (Status::missing).
   Result<void> release(std::span<const Entity> people);
 
-  /// For a host whose ground is not a function: it lies in another language, or is looked up by jobs of its own. Gives
-  /// the places of the next tick, and changes nothing; they are good until the next call of this kind.
+  /// Returns the queries of the next tick, for a host whose ground is not a function: in another language, or found by
+  /// its own jobs. Changes nothing. Valid until the next `query`.
   std::span<const TerrainQuery> query();
-  /// The ground at the places of the last `ask`, in their order, once, and before the next tick: a foot jumps that
-  /// hears later how high its foothold is. Until then the last height holds. Who has gone or taken a step since then is
-  /// left as they are, and asked for again. Returns how many answers were unusable. Errors: not as many as were asked
-  /// for (Status::not_valid); nothing has changed.
+  /// Sets the ground at the positions of the last `query`, in their order, once, and before the next tick. Until then
+  /// the last height holds, and a foot whose foothold is resolved later jumps. People who were removed or took a step
+  /// since are skipped and queried again. Returns the number of unusable heights. Errors: a number of heights other
+  /// than that of the queries (Status::not_valid).
   Result<std::size_t> resolve(std::span<const TerrainHeight> heights);
 
-  /// What was asked in all ticks of the last `advance` or `tick`.
+  /// Returns the counts of all ticks of the last `advance` or `tick`.
   const TerrainReport& report() const;
 
  private:

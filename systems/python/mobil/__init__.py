@@ -1,4 +1,4 @@
-"""mobil: crowds of people who walk, and whose leg muscles deform as they do.
+"""mobil: crowds of walking people with deforming leg muscles.
 
     import mobil
     world = mobil.World()
@@ -11,7 +11,7 @@
 
     mobil.plot_walk(mobil.walk(height_m=1.8, mass_kg=80, speed_m_s=1.39))
 
-SI units, radians. People are numpy arrays of handles; what is read goes into numpy arrays, yours where you give `out`.
+SI units, radians. People are numpy arrays of handles. Results are numpy arrays, or are written to `out` if given.
 """
 
 from ._library import Error, MissingError, OutOfMemoryError, RefusedError, StaleError, lib, text

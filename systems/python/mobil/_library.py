@@ -1,4 +1,4 @@
-"""The C interface (mobil.h), and its failures as exceptions."""
+"""The C interface (mobil.h), with errors as exceptions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _NAME = "libmobil.so"
 
 
 class Error(Exception):
-    """What the library refused: one line that says what, the valid range, and how to mend it."""
+    """A refused call: one line with the mistake, the valid range and the remedy."""
 
     def __init__(self, code: int, line: str) -> None:
         super().__init__(line)
@@ -21,11 +21,11 @@ class Error(Exception):
 
 
 class StaleError(Error, LookupError):
-    """Somebody who is gone, or never was."""
+    """A stale or invalid handle."""
 
 
 class MissingError(Error, LookupError):
-    """Somebody has no such thing."""
+    """The person does not have it."""
 
 
 class RefusedError(Error, ValueError):
@@ -33,11 +33,11 @@ class RefusedError(Error, ValueError):
 
 
 class OutOfMemoryError(Error, MemoryError):
-    """There is no memory for it."""
+    """Out of memory."""
 
 
 def _declarations(header: pathlib.Path) -> str:
-    """What cffi reads of the header and its parts: no comments, no conditions, no macros but numbers."""
+    """Returns the header and its parts for cffi, without comments, conditions and macros other than numbers."""
     text = re.sub(
         r"#include <mobil/(c/\w+\.h)>",
         lambda part: (header.parent / part[1]).read_text(encoding="utf-8"),
@@ -52,7 +52,7 @@ def _declarations(header: pathlib.Path) -> str:
 
 
 def _find() -> pathlib.Path | str:
-    """MOBIL_LIBRARY where it is set; beside this file, as in a wheel; else what the system has."""
+    """Returns MOBIL_LIBRARY if set, or the library next to this file, as in a wheel, or the system's."""
     named = os.environ.get("MOBIL_LIBRARY")
     if named:
         return named
@@ -83,17 +83,17 @@ _ERRORS = {
 
 
 def text(of: object) -> str:
-    """A C string."""
+    """Converts a C string."""
     return ffi.string(of).decode("utf-8")
 
 
 def fail(code: int, line: str) -> None:
-    """Raises the exception of a code below 0."""
+    """Raises the exception of a negative code."""
     raise _ERRORS.get(code, Error)(code, line)
 
 
 def struct(name: str):
-    """A struct of the C interface with its usual values: struct("person") is a mobil_person*."""
+    """Returns a struct of the C interface with its defaults: struct("person") is a mobil_person*."""
     made = ffi.new(f"mobil_{name}*")
     code = lib.mobil_defaults(getattr(lib, f"MOBIL_{name.upper()}"), made, ffi.sizeof(f"mobil_{name}"))
     if code != 0:

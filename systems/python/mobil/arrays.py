@@ -1,4 +1,4 @@
-"""Arrays that go to the C interface and come from it: what they hold, and how long they have to be."""
+"""Arrays passed to and returned by the C interface: their types and shapes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ._library import ffi
 from .names import number_of
 
 PERSON = np.dtype([("index", np.uint32), ("generation", np.uint32)])
-"""One person's handle; people are arrays of these, of one dimension."""
+"""Handle of a person. People are one-dimensional arrays of handles."""
 
 EVENT = np.dtype(
     [
@@ -25,19 +25,19 @@ EVENT = np.dtype(
         ("heading_rad", np.float32),
     ]
 )
-"""What happened in somebody's steps: kind by names.EVENTS, side by names.SIDES, in which tick (from 1 on) and what part
-of it was over, where the foot stands, or the line is, and where it points."""
+"""Step event: kind (names.EVENTS), side (names.SIDES), tick from 1 and fraction of it, position of the foot or of the
+walking line, and its heading."""
 
 ROOT = np.dtype([("place", np.float64, 3), ("heading_rad", np.float64)])
-"""Where somebody is on the ground, and heads."""
+"""Position of a person on the ground, and heading, rad."""
 
 People = npt.NDArray[np.void]
 Floats = npt.NDArray[np.float32]
 
 
 def _people(people: People) -> People:
-    """Handles as calls take them: one dimension, close together; one person becomes an array of one. Calls read and
-    write as many rows as this array's size."""
+    """Returns handles for a call: one-dimensional and contiguous; one person becomes an array of one. Calls read and
+    write one row for each handle."""
     handles = np.atleast_1d(people)
     if handles.dtype != PERSON:
         raise TypeError("people are arrays of mobil.PERSON, as spawn returns them")
@@ -51,7 +51,7 @@ def _ids(people: People) -> Any:
 
 
 def _all(people: People) -> tuple[Any, int]:
-    """Handles and how many, for a call. The array lives as long as the expression that names it."""
+    """Returns handles and their number for a call. The array is valid as long as the expression that uses it."""
     people = _people(people)
     return (_ids(people) if people.size else ffi.NULL), people.size
 
@@ -68,7 +68,7 @@ def _floats(values: Floats) -> Any:
 
 
 def _out(out: Floats | None, shape: tuple[int, ...]) -> Floats:
-    """The caller's array where it fits, rows at any distance; a new one where there is none."""
+    """Returns the caller's array if it fits, with any stride of rows, or a new one if there is none."""
     if out is None:
         return np.empty(shape, np.float32)
     fits = isinstance(out, np.ndarray) and out.dtype == np.float32 and out.shape == shape
@@ -80,12 +80,12 @@ def _out(out: Floats | None, shape: tuple[int, ...]) -> Floats:
 
 
 def _stride(rows: Floats) -> int:
-    """Bytes from row to row, for a call; 0: close together. numpy gives a lone row any stride."""
+    """Returns the stride of rows in bytes, for a call; 0: contiguous. numpy gives a single row any stride."""
     return rows.strides[0] if rows.size and len(rows) > 1 else 0
 
 
 def _style_rows(style: Mapping[str, npt.ArrayLike] | None) -> tuple[Floats, int]:
-    """One row a person (or one for all) of all style numbers, and how many these are; 0 without a style."""
+    """Returns one row of all style values for each person, or one for all, and their number; 0 without a style."""
     if not style:
         return np.zeros((1, 0), np.float32), 0
     known = list(names.STYLE)

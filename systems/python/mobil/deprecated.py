@@ -1,4 +1,4 @@
-"""Names that go in 0.5; each warns, and says what takes its place."""
+"""Deprecated names, removed in 0.5. Each warns with its replacement."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How finely whose muscles are computed."""
+"""Level of detail of muscles."""
 
 from __future__ import annotations
 
@@ -21,37 +21,37 @@ class Choice(NamedTuple):
 
 
 class Lod:
-    """Level of detail of a world: World.lod. Each tick gives muscles of managed people the cheapest method that is good
-    enough for the scene."""
+    """Level of detail of a world: World.lod. Each tick chooses the cheapest method that is accurate enough, for each
+    muscle of managed people."""
 
     def __init__(self, world: World) -> None:
         self._world = world
 
     def set_options(self, *, muscles: Any = None, **options: Any) -> None:
-        """The fields of mobil_lod_options; muscles: mobil.muscles(…) of those whom managing gives some."""
+        """Sets the fields of mobil_lod_options. muscles: mobil.muscles(…) of people who get muscles by manage."""
         muscles = ffi.NULL if muscles is None else muscles
         self._world._do(lib.mobil_lod_set_options(self._world._sim, _fill("lod_options", options), muscles))
 
     def set_scene(self, **fields: Any) -> None:
-        """What is good enough: the fields of mobil_scene; a camera where `eye` and `gaze` are given."""
+        """Sets the needs of the scene: the fields of mobil_scene, with a camera if `eye` is given."""
         if "eye" in fields:
             fields = {"has_camera": 1, **fields}
         self._world._do(lib.mobil_lod_set_scene(self._world._sim, _fill("scene", fields)))
 
     def prepare(self) -> None:
-        """Makes what the scene may call for: some seconds, and no tick waits later."""
+        """Makes the shared data that the scene can require, in some seconds, so that no tick waits for it."""
         self._world._do(lib.mobil_lod_prepare(self._world._sim))
 
     def manage(self, people: People, **needs: Any) -> None:
-        """Their muscles are chosen from the next tick on; needs of their own: the fields of mobil_needs."""
+        """Manages the muscles of people from the next tick on. needs: the fields of mobil_needs."""
         self._world._do(lib.mobil_lod_manage(self._world._sim, *_all(people), _fill("needs", needs)))
 
     def release(self, people: People) -> None:
-        """Methods stay as they are and are no longer chosen. Who sleeps wakes."""
+        """Stops managing people. Methods stay as they are, and sleepers wake."""
         self._world._do(lib.mobil_lod_release(self._world._sim, *_all(people)))
 
     def why(self, person: People, muscle: str) -> Choice:
-        """Why a muscle has its method; its predicted error and cost, of one leg and tick."""
+        """Returns the reason for a muscle's method, and its predicted error and cost, for one leg and tick."""
         line = ffi.new("char[512]")
         error, cost = ffi.new("float*"), ffi.new("double*")
         number = number_of(muscle, names.MUSCLES, "muscle")
@@ -60,7 +60,7 @@ class Lod:
 
     @property
     def report(self) -> dict[str, float]:
-        """What was chosen in all ticks of the last advance or tick: the fields of mobil_lod_counts."""
+        """Counts of all ticks of the last advance or tick: the fields of mobil_lod_counts."""
         did = struct("lod_counts")
         self._world._do(lib.mobil_lod_report(self._world._sim, did))
         return {name: getattr(did, name) for name, _ in ffi.typeof(did).item.fields if name != "size"}

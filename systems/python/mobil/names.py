@@ -1,4 +1,4 @@
-"""Names of what the library numbers: segments, muscles, style parameters, columns of rows."""
+"""Names of the library's numbers: segments, muscles, style parameters, columns of rows."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ACTIVATIONS = ("none", "phase", "host", "moments")
 AXES = ("y_up", "unity", "unreal", "godot", "z_up")
 FEATURES = ("step_events", "fat", "forces")
 EVENTS = ("heel_strike", "toe_off", "stopped", "started")
-"""What events of steps are: `kind` of mobil.EVENT."""
+"""Kinds of step events: `kind` of mobil.EVENT."""
 FORMS = ("quaternion", "matrix", "dual_quaternion")
 
 
@@ -48,17 +48,17 @@ def _listed(name_of: Callable[[int], object]) -> tuple[str, ...]:
 
 SEGMENTS = _listed(lib.mobil_segment_name)
 PARENTS = tuple(lib.mobil_segment_parent(i) for i in range(len(SEGMENTS)))
-"""Number of each segment's parent; the pelvis is its own."""
+"""Index of each segment's parent; the pelvis is its own parent."""
 MUSCLES = _listed(lib.mobil_muscle_name)
 
 
 @dataclass(frozen=True)
 class StyleParameter:
-    """One number of a walk's style."""
+    """A parameter of a walk's style."""
 
     name: str
     unit: str
-    """"1" where it has none."""
+    """"1" if dimensionless."""
     meaning: str
     low: float
     high: float
@@ -77,11 +77,11 @@ def _style() -> dict[str, StyleParameter]:
 
 
 STYLE = _style()
-"""The parameters of a walk's style, by name, in the library's order."""
+"""Parameters of a walk's style by name, in the library's order."""
 
 
 def number_of(name: str | int, names: tuple[str, ...], what: str) -> int:
-    """The number of a name; a number stays. Raises ValueError, which lists the names."""
+    """Returns the index of a name, or an index unchanged. Raises ValueError with a list of the names."""
     if isinstance(name, int):
         return name
     try:
@@ -91,7 +91,7 @@ def number_of(name: str | int, names: tuple[str, ...], what: str) -> int:
 
 
 def muscle_bits(muscles: Iterable[str | int] | str | int) -> int:
-    """A set of muscles as bits; an int is one already."""
+    """Returns a set of muscles as bits, or an int unchanged."""
     if isinstance(muscles, int):
         return muscles
     if isinstance(muscles, str):

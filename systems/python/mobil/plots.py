@@ -1,4 +1,4 @@
-"""A walk in pictures, with matplotlib."""
+"""Plots of a walk with matplotlib."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from .walks import Walk
 
 
 def over_cycle(walk: Walk, values: np.ndarray, side: int = 0) -> tuple[np.ndarray, np.ndarray]:
-    """A side's gait cycles laid over each other: percent of the cycle, ascending, and the values there."""
+    """Overlays the gait cycles of a side. Returns percent of the cycle, ascending, and the values there."""
     percent = 100 * walk.phase[:, side]
     order = np.argsort(percent, kind="stable")
     return percent[order], np.asarray(values)[order]
 
 
 def plot_walk(walk: Walk, label: str | None = None, figure: Any = None) -> Any:
-    """Angles, ground reaction, moments and muscles of the right leg over its gait cycle; a matplotlib Figure.
+    """Plots angles, ground reaction, moments and muscles of the right leg over its gait cycle. Returns a Figure.
 
-    `figure`: one that was returned before, to draw over.
+    `figure`: an earlier result to draw into.
     """
     if figure is None:
         try:

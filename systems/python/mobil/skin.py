@@ -25,9 +25,9 @@ def _target(target: Any, person: People, out: npt.NDArray[np.float32], flexing: 
 
 
 class Skin:
-    """The triangles of all men, or of all women, and their vertices after each tick.
+    """Triangles of the skin of one sex, and vertices of people after a tick.
 
-    detail: "hero" (some 90000 triangles), "near", "far" or "distant" (1200).
+    detail: "hero" (about 90000 triangles), "near", "far" or "distant" (1200).
     """
 
     def __init__(self, world: World, sex: str | int = "man", detail: str | int = "near") -> None:
@@ -43,13 +43,14 @@ class Skin:
         )
         self.triangles = index.reshape(-1, 3)
         self.parts = {name: slice(first[i], first[i + 1]) for i, name in enumerate(PARTS)}
-        """Of "skin", "legs", "lips", "hair", "shirt", "shorts" and "shoes": which triangles."""
+        """Triangles of "skin", "legs", "lips", "hair", "shirt", "shorts" and "shoes", as slices."""
 
     def vertices(
         self, world: World, people: People, out: npt.NDArray[np.float32] | None = None, *, flexing: bool = False
     ) -> npt.NDArray[np.float32]:
-        """(n, vertices, 6): positions and unit normals after the last tick, of people of this sex. `flexing`: legs
-        move as if muscles moved under their skin; a second for the first person of a build."""
+        """Returns positions and unit normals after the last tick, (n, vertices, 6), of people of this sex.
+
+        flexing: legs move as if muscles moved under their skin; one second for the first person of a build."""
         people = _people(people)
         out = room(out, people.size, self.vertex_count)
         targets = ffi.new("mobil_skin_target[]", max(people.size, 1))
@@ -61,11 +62,11 @@ class Skin:
 
 
 class CustomSkin:
-    """A mesh of one's own of a right leg, as from a scan, and its mirror image, which move with the body's skin.
+    """A mesh of a right leg, for example from a scan, and its mirror image, which move with the body's skin.
 
-    positions: (vertices, 3) in the world's axes and unit, the person standing at the origin in the anatomical position
-    and heading ahead. triangles: (n, 3), wound outwards. Bound to the body of one person, good for people of the same
-    sex and of similar build. shorts_stay: the body's shorts are drawn over it.
+    positions: (vertices, 3) in the world's axes and unit, for a person at the origin in the anatomical position,
+    heading ahead. triangles: (n, 3), wound outwards. The mesh is bound to the body of one person and can be used for
+    people of the same sex and similar build. shorts_stay: the body's shorts are drawn over it.
     """
 
     def __init__(
@@ -99,12 +100,12 @@ class CustomSkin:
         rest: npt.NDArray[np.uint32] = np.empty(count[0], np.uint32)
         lib.mobil_custom_skin_rest(self._skin, ffi.from_buffer("unsigned int[]", rest), rest.size, ffi.NULL)
         self.rest = rest.reshape(-1, 3)
-        """Of the triangles of Skin(world, sex, detail), those that are to be drawn besides."""
+        """Triangles of Skin(world, sex, detail) that must be drawn in addition."""
 
     def vertices(
         self, world: World, people: People, out: npt.NDArray[np.float32] | None = None, *, flexing: bool = False
     ) -> npt.NDArray[np.float32]:
-        """(n, vertices, 6): positions and unit normals after the last tick, of both legs."""
+        """Returns positions and unit normals of both legs after the last tick, (n, vertices, 6)."""
         people = _people(people)
         out = room(out, people.size, self.vertex_count)
         targets = ffi.new("mobil_skin_target[]", max(people.size, 1))

@@ -1,4 +1,4 @@
-"""Structs of the C interface from fields by name: how muscles deform, and what else calls take as options."""
+"""Structs of the C interface from fields by name: muscles, methods and options of calls."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NAMED = {
 
 
 def _fill(kind: str, given: Mapping[str, Any]) -> Any:
-    """A struct of the C interface with these fields; names for numbers where there are names."""
+    """Returns a struct of the C interface with these fields. Names are converted to numbers."""
     made = struct(kind)
     for field, value in given.items():
         if field == "size" or not hasattr(made, field):
@@ -35,14 +35,14 @@ def _fill(kind: str, given: Mapping[str, Any]) -> Any:
 
 
 def muscles(**fields: Any) -> Any:
-    """How leg muscles deform: muscles(method="modal", modes=8, activation="phase").
+    """Returns a choice of leg muscles: muscles(method="modal", modes=8, activation="phase").
 
-    `muscles`: names (names.MUSCLES), usual the four groups; `method`: "static", "explicit_central", "implicit_central", "newmark", "modal",
-    "none" or "finite"; all other fields are those of mobil_muscles in mobil.h, in SI units.
+    `muscles`: names (names.MUSCLES), by default the four groups. `method`: "static", "explicit_central",
+    "implicit_central", "newmark", "modal", "none" or "finite". Other fields are those of mobil_muscles, in SI units.
     """
     return _fill("muscles", fields)
 
 
 def method(name: str, **fields: Any) -> Any:
-    """How one muscle is simulated: method("modal", modes=4, control_points=0)."""
+    """Returns the method of one muscle: method("modal", modes=4, control_points=0)."""
     return _fill("method", {"method": name, **fields})

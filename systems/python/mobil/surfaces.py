@@ -15,7 +15,7 @@ from .world import World
 
 
 def room(out: npt.NDArray[np.float32] | None, people: int, vertices: int) -> npt.NDArray[np.float32]:
-    """(people, vertices, 6), for positions and normals: the caller's or a new one."""
+    """Returns an array (people, vertices, 6) for positions and normals: the caller's or a new one."""
     shape = (people, vertices, 6)
     out = np.empty(shape, np.float32) if out is None else out
     if not isinstance(out, np.ndarray) or out.shape != shape or out.dtype != np.float32 or not out.flags.carray:
@@ -24,7 +24,7 @@ def room(out: npt.NDArray[np.float32] | None, people: int, vertices: int) -> npt
 
 
 def aim(target: Any, out: npt.NDArray[np.float32]) -> None:
-    """Points a target's streams at one person's (vertices, 6)."""
+    """Sets a target's streams to one person's array (vertices, 6)."""
     at, row = out.ctypes.data, 6 * 4
     target.positions, target.normals = ffi.cast("void*", at), ffi.cast("void*", at + row // 2)
     target.position_stride = target.normal_stride = row
@@ -33,23 +33,23 @@ def aim(target: Any, out: npt.NDArray[np.float32]) -> None:
 
 
 class Part(NamedTuple):
-    """A bone, or a muscle or tendon of one side; its vertices and indices lie together."""
+    """A bone, or a muscle or tendon of one side, with contiguous vertices and indices."""
 
     name: str
     segment: str | None
-    """Of a bone."""
+    """Segment of a bone, or None."""
     muscle: str | None
-    """Of a muscle: whose mesh it follows."""
+    """Muscle whose mesh it follows, or None."""
     vertices: slice
     indices: slice
 
 
 class Surfaces:
-    """Bound once to the body of one person, good for everybody of similar build.
+    """Surfaces bound to the body of one person, for people of similar build.
 
     choice: fields of mobil_surface_choice: bones, side ("right", "left" or 2 for both), muscles, cells, detail,
-    textured. contact: single muscles are kept out of each other and of bones, for close views; half a second here, and
-    some 10 ms a person and call.
+    textured. contact: resolves contacts of single muscles with each other and with bones, for close views. It takes
+    half a second here, and about 10 ms a person and call.
     """
 
     def __init__(self, world: World, like: People, *, contact: bool = False, **choice: Any) -> None:
@@ -89,7 +89,7 @@ class Surfaces:
     def vertices(
         self, world: World, people: People, out: npt.NDArray[np.float32] | None = None
     ) -> npt.NDArray[np.float32]:
-        """(n, vertices, 6): positions and unit normals after the last tick."""
+        """Returns positions and unit normals after the last tick, (n, vertices, 6)."""
         people = _people(people)
         out = room(out, people.size, self.vertex_count)
         targets = ffi.new("mobil_surface_target[]", max(people.size, 1))

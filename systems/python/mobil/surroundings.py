@@ -1,4 +1,4 @@
-"""Others whose way walkers keep out of, walls, and ground that is not level."""
+"""Collision avoidance, obstacles and uneven ground."""
 
 from __future__ import annotations
 
@@ -16,44 +16,44 @@ if TYPE_CHECKING:
 
 
 class AvoidanceReport(NamedTuple):
-    """What was chosen in all ticks of the last advance or tick."""
+    """Counts of all ticks of the last advance or tick."""
 
     people: int
     chose: int
-    """How often a step was chosen."""
+    """Chosen steps."""
     kept_reservation: int
-    """Of these, by who had to keep to what others know of them."""
+    """Steps that kept to the reservation."""
     yielded: int
-    """Of these, by who gave way to somebody that chose at the same time."""
+    """Steps that yielded to a step chosen in the same tick."""
     waiting: int
-    """Who stood though they want to walk."""
+    """Steps on which a walker stands but wants to walk."""
 
 
 class Avoidance:
-    """Walkers of a world who keep out of each other's way: World.avoidance."""
+    """Collision avoidance between walkers of a world: World.avoidance."""
 
     def __init__(self, world: World) -> None:
         self._world = world
 
     def set_options(self, **options: float) -> None:
-        """How much room people keep who are managed from now on.
+        """Sets the distances of people managed from now on.
 
-        radius_h: half the breadth that two keep clear of each other, of the height, 0.02 to 0.5. shoulders_h: half of the
-        shoulders' breadth, radius_h to 0.5: kept clear of walls, discs and who avoids nobody; who comes nearer to others
-        turns the shoulders. overlap_m: how far two may overlap who have waited, 0 to 0.2.
+        radius_h: half the breadth that two walkers keep clear, over height, 0.02 to 0.5. shoulders_h: half the breadth
+        of the shoulders, over height, radius_h to 0.5, kept clear of walls, discs and unmanaged people. Walkers closer
+        to others turn the shoulders. overlap_m: maximum overlap of two walkers after waiting, 0 to 0.2.
         """
         self._world._do(lib.mobil_avoidance_set_options(self._world._sim, _fill("avoidance_options", options)))
 
     def manage(self, people: People) -> None:
-        """They avoid others from now on, and want what they were last asked to do."""
+        """Manages walkers from now on. Their desired velocity is the last requested one."""
         self._world._do(lib.mobil_avoidance_manage(self._world._sim, *_all(people), 1))
 
     def release(self, people: People) -> None:
-        """No more; they go on as they now do, and from slopes that slow them as they want."""
+        """Stops managing walkers. They keep their gait, and after a slope that slows them take the desired one."""
         self._world._do(lib.mobil_avoidance_manage(self._world._sim, *_all(people), 0))
 
     def set_desired_velocity(self, people: People, speed_m_s: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:
-        """Where they want to go, and how fast (0: to stand)."""
+        """Sets the desired velocities of walkers; speed 0: stand."""
         people = _people(people)
         rows = np.empty((people.size, 2), np.float32)
         rows[:, 0] = speed_m_s
@@ -61,12 +61,12 @@ class Avoidance:
         self._world._do(lib.mobil_avoidance_set_desired_velocity(self._world._sim, *_all(people), _floats(rows), 0))
 
     def set_walls(self, walls: npt.ArrayLike) -> None:
-        """Straight walls instead of those before: (n, 2, 3), from where to where, in the world's axes."""
+        """Replaces all straight walls: (n, 2, 3), both ends, in the world's axes."""
         rows = np.ascontiguousarray(walls, np.float32).reshape(-1, 6)
         self._world._do(lib.mobil_avoidance_set_walls(self._world._sim, _floats(rows), 0, len(rows)))
 
     def set_discs(self, place: npt.ArrayLike, radius: npt.ArrayLike, velocity: npt.ArrayLike = (0.0, 0.0, 0.0)) -> None:
-        """Players, cars, pillars, instead of those before: (n, 3), (n,) and (n, 3), in the world's axes and unit."""
+        """Replaces all discs (players, cars, pillars): (n, 3), (n,) and (n, 3), in the world's axes and unit."""
         places = np.asarray(place, np.float32).reshape(-1, 3)
         rows = np.empty((len(places), 7), np.float32)
         rows[:, :3] = places
@@ -76,7 +76,7 @@ class Avoidance:
 
     @property
     def report(self) -> AvoidanceReport:
-        """What was chosen in all ticks of the last advance or tick."""
+        """Counts of all ticks of the last advance or tick."""
         did = struct("avoidance_counts")
         self._world._do(lib.mobil_avoidance_report(self._world._sim, did))
         return AvoidanceReport(*(getattr(did, name) for name in AvoidanceReport._fields))
@@ -86,28 +86,28 @@ Heights = Callable[[Floats], Any]
 
 
 class TerrainReport(NamedTuple):
-    """What the ground was asked in all ticks of the last advance or tick."""
+    """Counts of all ticks of the last advance or tick."""
 
     people: int
     asked: int
-    """How often somebody's ground was asked for."""
+    """Queried steps."""
     places: int
     unusable: int
-    """Answers that were not numbers, or hung over."""
+    """Results that were not finite, or whose normal did not point up."""
 
 
 class Terrain:
-    """Ground of a world that is not level: World.terrain."""
+    """Uneven ground of a world: World.terrain."""
 
     def __init__(self, world: World) -> None:
         self._world = world
 
     def set_heights(self, heights: Heights | None) -> None:
-        """Every tick asks this function from now on, or none.
+        """Sets the function that ticks call from now on, or none.
 
-        heights: of places (n, 3) in the world's axes gives their heights (n,), or heights and normals: ((n,), (n, 3)).
-        Without normals walkers stand on level patches of that height, as on stairs. What it raises ends the tick before
-        anybody moves, and comes out of advance or tick. It must not use the world.
+        heights: takes positions (n, 3) in the world's axes. Returns heights (n,), or with normals ((n,), (n, 3)).
+        Without normals walkers stand on level patches of that height, as on stairs. An exception ends the tick before
+        any person moves, and is raised by advance or tick. The function must not use the world.
         """
         raised = self._world._raised
 
@@ -126,23 +126,22 @@ class Terrain:
 
         call = ffi.NULL if heights is None else ffi.callback("mobil_heights", answer)
         self._world._do(lib.mobil_terrain_set_heights(self._world._sim, call, ffi.NULL))
-        self._world._heights = call  # lives as long as it may be called
+        self._world._heights = call  # must live as long as it can be called
 
     def set_speed_scaling(self, on: bool = True) -> None:
-        """Walkers slow down on slopes and stairs, and go on as asked where it is level; or no more."""
+        """Switches speed scaling: walkers slow down on slopes and stairs, but not on level ground."""
         self._world._do(lib.mobil_terrain_set_speed_scaling(self._world._sim, on))
 
     def manage(self, people: People) -> None:
-        """They are on that ground from the next tick on."""
+        """Puts walkers on that ground from the next tick on."""
         self._world._do(lib.mobil_terrain_manage(self._world._sim, *_all(people), 1))
 
     def release(self, people: People) -> None:
-        """They walk on the level plane through the origin again."""
+        """Returns walkers to the level plane through the origin."""
         self._world._do(lib.mobil_terrain_manage(self._world._sim, *_all(people), 0))
 
     def query(self) -> tuple[Floats, People]:
-        """Without set_heights: where the ground has to be known before the next tick, places (n, 3), and whose they are
-        (n,)."""
+        """Returns the queries of the next tick, for use without set_heights: positions (n, 3) and people (n,)."""
         count = ffi.new("size_t*")
         self._world._do(lib.mobil_terrain_query(self._world._sim, ffi.NULL, 0, ffi.NULL, 0, count))
         places, who = np.empty((count[0], 3), np.float32), np.zeros(count[0], PERSON)
@@ -152,7 +151,7 @@ class Terrain:
         return places, who
 
     def resolve(self, heights: npt.ArrayLike, normals: npt.ArrayLike = (0.0, 0.0, 0.0)) -> int:
-        """The ground at the places of the last query(); how many answers were not numbers, or hung over."""
+        """Sets the ground at the positions of the last query(). Returns the number of unusable results."""
         values = np.asarray(heights, np.float32).reshape(-1)
         rows = np.empty((len(values), 4), np.float32)
         rows[:, 0] = values
@@ -163,7 +162,7 @@ class Terrain:
 
     @property
     def report(self) -> TerrainReport:
-        """What the ground was asked in all ticks of the last advance or tick."""
+        """Counts of all ticks of the last advance or tick."""
         did = struct("terrain_counts")
         self._world._do(lib.mobil_terrain_report(self._world._sim, did))
         return TerrainReport(*(getattr(did, name) for name in TerrainReport._fields))

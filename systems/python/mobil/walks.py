@@ -16,39 +16,39 @@ Floats = npt.NDArray[np.float32]
 
 @dataclass
 class Walk:
-    """What a walker did, a row a tick; SI units, rad. Sides: right, left."""
+    """A recorded walk, one row for each tick, in SI units and rad. Sides: right, left."""
 
     mass_kg: float
     time_s: Floats
     phase: Floats
-    """Of the gait cycle of each side, 0 to 1 from its heel strike: (ticks, 2)."""
+    """Phase of the gait cycle of each side, 0 to 1 from its heel strike: (ticks, 2)."""
     joints: Floats
     """(ticks, 13), columns as names.JOINTS."""
     poses: Floats
     """(ticks, 48, 7)."""
     centre_of_mass: Floats
     ground: Floats
-    """On each foot, N: (ticks, 2, 3)."""
+    """Force on each foot, N: (ticks, 2, 3)."""
     moments: Floats
     """(ticks, 6) N m, columns as names.MOMENTS."""
     lines: dict[str, Floats] = field(default_factory=dict)
-    """Of each muscle: (ticks, 2, 4), columns as names.LINE."""
+    """By muscle: (ticks, 2, 4), columns as names.LINE."""
     bellies: dict[str, Floats] = field(default_factory=dict)
-    """(ticks, 2, 5), columns as names.REPORT; of muscles that report."""
+    """By muscle with reports: (ticks, 2, 5), columns as names.REPORT."""
 
     def joint(self, name: str) -> Floats:
-        """One column of joints, rad."""
+        """Returns one column of joints, rad."""
         return self.joints[:, names.number_of(name, names.JOINTS, "joint")]
 
     def moment(self, name: str) -> Floats:
-        """One column of moments, N m."""
+        """Returns one column of moments, N m."""
         return self.moments[:, names.number_of(name, names.MOMENTS, "moment")]
 
 
 def walk(*, seconds: float = 2.4, settle_s: float = 2.0, muscles: Any = None, tick_s: float = 1 / 60, **person: Any) -> Walk:
-    """Lets one person walk for so long, and writes down what happens; `person`: as World.spawn takes it.
+    """Simulates and records a walk of one person. `person`: arguments of World.spawn.
 
-    settle_s: how long before that, so that bellies swing as in a steady walk.
+    settle_s: time simulated before, so that bellies vibrate as in a steady walk.
     """
     world = World(tick_s=tick_s)
     who = world.spawn(1, muscles=muscles, **person)

@@ -29,16 +29,16 @@ class Ticks(NamedTuple):
     count: int
     """Ticks that ran."""
     alpha: float
-    """How far into the next tick the frame is, 0 to 1."""
+    """Position of the frame's end in the next tick, 0 to 1."""
     dropped_s: float
-    """Of a frame that was too long."""
+    """Time dropped from a frame that was too long."""
 
 
 class SystemCost(NamedTuple):
     name: str
     module: str
     seconds: float
-    """In the last tick, of all threads together."""
+    """In the last tick, summed over all threads."""
     entities: int
 
 
@@ -46,18 +46,18 @@ class PhaseCost(NamedTuple):
     name: str
     module: str
     after: bool
-    """The systems; else before them."""
+    """True: after the systems; false: before them."""
     seconds: float
-    """In the last tick, of the thread that ticks."""
+    """In the last tick, on the calling thread."""
 
 
 class World(OldWorld):
-    """People who walk, in fixed ticks.
+    """A world of walkers that runs in fixed ticks.
 
-    tick_s: 1e-5 to 1 s. threads: 0 for all. axes: of places, directions and rotations: "y_up" (x left, y up, z ahead),
-    "unity", "unreal", "godot" or "z_up"; units_per_m: of places. Numbers are otherwise SI, angles rad. What people are
-    asked for one by one may be given as one value for all. Refusals are exceptions of one line (mobil.Error); what was
-    refused has changed nothing.
+    tick_s: 1e-5 to 1 s. threads: 0 for all. axes: of positions, directions and rotations: "y_up" (x left, y up, z
+    ahead), "unity", "unreal", "godot" or "z_up". units_per_m: unit of positions. Other numbers are SI, angles in rad.
+    Arguments for several people can be arrays or one value for all. A refused call raises mobil.Error with a message of
+    one line and changes nothing.
     """
 
     def __init__(
@@ -74,32 +74,32 @@ class World(OldWorld):
         if code != 0:
             fail(code, text(line))
         self._sim = ffi.gc(made[0], lib.mobil_destroy)
-        self._heights: Any = None  # of terrain
-        self._raised: list[BaseException] = []  # by it
+        self._heights: Any = None  # callback of terrain
+        self._raised: list[BaseException] = []  # by the callback
 
     def _do(self, code: int) -> None:
         if code < 0:
             fail(code, text(lib.mobil_message(self._sim)))
 
     def _ran(self, code: int) -> None:
-        """The end of a call that ticks: what terrain's function raised is raised here."""
+        """Ends a call that ran ticks: raises the exception of terrain's function, if any."""
         if self._raised:
             raise self._raised.pop()
         self._do(code)
 
     @property
     def lod(self) -> Lod:
-        """How finely whose muscles are computed."""
+        """Level of detail of muscles."""
         return Lod(self)
 
     @property
     def avoidance(self) -> Avoidance:
-        """Who keep out of each other's way."""
+        """Collision avoidance."""
         return Avoidance(self)
 
     @property
     def terrain(self) -> Terrain:
-        """Where the ground is."""
+        """Uneven ground."""
         return Terrain(self)
 
     # People
@@ -122,10 +122,10 @@ class World(OldWorld):
         posed: bool = False,
         muscles: Any = None,
     ) -> People:
-        """People come, all or none; an array of handles. As many as `count`, or as the longest of what is given.
+        """Spawns people, all or none, and returns their handles: `count`, or as many as the longest argument has.
 
-        somatotype: endo, meso, ecto. place: (…, 3) in the world's axes. style: by names.STYLE. muscles: mobil.muscles(…).
-        posed: their poses are set by set_poses; else they walk, with 5 km/h where nothing is said.
+        somatotype: endo, meso, ecto. place: (…, 3) in the world's axes. style: by names.STYLE. muscles:
+        mobil.muscles(…). posed: True if set_poses sets their poses; walkers have a speed of 5 km/h by default.
         """
         columns = {
             "height_m": height_m,
@@ -178,7 +178,7 @@ class World(OldWorld):
 
     @property
     def people(self) -> People:
-        """Everybody who is there, in no particular order."""
+        """All people, in no particular order."""
         count = ffi.new("size_t*")
         self._do(lib.mobil_people(self._sim, ffi.NULL, 0, count))
         ids = np.zeros(count[0], PERSON)
@@ -196,7 +196,7 @@ class World(OldWorld):
         style: Mapping[str, float] | None = None,
         heading_rad: float | None = None,
     ) -> None:
-        """From the next step on; what is left out stays. A speed of 0 stops."""
+        """Changes walks from the next step on. Arguments that are not given stay. A speed of 0 stops."""
         walk = struct("walk")
         for name, value, bit in (
             ("speed_m_s", speed_m_s, lib.MOBIL_SPEED),
@@ -215,13 +215,13 @@ class World(OldWorld):
         self._do(lib.mobil_change_walk(self._sim, *_all(people), walk))
 
     def set_poses(self, people: People, poses: npt.ArrayLike, *, jumped: bool = False) -> None:
-        """Of posed people, at the end of the next tick: (n, 48, 7), place x y z and quaternion x y z w in the world."""
+        """Sets posed people's poses for the end of the next tick: (n, 48, 7), world position and quaternion x y z w."""
         people = _people(people)
         rows = np.ascontiguousarray(poses, np.float32).reshape(people.size, len(names.SEGMENTS), 7)
         self._do(lib.mobil_set_poses(self._sim, *_all(people), _floats(rows), 0, int(jumped)))
 
     def walk(self, person: People) -> dict[str, Any]:
-        """What a walker is to do, as change_walk takes it; `style` has all of its numbers."""
+        """Returns a walker's requested walk, as change_walk takes it; `style` has all parameters."""
         to = struct("walk")
         style = np.empty(len(names.STYLE), np.float32)
         self._do(lib.mobil_get_walk(self._sim, _one(person), to, _floats(style), style.size))
@@ -232,7 +232,7 @@ class World(OldWorld):
         return walk
 
     def limit_violations(self, person: People) -> list[str]:
-        """The limits of ground, joints and pelvis that a walker is beyond now: of nearly everybody none."""
+        """Returns the limits of ground, joints and pelvis that a walker violates now; empty for nearly all walkers."""
         length = ffi.new("size_t*")
         self._do(lib.mobil_limit_violations(self._sim, _one(person), ffi.NULL, 0, length))
         if length[0] == 0:
@@ -243,13 +243,13 @@ class World(OldWorld):
 
     @property
     def people_beyond_limits(self) -> int:
-        """How many people were beyond such a limit in the last tick."""
+        """Number of people beyond such a limit in the last tick."""
         people = ffi.new("size_t*")
         self._do(lib.mobil_limit_violation_counts(self._sim, people, ffi.NULL))
         return people[0]
 
     def place(self, people: People, place: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:
-        """Puts walkers elsewhere at once, all or none; no inertia is felt. place: (…, 3) in the world's axes."""
+        """Moves walkers at once, all or none, without inertia. place: (…, 3) in the world's axes."""
         people = _people(people)
         rows = np.empty((people.size, 4), np.float32)
         rows[:, :3] = place
@@ -257,29 +257,29 @@ class World(OldWorld):
         self._do(lib.mobil_place_many(self._sim, *_all(people), _floats(rows), 0))
 
     def shift_origin(self, to: npt.ArrayLike) -> None:
-        """The origin moves there: every place becomes so much less."""
+        """Moves the world's origin: subtracts `to` from all positions."""
         at = np.ascontiguousarray(to, np.float32)
         if at.shape != (3,):
             raise ValueError(f"the origin moves to a place of three numbers, and this has the shape {at.shape}")
         self._do(lib.mobil_shift_origin(self._sim, _floats(at)))
 
     def enable(self, people: People, feature: str, on: bool = True) -> None:
-        """They have a feature from the next tick on, or no more: "step_events" (events() tells of their steps), "fat" that
-        wobbles under the skin (Skin), or "forces" (ground reactions and joint moments)."""
+        """Switches a feature from the next tick on: "step_events" (see events()), "fat" (wobbling, shown by Skin) or
+        "forces" (ground reactions and joint moments)."""
         self._do(lib.mobil_enable(self._sim, *_all(people), number_of(feature, names.FEATURES, "feature"), int(on)))
 
     def set_state(self, people: People, state: str, within_m: float = 0.005) -> int:
-        """How many of them are "full", "compact" (nobody looks at them) or "asleep" (nobody sees them) now.
+        """Changes people to "full", "compact" or "asleep" where possible. Returns how many are in that state now.
 
-        within_m: of who wakes, control points of muscles are so near to where they would be.
+        within_m: maximum error of control points of muscles that begin on waking.
         """
         count = ffi.new("size_t*")
-        number_of(state, tuple(_STATES), "state")  # says which there are
+        number_of(state, tuple(_STATES), "state")  # raises an error that lists them
         self._do(lib.mobil_set_state(self._sim, *_all(people), _STATES[state], within_m, count))
         return int(count[0])
 
     def state(self, person: People) -> str:
-        """"full", "compact", "asleep" or "posed"."""
+        """Returns "full", "compact", "asleep" or "posed"."""
         state = ffi.new("int*")
         self._do(lib.mobil_get_state(self._sim, _one(person), state))
         return next(name for name, number in _STATES.items() if number == state[0])
@@ -287,22 +287,22 @@ class World(OldWorld):
     # Muscles
 
     def set_muscles(self, people: People, muscles: Any) -> None:
-        """mobil.muscles(…), or None: they go."""
+        """Sets mobil.muscles(…), or removes all muscles if None."""
         self._do(lib.mobil_set_muscles(self._sim, *_all(people), ffi.NULL if muscles is None else muscles))
 
     def set_method(self, people: People, muscle: str, method: Any) -> None:
-        """mobil.method(…) of one muscle, both sides, without a jump."""
+        """Sets mobil.method(…) of one muscle, both sides, without a jump."""
         self._do(lib.mobil_set_method(self._sim, *_all(people), number_of(muscle, names.MUSCLES, "muscle"), method))
 
     def method(self, person: People, muscle: str) -> str:
-        """The name of a muscle's method now."""
+        """Returns the name of a muscle's present method."""
         to = struct("method")
         number = number_of(muscle, names.MUSCLES, "muscle")
         self._do(lib.mobil_get_method(self._sim, _one(person), number, to))
         return names.METHODS[to.method]
 
     def set_excitation(self, people: People, muscle: str, side: str, excitation: npt.ArrayLike) -> None:
-        """0.01 to 1 (beyond: the nearer end), of muscles with activation="host"."""
+        """Sets the excitation of muscles with activation="host", clamped to 0.01 to 1."""
         people = _people(people)
         values = np.ascontiguousarray(np.broadcast_to(np.asarray(excitation, np.float32), people.shape))
         self._do(
@@ -317,11 +317,11 @@ class World(OldWorld):
         )
 
     def prepare(self, muscles: Any) -> None:
-        """Makes what these muscles share, so that nobody waits for it later."""
+        """Makes the shared data of these muscles, so that no later call waits for it."""
         self._do(lib.mobil_prepare(self._sim, muscles))
 
     def bake(self) -> bytes:
-        """All that was made so far."""
+        """Returns all shared data made so far."""
         size = ffi.new("size_t*")
         self._do(lib.mobil_bake(self._sim, ffi.NULL, 0, size))
         out = bytearray(size[0])
@@ -329,7 +329,7 @@ class World(OldWorld):
         return bytes(out)
 
     def load_baked(self, baked: bytes) -> None:
-        data = ffi.from_buffer(baked)  # len() of it is bytes, and of an array rows
+        data = ffi.from_buffer(baked)  # its len() counts bytes; that of an array counts rows
         self._do(lib.mobil_load_baked(self._sim, data, len(data)))
 
     # Time and state
@@ -338,7 +338,7 @@ class World(OldWorld):
         self._ran(lib.mobil_tick(self._sim, ticks))
 
     def advance(self, seconds: float) -> Ticks:
-        """As many ticks as the time fed so far makes."""
+        """Adds the time of a frame, and runs as many ticks as fit into the accumulated time."""
         ticks = ffi.new("mobil_ticks*")
         self._ran(lib.mobil_advance(self._sim, seconds, ticks))
         return Ticks(ticks.count, ticks.alpha, ticks.dropped_s)
@@ -352,7 +352,7 @@ class World(OldWorld):
         return lib.mobil_tick_s(self._sim)
 
     def save(self) -> bytes:
-        """The whole state."""
+        """Returns a snapshot of the whole state."""
         out = bytearray(lib.mobil_snapshot_bytes(self._sim))
         used = ffi.new("size_t*")
         self._do(lib.mobil_save(self._sim, ffi.from_buffer(out), len(out), used))
@@ -363,13 +363,13 @@ class World(OldWorld):
         self._do(lib.mobil_restore(self._sim, data, len(data)))
 
     def hash(self) -> int:
-        """Of the whole state, 64 bits: equal states have equal ones, on any machine and threads."""
+        """Returns a 64-bit hash of the whole state, equal for equal states on any machine and number of threads."""
         half = ffi.new("unsigned int[2]")
         self._do(lib.mobil_hash(self._sim, half))
         return half[0] | half[1] << 32
 
     def cost(self) -> list[SystemCost]:
-        """What each system cost in the last tick, in the order of running."""
+        """Returns the cost of each system in the last tick, in the order of execution."""
         found: list[SystemCost] = []
         one = ffi.new("mobil_system*")
         while lib.mobil_cost(self._sim, len(found), one) == lib.MOBIL_OK:
@@ -377,7 +377,7 @@ class World(OldWorld):
         return found
 
     def phases(self) -> list[PhaseCost]:
-        """What each phase of the last tick cost: lod, avoidance and terrain among them, in the order of running."""
+        """Returns the cost of each phase in the last tick (lod, avoidance, terrain …), in the order of execution."""
         found: list[PhaseCost] = []
         one = ffi.new("mobil_phase*")
         while lib.mobil_phase_cost(self._sim, len(found), one) == lib.MOBIL_OK:
@@ -396,9 +396,9 @@ class World(OldWorld):
         segments: Sequence[str | int] | None = None,
         out: Floats | None = None,
     ) -> Floats:
-        """Poses at an instant after the last tick (ahead_s: 0 to 0.2), exactly.
+        """Returns the exact poses at an instant after the last tick (ahead_s: 0 to 0.2).
 
-        (n, segments, 7) place x y z and quaternion x y z w, or (…, 3, 4) of "matrix", (…, 8) of "dual_quaternion".
+        (n, segments, 7) position and quaternion x y z w, or (…, 3, 4) for "matrix", (…, 8) for "dual_quaternion".
         """
         layout = struct("pose_layout")
         layout.form = number_of(form, names.FORMS, "form")
@@ -416,7 +416,7 @@ class World(OldWorld):
         return out
 
     def events(self) -> People:
-        """What happened in all ticks of the last advance or tick in the steps of who has "step_events": an array of EVENT."""
+        """Returns an array of EVENT: all ticks of the last advance or tick, for people with "step_events"."""
         count = ffi.new("size_t*")
         self._do(lib.mobil_events(self._sim, ffi.NULL, 0, count))
         found = np.zeros(count[0], EVENT)
@@ -425,7 +425,7 @@ class World(OldWorld):
         return found
 
     def roots(self, people: People, ahead_s: float = 0.0) -> People:
-        """Where people are on the ground and head, without the sway of the hips: an array of ROOT."""
+        """Returns an array of ROOT: positions and headings on the ground, without the sway of the hips."""
         people = _people(people)
         found = np.zeros(people.size, ROOT)
         at = ffi.from_buffer("mobil_root[]", found) if found.size else ffi.NULL
@@ -433,8 +433,8 @@ class World(OldWorld):
         return found
 
     def root_motion(self, people: People, roots: People, ahead_s: float = 0.0) -> Floats:
-        """(n, 4): the way from `roots` to where people are now, in the world's axes as if they headed along the axis
-        ahead, and by how much they turned, rad, to the left. Where they are now is written over `roots`."""
+        """Returns the motions from `roots` to the present roots, (n, 4): in the world's axes with the first heading
+        along the axis ahead, and the turn to the left, rad. Stores the present roots in `roots`."""
         people = _people(people)
         out = np.empty((people.size, 4), np.float32)
         fits = isinstance(roots, np.ndarray) and roots.dtype == ROOT and roots.shape == people.shape
@@ -454,34 +454,34 @@ class World(OldWorld):
         return out
 
     def joints(self, people: People, out: Floats | None = None) -> Floats:
-        """(n, 13) angles in rad, columns as names.JOINTS."""
+        """Returns (n, 13) angles in rad, columns as names.JOINTS."""
         return self._rows(lib.MOBIL_JOINTS, people, out)
 
     def feet(self, people: People) -> tuple[Floats, Floats]:
-        """Points of the soles (n, heel toe tip, right left, 3), and phases of the gait cycle (n, right left)."""
+        """Returns points of the soles (n, heel toe tip, right left, 3) and phases of the gait cycle (n, right left)."""
         rows = self._rows(lib.MOBIL_FEET, people, None)
         return rows[:, :18].reshape(-1, 3, 2, 3), rows[:, 18:]
 
     def centre_of_mass(self, people: People, out: Floats | None = None) -> Floats:
-        """(n, 3)."""
+        """Returns (n, 3)."""
         return self._rows(lib.MOBIL_CENTRE, people, out)
 
     def ground(self, people: People) -> tuple[Floats, Floats]:
-        """Of who has forces: on each foot (n, right left, 3), N, and centres of pressure (n, right left, 3)."""
+        """Returns forces on the feet, N, and centres of pressure, each (n, right left, 3); needs "forces"."""
         rows = self._rows(lib.MOBIL_GROUND, people, None).reshape(-1, 2, 2, 3)
         return rows[:, 0], rows[:, 1]
 
     def moments(self, people: People, out: Floats | None = None) -> Floats:
-        """Of who has forces: (n, 6) N m, columns as names.MOMENTS."""
+        """Returns (n, 6) N m, columns as names.MOMENTS; needs "forces"."""
         return self._rows(lib.MOBIL_MOMENTS, people, out)
 
     def muscle_rows(
         self, what: str, people: People, muscle: str, side: str = "right", out: Floats | None = None
     ) -> Floats:
-        """(n, columns) of one muscle.
+        """Returns rows of one muscle, (n, columns).
 
         what: "line" (names.LINE), "line_motion", "report" (names.REPORT), "activation", "tendon" (names.TENDON), or
-        "nodes": displacements of control points in the muscle's frame, m, three a node.
+        "nodes": displacements of control points in the muscle's frame, m, three for each node.
         """
         kinds = ("line", "line_motion", "report", "activation", "tendon", "nodes")
         number, of = number_of(what, kinds, "row"), number_of(muscle, names.MUSCLES, "muscle")

@@ -13,9 +13,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// A right-hand muscle (or the tendon) with the meshes that can drive it, its own muscle's or its group's; what the
-/// folder says about its attachments, m, in the frame of the surface, and where it is held: there, or else where it
-/// ends. One that runs past the kneecap ends on the shank.
+/// A right-hand muscle (or the tendon) with the muscles whose meshes can drive it, its own or its group's. `origin_m`
+/// and `insertion_m` are the folder's attachments, m, in the frame of the surface. `attachments` are those, or else the
+/// surface's ends. A muscle that runs past the kneecap ends on the shank.
 struct FittedMuscle {
   Muscle group, muscle;
   MuscleSurface surface;
@@ -23,9 +23,9 @@ struct FittedMuscle {
   Attachments attachments{};
 };
 
-/// `bones`: both sides, the left the mirror image of the right, each in its segment's frame (names end in _right,
-/// _left). `muscles`: right side, world axes, the body in the anatomical position at x = z = 0; not bound to a lattice
-/// yet. `others`: further muscles, of no group, as the muscles; `skins`, too.
+/// Fitted meshes. `bones` are of both sides, the left mirroring the right, each in its segment's frame (names end in
+/// _right, _left). `muscles` are of the right side, in world axes, the body in the anatomical position at x = z = 0;
+/// not bound to a lattice yet. `others` are further muscles, of no group, placed alike, as are `skins`.
 struct FittedAnatomy {
   std::vector<BoneSurface> bones;
   std::vector<FittedMuscle> muscles;
@@ -33,18 +33,18 @@ struct FittedAnatomy {
   std::vector<SurfaceMesh> skins;
 };
 
-/// What a muscle's surface is beyond the kneecap, and from where to where it is the ligament.
+/// Part of a muscle's surface beyond the kneecap, and the ends of the ligament in it.
 struct Ligament {
   MuscleSurface surface;
   Attachments ends;
 };
 
-/// Cuts a surface that runs on past the kneecap in two there: what stays of it ends on the kneecap, what is returned
-/// goes on to the shank; both have the vertices of the cut. Others stay as they are. Bind the second with bind_beyond.
+/// Cuts a surface that runs past the kneecap in two there; both parts have the vertices of the cut. The first ends on
+/// the kneecap, the returned one continues to the shank. Others do not change. Bind the second with bind_beyond.
 std::optional<Ligament> cut_at_kneecap(FittedMuscle& muscle, const Body& body);
 
-/// Joint centres land on the body's, the lowest point of the foot's bones on the ground; see bone_maps for how each
-/// bone is stretched. Fails with one line for a body without positive lengths.
+/// Fits an anatomy to a body. Joint centres coincide with the body's, and the lowest point of the foot's bones is on
+/// the ground; bone_maps defines the stretch of each bone. Fails with one line on a body without positive lengths.
 Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body);
 
 }  // namespace mobil::inline v0_3

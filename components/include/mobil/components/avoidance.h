@@ -1,15 +1,15 @@
 #pragma once
-// Where a walker who avoids others wants to go, and how they make themselves narrow: state like any other, on the
-// person's row.
+// State of a walker who avoids others: the desired velocity and the rotation of the shoulders in narrow gaps. It is
+// stored on the person's row.
 
 #include <cstdint>
 
 namespace mobil::inline v0_3 {
 
-/// What is asked for (systems/avoidance): a speed, 0 to stand, and a heading; how long the steps are to be, of usual
-/// ones. Half the breadth that other people keep clear, and half of the shoulders' breadth with the arms. `waits_s`:
-/// how long the walker has stood though it wants to walk. How far the shoulders are turned against the way that the
-/// pelvis faces, positive to the left, how fast, and how far they are to be.
+/// Desired velocity (systems/avoidance): speed, 0 to stand, and heading. `usual`: step length relative to the usual one
+/// at that speed. `radius_m`: half the breadth that other people keep clear; `shoulders_m`: that of the shoulders with
+/// the arms. `waits_s`: time that the walker has stood against its desired velocity. `turn_rad`, `turn_rad_s`,
+/// `turn_to_rad`: angle of the shoulders from the pelvis, positive to the left, its rate and its target.
 template <class F>
 struct AvoidanceState {
   static constexpr std::uint64_t stable_id = 0x1de08feca6e47ca7;

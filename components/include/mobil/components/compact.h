@@ -1,17 +1,17 @@
 #pragma once
-// Walkers whom nobody looks at, as short as they can be while they go on: no pose, and their leg muscles in their own
-// row. They lack Pose and all that is measured of it.
+// Unseen walkers in their smallest moving representation: without pose, with their leg muscles in their own row. They
+// lack Pose and everything computed from it.
 
 namespace mobil::inline v0_3 {
 
-/// Run-time sized column: of each muscle that moves, in the table's order, right before left: its line's elongation
-/// L − L₀ at the end of the last tick, m; then X and W of each of its motions, as in ModalState.
+/// Run-time sized column with entries for each moving muscle, in the table's order, right before left. An entry is its
+/// line's elongation L − L₀ at the end of the last tick, m; then X and W of each of its modes, as in ModalState.
 struct CompactState {};
-/// Run-time sized column: sizes of the leg (LegScale); then of each muscle that moves its line's rest length less what
-/// no joint changes of it, m, and a, b and g of each motion, as in ModalMotion. Alike on both sides.
+/// Run-time sized column: sizes of the leg (LegScale); then for each moving muscle the part of its line's rest length
+/// that no joint changes, m, and a, b and g of each mode, as in ModalMotion. Both sides are alike.
 struct CompactMotion {};
-/// Tag: what each muscle of the person's choice (Shared<LegMuscles>) is, in the table's order, five bits a muscle from
-/// the lowest on: a CompactMuscle, or how many modes it moves along.
+/// Tag: state of each muscle in the person's options (Shared<LegMuscles>), in the table's order, five bits a muscle
+/// from the lowest bit on. A value is a CompactMuscle or the number of modes.
 struct CompactMuscles {};
 enum CompactMuscle : unsigned { compact_none = 0, compact_static = 31 };
 

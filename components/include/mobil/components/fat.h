@@ -1,5 +1,5 @@
 #pragma once
-// Fat under the skin that wobbles: an effect; who lacks this component pays nothing.
+// Wobbling fat under the skin: an optional effect without cost for rows that lack the component.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Where fat moves as one mass on a spring.
+/// Regions in which fat moves as one mass on a spring.
 enum class FatRegion : std::uint8_t {
   thigh_right,
   thigh_left,
@@ -24,8 +24,8 @@ constexpr std::size_t index(FatRegion region) {
   return static_cast<std::size_t>(region);
 }
 
-/// Of each region's fat: how far it is beside where the skeleton alone would carry it, m; how fast it moves, m/s; and
-/// where the point of the skeleton was that carries it, m. World frame. `known`: 0 nothing, 1 the place, 2 all of it.
+/// Fat of each region, in the world frame. `beside_m`: offset from its position on the rigid skeleton, m. `speed_m_s`:
+/// its velocity. `carried_m`: the skeleton's carrying point, m. `known`: 0 nothing, 1 `carried_m`, 2 all.
 template <class F>
 struct FatWobble {
   Vec3<F> beside_m[fat_regions], speed_m_s[fat_regions], carried_m[fat_regions];

@@ -1,5 +1,5 @@
 #pragma once
-// The parameters that tell one walker from another, in one table that programs and people share.
+// Style parameters of a walk, in one table that programs and documents share.
 
 #include <array>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// A default for a field of one row or of sixteen.
+/// Returns a field's default for one row or for sixteen.
 template <class F>
 constexpr F in_every_lane(float value) {
   if constexpr (std::is_same_v<F, Lanes<float>>) {
@@ -22,8 +22,8 @@ constexpr F in_every_lane(float value) {
 }
 
 /// Units are in the names: _deg degrees; _h fractions of body height; _cycle fractions of the gait cycle of two steps.
-/// What depends on speed is given at a natural step (0.43 body heights) and follows the step from there.
-/// Meaning, default and range of each: `gait_parameters`.
+/// Values that depend on speed are given at a natural step (0.43 body heights) and scaled from there. `gait_parameters`
+/// has meaning, default and range of each.
 template <class F>
 struct GaitStyleOf {
   F pelvis_rotation_deg = in_every_lane<F>(6.5F);
@@ -67,7 +67,7 @@ struct GaitStyleOf {
 /// One person's style.
 using GaitStyle = GaitStyleOf<float>;
 
-/// One parameter: its name, unit ("1" where it has none), where it lies, its range, and what it does.
+/// One parameter: name, unit ("1" if dimensionless), member, range, and meaning.
 struct GaitParameter {
   std::string_view name, unit;
   float GaitStyle::*value;
@@ -75,8 +75,8 @@ struct GaitParameter {
   std::string_view meaning;
 };
 
-/// All parameters of a style, in the order of its fields. The command line, the C interface and snapshots know them by
-/// these names.
+/// All parameters of a style, in the order of its fields. The command line, the C interface and snapshots use these
+/// names.
 inline constexpr std::array<GaitParameter, 36> gait_parameters = {{
     {"pelvis_rotation_deg", "deg", &GaitStyle::pelvis_rotation_deg, 0, 15, "pelvis turn to each side (transverse)"},
     {"pelvis_list_deg", "deg", &GaitStyle::pelvis_list_deg, 0, 10, "pelvis list to each side (frontal)"},

@@ -1,7 +1,6 @@
 #pragma once
-// A lane is an individual; a block is sixteen of them. A component is written once, as a template over its
-// scalar F: with F = float it is one individual's row, with F = Lanes<float> it is a block of sixteen rows
-// whose every field lies as sixteen neighbouring numbers.
+// A lane is one entity's place in a block of sixteen. A component is a template over its scalar F. C<float> is one
+// entity's row; C<Lanes<float>> is a block of sixteen rows, each field stored as sixteen adjacent numbers.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +11,7 @@ namespace mobil::inline v0_3 {
 /// Rows in a block.
 inline constexpr std::size_t lane_count = 16;
 
-/// Sixteen values of one field, one per individual, aligned for the widest register.
+/// Sixteen values of one field, one per lane, aligned for the widest register.
 template <class T>
 struct alignas(64) Lanes {
   T lane[lane_count];
@@ -21,11 +20,11 @@ struct alignas(64) Lanes {
   constexpr const T& operator[](std::size_t i) const { return lane[i]; }
 };
 
-/// The unsigned integer that goes with a scalar: UInt32<float> is a number, UInt32<Lanes<float>> sixteen of them.
+/// Unsigned integer of the same shape as a scalar: UInt32<float> is a number, UInt32<Lanes<float>> sixteen of them.
 template <class F>
 using UInt32 = std::conditional_t<std::is_same_v<F, Lanes<float>>, Lanes<std::uint32_t>, std::uint32_t>;
 
-/// A point, direction or other vector; the field that holds it says its unit and frame.
+/// A point, direction or other vector; unit and frame are documented at the field that holds it.
 template <class F>
 struct Vec3 {
   F x, y, z;
@@ -41,6 +40,6 @@ struct Quat {
 namespace sides {
 enum Side : std::uint32_t { right = 0, left = 1 };
 }  // namespace sides
-using sides::Side;  // Side::left is ours; left alone may be std::left
+using sides::Side;  // Side::left is ours; plain left can be std::left
 
 }  // namespace mobil::inline v0_3

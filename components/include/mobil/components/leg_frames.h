@@ -1,5 +1,5 @@
 #pragma once
-// Where the bones of one leg are, as its lines of action need them.
+// Positions and rotations of one leg's bones, as its lines of action need them.
 
 #include <cstdint>
 
@@ -7,17 +7,17 @@
 
 namespace mobil::inline v0_3 {
 
-/// World places (m) of a leg's joint centres and world rotations of its bones. Of a left leg: the mirror image
-/// (position x → −x, quaternion (x, y, z, w) → (x, −y, −z, w)), so that every leg here is a right one.
+/// World positions (m) of a leg's joint centres and world rotations of its bones. A left leg is stored as its mirror
+/// image (position x → −x, quaternion (x, y, z, w) → (x, −y, −z, w)), so that every leg here is a right one.
 template <class F>
 struct LegFrames {
   Vec3<F> hip_m, knee_m, ankle_m;
   Quat<F> pelvis, thigh, shank, foot;
 };
 
-/// A leg's bones in the frame of its own knee: origin at the knee joint, axes of the thigh, m. `pelvis` and `foot`:
-/// what the axes x, y and z of these bones are there. The shank is turned about x by the flexion, whose sine and cosine
-/// these are. Of a left leg: the mirror image, as in LegFrames.
+/// A leg's bones in the frame of its own knee: origin at the knee joint, axes of the thigh, m. `pelvis` and `foot` are
+/// the axes x, y and z of these bones in that frame. The shank is turned about x by the flexion, whose sine and cosine
+/// are stored. A left leg is mirrored, as in LegFrames.
 template <class F>
 struct KneeFrame {
   Vec3<F> hip_m, ankle_m;
@@ -25,14 +25,14 @@ struct KneeFrame {
   F flexion_rad, sine, cosine;
 };
 
-/// Where a leg is in the walk: the part of the gait cycle that is over since its own heel strike, 0 to 1; and the
-/// walk's speed over √(g · leg), 0 of who stands and of posed people.
+/// Progress of a leg in the walk: elapsed fraction of the gait cycle since its own heel strike, 0 to 1; and the walk's
+/// speed over √(g · leg), 0 for standing and posed people.
 template <class F>
 struct LegClock {
   F cycle, speed;
 };
 
-/// Both legs of a person, right first, as they are looked up by their muscles.
+/// Both legs of a person, right first, published for the lookups of their muscles.
 struct PublishedLeg {
   static constexpr std::uint64_t stable_id = 0x70b491471d4294ea;
   struct alignas(64) Leg {
@@ -42,8 +42,8 @@ struct PublishedLeg {
   Leg leg[2];
 };
 
-/// Sizes of a leg over those of the leg that the published paths belong to: lengths of thigh and shank, and of both
-/// together for what lies across them.
+/// Sizes of a leg relative to the leg of the published paths: thigh length, shank length, and their sum for muscles
+/// that span both.
 template <class F>
 struct LegScale {
   F thigh, shank, across;

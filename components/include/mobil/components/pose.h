@@ -1,5 +1,5 @@
 #pragma once
-// Where the skeleton is, as kinematics wrote it this tick.
+// State of the skeleton in this tick, written by kinematics.
 
 #include <mobil/components/lanes.h>
 #include <mobil/components/segments.h>
@@ -14,9 +14,9 @@ struct Pose {
   Quat<F> rotation[segment_count];
 };
 
-/// Joint angles in rad, index 0 right, 1 left. Flexion and dorsiflexion positive; hip flexion is the thigh's from the
-/// pelvis, its tilt included. Pelvis rotation: right side forward positive; list: right side up positive; tilt:
-/// anterior positive.
+/// Joint angles in rad, index 0 right, 1 left. Flexion and dorsiflexion are positive. Hip flexion is measured from the
+/// pelvis, tilt included. Pelvis rotation is positive with the right side forward, list with the right side up, tilt to
+/// the front.
 template <class F>
 struct JointAngles {
   F pelvis_rotation, pelvis_list, pelvis_tilt;
@@ -25,8 +25,7 @@ struct JointAngles {
 };
 
 /// Points of each foot's sole in the world (m): under the heel, under the ball (toe joint), under the tips of the toes;
-/// index 0 right, 1 left.
-/// `phase`: 0–1 over that side's gait cycle, 0 at its heel strike.
+/// index 0 right, 1 left. `phase`: 0–1 over that side's gait cycle, 0 at its heel strike.
 template <class F>
 struct Feet {
   Vec3<F> heel_m[2], toe_m[2], tip_m[2];

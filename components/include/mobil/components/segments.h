@@ -1,5 +1,5 @@
 #pragma once
-// The 48 rigid segments of the skeleton, parents before children, and who hangs on whom.
+// The 48 rigid segments of the skeleton, parents before children, and the parent of each.
 
 #include <array>
 #include <cstddef>
@@ -8,9 +8,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// A rigid segment of the skeleton. Vertebrae and head are numbered upward from the pelvis; legs and arms follow, right
-/// side
-/// first.
+/// A rigid segment of the skeleton. Vertebrae and head are numbered upward from the pelvis. Legs and arms follow, right
+/// side first.
 enum class Segment : std::uint8_t {
   pelvis,
   L5,
@@ -62,15 +61,15 @@ enum class Segment : std::uint8_t {
   thumb_left,
 };
 
-/// How many segments there are.
+/// Number of segments.
 inline constexpr std::size_t segment_count = 48;
 
-/// The place of a segment in arrays over all segments.
+/// Returns the index of a segment in arrays over all segments.
 constexpr std::size_t index(Segment s) {
   return static_cast<std::size_t>(s);
 }
 
-/// Parent of each segment; the pelvis is its own. The kneecap hangs on the thigh, the arms on T1.
+/// Parent of each segment; the pelvis is its own. The kneecap's parent is the thigh, the arms' is T1.
 inline constexpr std::array<Segment, segment_count> segment_parent = [] {
   using enum Segment;
   std::array<Segment, segment_count> parent{};
@@ -94,7 +93,7 @@ inline constexpr std::array<Segment, segment_count> segment_parent = [] {
   return parent;
 }();
 
-/// Names, as tables and files have them.
+/// Names of the segments in tables and files.
 inline constexpr std::array<std::string_view, segment_count> segment_name = {
     "pelvis",
     "L5",
@@ -146,7 +145,7 @@ inline constexpr std::array<std::string_view, segment_count> segment_name = {
     "thumb_left",
 };
 
-/// The segment of the same name on the given side (0 right, 1 left), from its right-hand one.
+/// Returns the segment of the same name on the given side (0 right, 1 left), given the right-hand one.
 constexpr Segment on_side(Segment right_segment, std::size_t side) {
   const std::size_t step = right_segment < Segment::clavicle_right ? 5 : 6;
   return static_cast<Segment>(index(right_segment) + step * side);

@@ -1,5 +1,5 @@
 #pragma once
-// Walkers who are asleep: nobody is near enough to see them, and where they are follows at once from a few words.
+// State of walkers who are asleep: unseen, without pose or muscles. Their position at any tick follows in closed form.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace mobil::inline v0_3 {
 
-/// A walk straight on at one pace, or standing. GaitState of any later tick follows from it in closed form, to the bit.
-/// `clock`, in units of the walker's clock (systems/gait/gait.h): how far into a stride of two such steps tick 0 was,
-/// right stance first; who stands: into a step, plus a step's units where the left foot is the stance foot. `steps`:
-/// taken at tick 0, modulo 2³². `anchor`: where the straight line began, and with which step. `requests`:
-/// Gait::revision and, from bit 16 on, Gait::displacement.
+/// A straight walk at one pace, or standing. GaitState of any later tick follows from it in closed form, to the bit.
+/// `clock`: time at tick 0 since the start of a stride of two such steps, right stance first, in units of the walker's
+/// clock (systems/gait/gait.h). Standing: since the start of a step, plus one step for left stance. `steps`: steps
+/// taken at tick 0, modulo 2³². `anchor`: start of the straight line and its step. `requests`: Gait::revision and, from
+/// bit 16 on, Gait::displacement.
 template <class F>
 struct SteadyWalk {
   UInt32<F> clock, step_units, steps, anchor_steps;
   F anchor_x_m, anchor_z_m, heading_rad;
-  F asked_heading_rad, speed_m_s, step_length_m;  // what is asked, with the last word
+  F asked_heading_rad, speed_m_s, step_length_m;  // the requested walk, with `requests`
   UInt32<F> requests;
 };
 
-/// A sleeper: the walk and the body. With SleepingStyle or OwnStyle it is all that a walker's row follows from.
+/// A sleeper's walk and body. A walker's row is computed from it and SleepingStyle or OwnStyle.
 template <class F>
 struct Asleep {
   SteadyWalk<F> walk;
@@ -31,29 +31,29 @@ struct Asleep {
   UInt32<F> build;
 };
 
-/// A style on the grid (`snapped`): a byte a parameter, four to a word.
+/// A style on the grid (`snapped`), one byte a parameter, four to a word.
 template <class F>
 struct SleepingStyle {
   UInt32<F> bytes[(gait_parameters.size() + 3) / 4];
 };
-/// One that is not: four times as large.
+/// A style that is not on the grid, 4 times as large.
 template <class F>
 struct OwnStyle {
   GaitStyleOf<F> style;
 };
 
-/// Beside Asleep while a sleeper turns, stops or changes speed: the walk before, the tick at which that was asked, and
-/// the tick from which on Asleep::walk holds; 0 until that is worked out, in the next tick.
+/// Stored with Asleep while a sleeper turns, stops or changes speed: the previous walk, the tick of the request, and
+/// the first tick at which Asleep::walk holds. `until_tick` is 0 until the next tick computes it.
 template <class F>
 struct Unsettled {
   SteadyWalk<F> before;
   UInt32<F> asked_tick, until_tick;
 };
-/// Of who does not walk steadily within some steps: they are to be woken.
+/// Unsettled::until_tick of a sleeper that reaches no steady walk within some steps, and must be woken.
 inline constexpr std::uint32_t never_settles = 0xFFFFFFFF;
 
-/// Tags of a sleeper's table: ground reaction and joint moments are there again on waking; level of detail still
-/// chooses muscles then; steps are watched again; fat wobbles again, from rest.
+/// Tags of a sleeper's table. On waking, the person regains ground reaction and joint moments, level of detail, step
+/// events, or wobbling fat (from rest).
 struct SleepsWithForces {};
 struct SleepsManaged {};
 struct SleepsWithStepEvents {
@@ -61,8 +61,8 @@ struct SleepsWithStepEvents {
 };
 struct SleepsWithFat {};
 
-/// The nearest style of those that take least memory asleep: each parameter a whole number of 254ths of its range away
-/// from its default (systems/gait/asleep.cpp).
+/// Returns the nearest style of those that need minimal memory asleep. Each parameter is an integer multiple of 1/254
+/// of its range away from its default (systems/gait/asleep.cpp).
 GaitStyle snapped(const GaitStyle& style);
 
 }  // namespace mobil::inline v0_3

@@ -1,24 +1,24 @@
 #pragma once
-// What a system may take, and what each kind of parameter says about it. The scheduler reads a system's signature:
+// Parameters of systems. The scheduler derives accesses from a system's signature:
 //
-//   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and may read it)
-//   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and may read it)
-//   Maybe<C>                 reads this block's component where the table has it; MaybeField<const Tag> a field,
-//                            MaybeField<Tag> writes it (and may read it)
-//   Ahead<C>                 where the next block has it, to fetch what it names meanwhile
-//   Later<Tag>               where this block has a field that a later system works on, to fetch it meanwhile
-//   Previous<C>              reads what the component was before this tick's writers
+//   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and can read it)
+//   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and can read it)
+//   Maybe<C>                 reads this block's component if the table has it; MaybeField<const Tag> a field,
+//                            MaybeField<Tag> writes it (and can read it)
+//   Ahead<C>                 the component of the next blocks, for prefetching what it refers to
+//   Later<Tag>               this block's field that a later system works on, for prefetching it
+//   Previous<C>              reads the component as it was before this tick's writers
 //   Lookup<C>                reads the component of other entities, this tick's
-//   Published<T>             writes what the block's rows tell others; LookupPublished<T> reads it
+//   Published<T>             writes what the block's rows publish; LookupPublished<T> reads it
 //   TagValue<Tag>, Shared<T> the table's tag or shared resource
-//   Scratch<Tag>             memory to work in, as many floats as the table's tag says
-//   Tally<Tag>               adds to a count of the tick, which is no state (Schedule::tally); one a system
+//   Scratch<Tag>             scratch memory, as many floats as the table's tag specifies
+//   Tally<Tag>               adds to a count of the tick, which is not state (Schedule::tally); one a system
 //   Tick, float              the tick; a plain float is its length in s
 //   Rows                     the entities of the block's lanes
-//   const Table&             the block's table: how many rows, of what parts; how to work may depend on it, no result
+//   const Table&             the block's table: number of rows, parts; results must not depend on it
 //
-// It runs on every block of every table that has all components, fields and tags named (Maybes, Later, Scratch, Tally
-// aside).
+// A system runs on every block of every table that has all named components, fields and tags (except Maybe, Later,
+// Scratch and Tally).
 
 #include <atomic>
 #include <cstddef>
@@ -32,8 +32,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// The lanes of one block: sixteen entities, of which the first `live` are rows and the rest parked copies of the
-/// first.
+/// The lanes of one block: sixteen entities. The first `live` are rows, the rest parked copies of the first.
 struct Rows {
   const Entity* entity;
   std::uint32_t live;
@@ -44,10 +43,10 @@ template <class Tag>
 struct Field {
   std::conditional_t<std::is_const_v<Tag>, const float*, float*> data;
   std::uint32_t words;
-  const float* next;  // where the table's next block has it, to be fetched meanwhile and never read; null at the last
+  const float* next;  // the next block's, to prefetch but not read; null at the last block
 };
 
-/// A component as it was before this tick: the system runs ahead of all that write it.
+/// A component as it was before this tick; the system runs before all writers.
 template <template <class> class C>
 struct Previous {
   const C<Lanes<float>>* block;
@@ -56,48 +55,48 @@ struct Previous {
   const C<Lanes<float>>* operator->() const { return block; }
 };
 
-/// A component of the table's next blocks, whose values an earlier tick left there: to guess by what will be needed
-/// next and fetch it. Null past the last block.
+/// A component of the table's next blocks, with values of an earlier tick. It lets a system predict and prefetch what
+/// it will need. Null past the last block.
 template <template <class> class C>
 struct Ahead {
   const C<Lanes<float>>*block, *second, *third;
 };
 
-/// A field of this block that a later system works on, to be fetched for it and never read: null where it is missing.
+/// A field of this block that a later system works on, to prefetch but not read; null if missing.
 template <class Tag>
 struct Later {
   const float* data;
   std::uint32_t words;
 };
 
-/// A component that not every table has: null where it is missing.
+/// A component that some tables lack; null if missing.
 template <template <class> class C>
 struct Maybe {
   const C<Lanes<float>>* block;
 };
 
-/// A field that not every table has: null where it is missing.
+/// A field that some tables lack; null if missing.
 template <class Tag>
 struct MaybeField {
   std::conditional_t<std::is_const_v<Tag>, const float*, float*> data;
 };
 
-/// Memory of this block's own until the system returns, 64-byte aligned, with anything in it: as many floats as the
-/// table's TagValue<Tag>, null where that is 0 or missing.
+/// Scratch memory for this block until the system returns, 64-byte aligned, uninitialised. It has as many floats as the
+/// table's TagValue<Tag>; null if that is 0 or missing.
 template <class Tag>
 struct Scratch {
   float* data;
   std::size_t floats;
 };
 
-/// A count that systems add to and the schedule keeps: what is rare and has to be told, and is no state. Sums of whole
-/// numbers: the same in whatever order blocks are worked on.
+/// A count that systems add to and the schedule keeps, for rare events that must be reported and are not state. Sums
+/// are integers, and therefore independent of the order of blocks.
 template <class Tag>
 class Tally {
  public:
   explicit Tally(std::atomic<std::uint64_t>* sum) : sum_(sum) {}
 
-  /// From any thread.
+  /// Adds to the count; callable from any thread.
   void add(std::uint64_t count) const {
     if (count > 0) sum_->fetch_add(count, std::memory_order_relaxed);
   }
@@ -106,19 +105,19 @@ class Tally {
   std::atomic<std::uint64_t>* sum_;
 };
 
-/// Where a column of any entity's row is.
+/// Finds a column in any entity's row.
 class ColumnLookup {
  public:
-  /// Where an entity's row of the column is: word w at column[16·w + lane].
+  /// An entity's row of the column: word w at column[16·w + lane].
   struct Found {
     const float* column = nullptr;  // null when the entity is stale or has no such column
     std::uint32_t lane = 0;
   };
 
   ColumnLookup(const World& world, std::uint64_t id) : world_(&world), id_(id) {}
-  /// Fetches what `find` reads first.
+  /// Prefetches the memory that `find` reads first.
   void fetch(Entity entity) const { world_->fetch(entity); }
-  /// Null for a stale entity and where its table has no such column.
+  /// Returns null for a stale entity or a table without the column.
   Found find(Entity entity) const {
     const auto* const at = world_->locate(entity);
     if (at == nullptr) return {};
@@ -133,7 +132,7 @@ class ColumnLookup {
   }
 
  private:
-  static constexpr std::size_t seen_count = 4;  // most that one asks for lie in few tables
+  static constexpr std::size_t seen_count = 4;  // successive lookups are in few tables
   struct Seen {
     std::uint32_t number = ~0U, first_word = Table::no_column;
     const Table* table = nullptr;
@@ -150,7 +149,7 @@ class Lookup {
  public:
   explicit Lookup(const World& world) : columns_(world, type_id<C<float>>()) {}
 
-  /// Word 0 of that entity's row; word w is 16·w further on. Null when the entity is stale or has no such component.
+  /// Returns word 0 of that entity's row; word w is at offset 16·w. Null if the entity is stale or lacks the component.
   const float* find(Entity entity) const {
     const auto [column, lane] = columns_.find(entity);
     return column == nullptr ? nullptr : column + lane;
@@ -160,22 +159,22 @@ class Lookup {
   ColumnLookup columns_;
 };
 
-/// What the sixteen rows of a block publish, to be written for all of them.
+/// Published structs of a block's sixteen rows; the system must write all of them.
 template <class T>
 struct Published {
   T* row;
 };
 
-/// What any entity has published this tick.
+/// Published structs of any entity in this tick.
 template <class T>
 class LookupPublished {
  public:
   explicit LookupPublished(const World& world) : columns_(world, type_id<T>()) {}
 
-  /// Fetches what `find` reads first.
+  /// Prefetches the memory that `find` reads first.
   void fetch(Entity entity) const { columns_.fetch(entity); }
 
-  /// Null when the entity is stale or publishes no T.
+  /// Returns null if the entity is stale or does not publish T.
   const T* find(Entity entity) const {
     const auto [column, lane] = columns_.find(entity);
     return column == nullptr ? nullptr : reinterpret_cast<const T*>(column) + lane;
@@ -201,7 +200,7 @@ struct Signature<R (F::*)(P...) const noexcept> : Parameters<P...> {};
 template <class R, class F, class... P>
 struct Signature<R (F::*)(P...)> : Parameters<P...> {};
 
-/// What one parameter does with a component or field (`none`: nothing that order depends on).
+/// Access of one parameter to a component or field (`none`: irrelevant to the order).
 struct Access {
   enum class Mode : std::uint8_t { none, read, write, previous, lookup };
 
@@ -210,7 +209,7 @@ struct Access {
   std::string_view name;
 };
 
-/// A parameter as found in one table.
+/// A parameter bound to one table.
 struct Bound {
   std::uint32_t first_word = 0;
   std::uint32_t words = 0;
@@ -219,7 +218,7 @@ struct Bound {
   std::size_t scratch_floats = 0;
 };
 
-/// One block, about to be worked on.
+/// One block of a system's call.
 struct BlockView {
   const World& world;
   Table& table;
@@ -229,21 +228,21 @@ struct BlockView {
   std::atomic<std::uint64_t>* tally = nullptr;  // the system's
 };
 
-/// How a parameter of type P is declared (`access`), found in a table (`bind`, false where the table lacks it) and made
-/// for a block (`make`).
+/// Traits of a parameter of type P: its access (`access`), binding to a table (`bind`, false if the table lacks the
+/// part), and construction for a block (`make`).
 template <class P>
 struct Parameter;
 
 template <class P>
 struct Parameter<const P&> : Parameter<P> {};
 
-/// Those that any table can serve.
+/// Parameters that any table can provide.
 struct AnywhereParameter {
   static constexpr Access access() { return {}; }
   static bool bind(const World&, const Table&, Bound&) { return true; }
 };
 
-/// What a system cannot take.
+/// Rejects types that are not parameters.
 template <class P>
 struct Parameter : AnywhereParameter {
   static_assert(!std::is_same_v<P, P>,
@@ -252,7 +251,7 @@ struct Parameter : AnywhereParameter {
   static P make(const BlockView&, const Bound&);
 };
 
-/// How a component or a field is handed to a system: what it asks of a table, and where a block has it.
+/// Binding of a component or field: its access, and its place in a block.
 template <Access::Mode mode, class T>
 struct ColumnParameter {
   static constexpr Access access() { return {mode, type_id<T>(), type_name<T>()}; }
@@ -268,7 +267,7 @@ struct ColumnParameter {
   }
 };
 
-/// How a tag or a shared resource is handed to a system.
+/// Binding of a tag or shared resource.
 template <class T>
 struct TagParameter {
   static constexpr Access access() { return {}; }
@@ -410,28 +409,28 @@ struct Parameter<Scratch<Tag>> : AnywhereParameter {
   }
 };
 
-/// A tally's tag stands among its system's accesses, with mode `none`: the order of systems does not depend on it.
+/// A tally's tag is listed among its system's accesses with mode `none`, so it does not affect the order.
 template <class Tag>
 struct Parameter<Tally<Tag>> : AnywhereParameter {
   static constexpr Access access() { return {Access::Mode::none, type_id<Tag>(), type_name<Tag>()}; }
   static Tally<Tag> make(const BlockView& view, const Bound&) { return Tally<Tag>(view.tally); }
 };
 
-/// Whether a parameter is an Of of some tag, by value or by reference.
+/// True if a parameter is an Of of some tag, by value or by reference.
 template <template <class> class Of, class P>
 inline constexpr bool is_tagged = false;
 template <template <class> class Of, class Tag>
 inline constexpr bool is_tagged<Of, Of<Tag>> = true;
 template <template <class> class Of, class Tag>
 inline constexpr bool is_tagged<Of, const Of<Tag>&> = true;
-/// Whether it is memory to work in.
+/// True for scratch memory.
 template <class P>
 inline constexpr bool is_scratch = is_tagged<Scratch, P>;
-/// Whether it counts.
+/// True for tallies.
 template <class P>
 inline constexpr bool is_tally = is_tagged<Tally, P>;
 
-/// Whether a parameter means something only within a tick.
+/// True if a parameter is valid only within a tick.
 template <class P>
 inline constexpr bool is_timed = is_scratch<P> || is_tally<P>;
 template <>

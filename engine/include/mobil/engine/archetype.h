@@ -1,11 +1,11 @@
 #pragma once
-// What an entity can be made of, and the key that those parts form together. There are four kinds:
+// Parts of entities, and the archetype (key) that they form. There are four kinds:
 //   component  Pose<float>                  a row of 4-byte words, the same number in every table
-//   field      FieldWidth<NodalVelocity>    a row of floats whose number the table's key fixes
+//   field      FieldWidth<NodalVelocity>    a row of floats, their number fixed by the table's key
 //   tag        TagValue<Substeps>, Shared<Mesh>   one value for the whole table, part of its key
-//   published  Publishes<PublishedLeg>  what a row tells others within a tick; no state
-// Parts are told apart by a hash of their type's full name, which must be unique in a program: nothing is registered,
-// nothing is global.
+//   published  Publishes<PublishedLeg>  a struct for other rows within a tick; not state
+// Parts are identified by a hash of their type's full name, which must be unique in a program. Nothing is registered
+// or global.
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ constexpr auto type_name() {
 }  // namespace spelling
 using spelling::type_name;
 
-/// The identity of a type in archetypes, snapshots and state hashes: `T::stable_id` if there is one, which survives a
+/// Returns the identity of a type in archetypes, snapshots and state hashes. This is `T::stable_id` if it exists, which
 /// change of name; else FNV-1a of its name, where our namespace is called `mobil::` in every version of the library.
 struct InOurNamespace;
 template <class T>
@@ -57,21 +57,22 @@ consteval std::uint64_t type_id() {
   return hash;
 }
 
-/// `shared`: a tag whose value is the index of a resource, which means something in its own world alone. `published`:
-/// what rows tell others in a tick, gone when it ends.
+/// `shared`: a tag whose value is the index of a resource, valid only in its own world. `published`: data for other
+/// rows, which ends with the tick.
 enum class PartKind : std::uint8_t { component, field, tag, shared, published };
-/// Whether rows have words of it as their state.
+/// Returns true if a part's words are state of a row.
 constexpr bool has_column(PartKind kind) {
   return kind <= PartKind::field;
 }
 
-/// One part of a table's key. `value`: words a row of a component, field or published struct, the value of a tag.
+/// Id and kind of one part of a key. `value`: words a row of a component, field or published struct; the value of a
+/// tag.
 struct ComponentId {
   std::uint64_t id = 0;
   PartKind kind = PartKind::component;
   std::uint64_t value = 0;
   std::string_view name;
-  const bool* is_float = nullptr;  // of a component, `value` of them: which of its words are floats
+  const bool* is_float = nullptr;  // for components, `value` flags: true for words that are floats
 
   friend bool operator==(const ComponentId& a, const ComponentId& b) {
     return a.id == b.id && a.kind == b.kind && a.value == b.value;
@@ -81,24 +82,24 @@ struct ComponentId {
 /// Parts sorted by id, each id once. Two entities share a table when their keys are equal.
 using Archetype = std::pmr::vector<ComponentId>;
 
-/// The first part whose id is not below `id`.
+/// Returns the first part whose id is not below `id`.
 inline Archetype::const_iterator lower_bound(const Archetype& key, std::uint64_t id) {
   return std::lower_bound(key.begin(), key.end(), id,
                           [](const ComponentId& part, std::uint64_t i) { return part.id < i; });
 }
 
-/// The part of that id, or null.
+/// Returns the part with that id, or null.
 inline const ComponentId* find_component(const Archetype& key, std::uint64_t id) {
   const auto at = lower_bound(key, id);
   return at != key.end() && at->id == id ? &*at : nullptr;
 }
 
-/// Puts a part where its id belongs.
+/// Inserts a part in the order of ids.
 inline void insert_component(Archetype& key, const ComponentId& part) {
   key.insert(lower_bound(key, part.id), part);
 }
 
-/// A field to be: `words` floats a row, zero at first. `Tag` is a plain struct that names it.
+/// A new field: `words` floats a row, initially zero. `Tag` is a plain struct that names it.
 template <class Tag>
 struct FieldWidth {
   std::uint32_t words = 0;
@@ -111,7 +112,7 @@ struct TagValue {
   std::uint64_t value = 0;
 };
 
-/// An immutable resource that all rows of a table share; `World::share` makes it, the world owns it. A system
+/// An immutable resource that all rows of a table share. `World::share` creates it, and the world owns it. A system
 /// receives it as a parameter of this type.
 template <class T>
 struct Shared {
@@ -122,22 +123,21 @@ struct Shared {
   const T* operator->() const { return resource; }
 };
 
-/// What each row tells others, T: a plain struct that a system writes for all rows in every tick before anybody looks.
-/// It is not state: a row that moves leaves it behind. One row's lies in one piece, so that to look it up takes but the
-/// lines of memory that T fills.
+/// Marks a plain struct T that rows publish; a system writes it for all rows in every tick before any lookup. It is not
+/// state and does not move with a row. A row's struct is contiguous, so a lookup reads only T's cache lines.
 template <class T>
 struct Publishes {};
 
-/// Stands in for a component's number type, to find out which of its words are numbers of that type.
+/// Substitute for a component's number type that reveals which words are of that type.
 struct FloatWord {
   static constexpr std::uint32_t mark = 0x6d6f6269;
   std::uint32_t bits = mark;
   constexpr FloatWord() = default;
-  constexpr FloatWord(float) {}  // a default that a component gives
+  constexpr FloatWord(float) {}  // accepts a component's default value
 };
 
-/// A component's layout: word w of lane l of a block lies at block[16·w + l]. That needs members that are F, UInt32<F>
-/// or arrays and structs of those; what of it can be checked is checked here.
+/// Layout of a component: word w of lane l of a block at block[16·w + l]. Members must be F, UInt32<F>, or arrays and
+/// structs of those, which is checked here as far as possible.
 template <template <class> class C>
 struct ComponentLayout {
   static_assert(std::is_trivially_copyable_v<C<float>> && std::is_trivially_copyable_v<C<Lanes<float>>>,
@@ -158,20 +158,20 @@ struct ComponentLayout {
   }();
 };
 
-/// The key part of a component.
+/// Returns the id of a component.
 template <template <class> class C>
 constexpr ComponentId component_id() {
   return {type_id<C<float>>(), PartKind::component, ComponentLayout<C>::words, type_name<C<float>>(),
           ComponentLayout<C>::is_float.data()};
 }
 
-/// Whether T is a component's row.
+/// True if T is a component's row.
 template <class T>
 inline constexpr bool is_row = false;
 template <template <class> class C>
 inline constexpr bool is_row<C<float>> = true;
 
-/// What is none of the kinds of parts.
+/// Rejects types that are not parts.
 template <class T>
 constexpr ComponentId component_id(const T&) {
   static_assert(!std::is_same_v<T, T>,
@@ -196,7 +196,7 @@ constexpr ComponentId component_id(const Shared<T>& shared) {
   return {type_id<T>(), PartKind::shared, shared.index, type_name<T>()};
 }
 
-/// The same for what rows publish; T fills whole lines of 64 bytes.
+/// Returns the id of a published struct; T must fill whole cache lines of 64 bytes.
 template <class T>
 constexpr ComponentId component_id(const Publishes<T>&) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 64 == 0 && alignof(T) <= 64, "whole lines of memory");
@@ -207,14 +207,14 @@ constexpr ComponentId component_id(const Publishes<T>&) {
 template <class P>
 inline constexpr std::uint64_t part_id = component_id(P{}).id;
 
-/// A part with its first value, for lists put together at run time. `row`: a component's words, in the caller's memory;
-/// null for fields and tags.
+/// A part with its first value, for lists built at run time. `row`: a component's words, in the caller's memory; null
+/// for fields and tags.
 struct PartValue {
   ComponentId part;
   const void* row = nullptr;
 };
 
-/// A part with its value; `row` must outlive what is returned.
+/// Returns a part with its value; `row` must outlive the result.
 template <template <class> class C>
 constexpr PartValue part_value(const C<float>& row) {
   return {component_id<C>(), &row};
@@ -224,7 +224,7 @@ constexpr PartValue part_value(const P& part) {
   return {component_id(part), nullptr};
 }
 
-/// One number for a key, to find tables by.
+/// Returns a hash of a key, by which tables are found.
 inline std::uint64_t key_hash(const Archetype& key) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const ComponentId& part : key) {
@@ -234,7 +234,7 @@ inline std::uint64_t key_hash(const Archetype& key) {
   return hash;
 }
 
-/// Whether no id is there twice.
+/// Returns true if all ids differ.
 constexpr bool distinct(std::initializer_list<std::uint64_t> ids) {
   for (auto a = ids.begin(); a != ids.end(); ++a) {
     if (std::find(a + 1, ids.end(), *a) != ids.end()) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Time in ticks of fixed length, out of frames of any length.
+// Fixed-length ticks from frames of any length.
 
 #include <cmath>
 #include <cstdint>
@@ -8,25 +8,25 @@
 
 namespace mobil::inline v0_3 {
 
-/// The tick under way: its length, s, and its number from 0 on.
+/// The current tick: its length, s, and its number from 0 on.
 struct Tick {
   float dt_s = 0;
   std::uint32_t index = 0;
 };
 
-/// What a frame amounts to.
+/// Ticks that result from a frame.
 struct Ticks {
   std::uint32_t count = 0;  ///< ticks to run now
-  double dropped_s = 0;     ///< time that will never be run: what the frame had beyond the longest allowed
-  double alpha = 0;         ///< how far into the next tick the frame ends, in [0, 1): PoseWriter writes poses there
-  bool valid = true;        ///< false when the frame was negative or not finite; then all of it was dropped
+  double dropped_s = 0;     ///< discarded time: what the frame exceeds the maximum by, s
+  double alpha = 0;         ///< position of the frame's end in the next tick, in [0, 1), for PoseWriter
+  bool valid = true;        ///< false if the frame was negative or not finite; then all of it was discarded
 };
 
-/// A fixed-timestep clock. It counts in whole units of 2⁻⁵⁰ s, so that nothing drifts: what was fed is always exactly
-/// the ticks given out, the remainder and what was dropped, each frame rounded to a unit once.
+/// A fixed-timestep clock. It counts in integer units of 2⁻⁵⁰ s and does not drift: the sum of all frames, each rounded
+/// once to a unit, is exactly the ticks returned, the remainder and the discarded time.
 class Clock {
  public:
-  /// 60 ticks a second; of a frame longer than 0.25 s the rest is dropped.
+  /// 60 ticks a second; time of a frame beyond 0.25 s is discarded.
   Clock() = default;
 
   /// Ranges: tick 1e-5–1 s, longest frame from one tick to 60 s.
@@ -44,8 +44,7 @@ class Clock {
     return clock;
   }
 
-  /// Feeds the time of a frame, s: the ticks to run now, and what is left over. A negative or non-finite time is
-  /// dropped.
+  /// Adds a frame's time, s, and returns the ticks to run now. A negative or non-finite time is discarded.
   Ticks advance(double seconds) {
     Ticks ticks;
     if (!(seconds >= 0) || !std::isfinite(seconds)) {
@@ -63,17 +62,17 @@ class Clock {
     return ticks;
   }
 
-  /// Ticks that `advance` gave out and that did not run: the next frame has them.
+  /// Adds ticks of `advance` that did not run to the next frame.
   void give_back(std::uint32_t ticks) { remainder_ += ticks * tick_; }
 
   /// Length of a tick, s.
   double tick_s() const { return to_seconds(tick_); }
-  /// The most ticks that a frame amounts to.
+  /// Returns the maximum number of ticks a frame.
   std::uint32_t max_ticks() const { return static_cast<std::uint32_t>((max_frame_ + tick_ - 1) / tick_); }
-  /// Time fed that has not made a whole tick yet.
+  /// Returns the time that does not yet amount to a tick.
   double remainder_s() const { return to_seconds(remainder_); }
 
-  /// The same in units of 2⁻⁵⁰ s, to be kept and put back: from 0 to below a tick.
+  /// Tick and remainder in units of 2⁻⁵⁰ s, for saving and restoring; the remainder is from 0 to below a tick.
   std::int64_t tick_units() const { return tick_; }
   std::int64_t remainder_units() const { return remainder_; }
   void set_remainder_units(std::int64_t units) { remainder_ = units; }

@@ -1,5 +1,5 @@
 #pragma once
-// Handles: an index and a generation. A handle that outlives its entity is stale, and every call says so.
+// Handles of entities: an index and a generation. A handle that outlives its entity is stale, which every call reports.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// A handle: plain data, may be stored, copied and sent. The default one is null: never alive.
+/// A handle: plain data that can be stored, copied and sent. The default one is null and never alive.
 struct Entity {
   std::uint32_t index = 0;
   std::uint32_t generation = 0;
@@ -20,8 +20,8 @@ struct Entity {
   friend bool operator==(const Entity&, const Entity&) = default;
 };
 
-/// Who is alive, and where: the table (its number in the world) and the row. Slots are reused last in, first out, each
-/// time with the next generation; a slot whose generations are used up is retired.
+/// Register of alive entities and their rows. Slots are reused last in, first out, each time with the next generation.
+/// A slot whose generations are used up is retired.
 class EntityRegister {
  public:
   /// A table's number in the world, and a row of it.
@@ -31,21 +31,21 @@ class EntityRegister {
 
   explicit EntityRegister(std::pmr::memory_resource* memory) : slots_(memory) {}
 
-  /// Room for so many more: then `create` takes no memory.
+  /// Makes room for `more` entities, for which `create` does not allocate.
   void reserve(std::size_t more) {
     const std::size_t slots = slots_.size() + more;
     if (slots > slots_.capacity()) slots_.reserve(std::max(slots, 2 * slots_.capacity()));
   }
 
-  /// Indices given out so far, also those of entities that are gone.
+  /// Returns the number of indices used so far, including those of destroyed entities.
   std::size_t size() const { return slots_.size(); }
-  /// The alive entity of an index; a stale handle where there is none.
+  /// Returns the alive entity of an index, or a stale handle.
   Entity at(std::uint32_t index) const {
     return index < slots_.size() && slots_[index].location.table != nobody ? Entity{index, slots_[index].generation}
                                                                            : Entity{};
   }
 
-  /// A new alive entity, at table 0 and row 0 until its place is set.
+  /// Creates an entity at table 0 and row 0; the caller sets its location.
   Entity create() {
     std::uint32_t index = first_free_;
     if (index == nobody) {
@@ -58,28 +58,28 @@ class EntityRegister {
     return {index, slots_[index].generation};
   }
 
-  /// The entity created last is as if it had never been: the next one gets its handle.
+  /// Undoes the last `create`; the next one returns the same handle.
   void undo_create(Entity entity) {
     slots_[entity.index].location = {nobody, first_free_};
     first_free_ = entity.index;
   }
 
-  /// Null when the handle is stale.
+  /// Returns null for a stale handle.
   Location* find(Entity entity) { return alive(entity) ? &slots_[entity.index].location : nullptr; }
   const Location* find(Entity entity) const { return alive(entity) ? &slots_[entity.index].location : nullptr; }
 
-  /// Fetches the memory that `find` reads.
+  /// Prefetches the memory that `find` reads.
   void fetch(Entity entity) const {
     if (entity.index < slots_.size()) __builtin_prefetch(&slots_[entity.index]);
   }
 
-  /// False for a stale handle and for the default one.
+  /// Returns false for a stale or default handle.
   bool alive(Entity entity) const {
     return entity.index < slots_.size() && slots_[entity.index].generation == entity.generation &&
            slots_[entity.index].location.table != nobody;
   }
 
-  /// Frees the slot of a alive entity.
+  /// Frees the slot of an alive entity.
   void destroy(Entity entity) {
     Slot& slot = slots_[entity.index];
     slot.location.table = nobody;
@@ -94,7 +94,7 @@ class EntityRegister {
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
   struct Slot {
     std::uint32_t generation;
-    Location location;  // of a free slot: {nobody, the next free one}
+    Location location;  // `{nobody, next free slot}` if the slot is free
   };
   std::pmr::vector<Slot> slots_;
   std::uint32_t first_free_ = nobody;

@@ -1,5 +1,5 @@
 #pragma once
-// How a failure is handed back: one clear line that says what, where, the valid range and how to mend it; and a code.
+// Errors: one line with the cause, the place, the valid range and the remedy; and a status code.
 
 #include <string>
 #include <tl/expected.hpp>
@@ -9,7 +9,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Why a call failed: one line for people, a code for the program.
+/// Reason of a failed call: one line of text and a status code.
 struct Error {
   std::string message;
   Status status = Status::not_valid;  // never ok
@@ -18,32 +18,32 @@ inline bool operator==(const Error& error, Status status) {
   return error.status == status;
 }
 
-/// What was asked for, or an Error.
+/// A result, or an Error.
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// The text on one line that a terminal shows as it stands: control characters as \n or \x1b, words of more than 255
-/// characters cut to their first 60, and at most 2000 characters in all. Texts within that stay as they are.
+/// Returns the text on one line that terminals show unchanged. Control characters become \n or \x1b. Words of more than
+/// 255 characters are cut to their first 60, and the text to 2000 characters. Other texts are unchanged.
 std::string one_line(std::string text);
 
-/// The message is made one line.
+/// Returns an error; the message is put on one line.
 inline tl::unexpected<Error> fail(std::string message, Status status = Status::not_valid) {
   return tl::unexpected<Error>(Error{one_line(std::move(message)), status});
 }
-/// With the status' own line, or none where there is no memory for it.
+/// Returns an error with the status' text, or without text if memory runs out.
 tl::unexpected<Error> fail(Status status) noexcept;
 
-/// A status with its line, which names the call that was refused; without where there is no memory for it.
+/// Returns a status with a text that names the refused call, or without text if memory runs out.
 Result<void> result_of(const char* call, Status status) noexcept;
 
-/// An error with the name of the call that was refused before its message.
+/// Prefixes an error with the name of the refused call.
 template <class T>
 Result<T> named(const char* call, Result<T> result) {
   if (result) return result;
   return fail(std::string(call) + ": " + result.error().message, result.error().status);
 }
 
-/// Whether it ended like that: simulation.despawn(person) == Status::ok.
+/// Returns true if a call ended with that status: simulation.despawn(person) == Status::ok.
 template <class T>
 bool operator==(const tl::expected<T, Error>& result, Status status) {
   return status == Status::ok ? result.has_value() : !result.has_value() && result.error().status == status;

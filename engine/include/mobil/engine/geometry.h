@@ -1,6 +1,6 @@
 #pragma once
-// Arithmetic on points, directions and rotations, in float or double. For one lane at a time; kernels have
-// engine/wide_geometry-inl.h. Its names and operators are seen after `using namespace geometry`.
+// Arithmetic on points, directions and rotations, in float or double, for one lane at a time. Kernels have
+// engine/wide_geometry-inl.h. Its names and operators are visible after `using namespace geometry`.
 
 #include <array>
 #include <cmath>
@@ -39,14 +39,14 @@ template <class F>
 F length(const Vec3<F>& a) {
   return std::sqrt(dot(a, a));
 }
-/// Of length 1; `a` must have a length.
+/// Returns `a` scaled to length 1; its length must not be 0.
 template <class F>
 Vec3<F> normalised(const Vec3<F>& a) {
   return (1 / length(a)) * a;
 }
 
-/// The part of `direction` that is orthogonal to the unit vector `axis`, of unit length; some such vector where the two
-/// are parallel.
+/// Returns the normalised part of `direction` that is orthogonal to the unit vector `axis`, or any orthogonal unit
+/// vector if the two are parallel.
 inline Vec orthogonal(const Vec& direction, const Vec& axis) {
   const Vec part = direction - dot(direction, axis) * axis;
   if (length(part) > 1e-9 * (1 + length(direction))) return normalised(part);
@@ -54,20 +54,20 @@ inline Vec orthogonal(const Vec& direction, const Vec& axis) {
   return normalised(other - dot(other, axis) * axis);
 }
 
-/// 0 below `from`, 1 above `to`, smooth between (C¹).
+/// Returns 0 below `from`, 1 above `to`, smooth between (C¹).
 inline double smoothstep(double from, double to, double x) {
   const double t = x <= from ? 0.0 : x >= to ? 1.0 : (x - from) / (to - from);
   return t * t * (3 - 2 * t);
 }
 
-/// v rotated by the unit quaternion q.
+/// Returns v rotated by the unit quaternion q.
 template <class F>
 constexpr Vec3<F> rotated(const Quat<F>& q, const std::type_identity_t<Vec3<F>>& v) {
   const Vec3<F> axis{q.x, q.y, q.z};
   const Vec3<F> t = 2 * cross(axis, v);
   return v + q.w * t + cross(axis, t);
 }
-/// Where the unit quaternion q turns the three axes: the columns of its matrix.
+/// Returns the three axes rotated by the unit quaternion q: the columns of its matrix.
 template <class F>
 constexpr std::array<Vec3<F>, 3> columns(const Quat<F>& q) {
   const auto [x, y, z, w] = q;
@@ -75,19 +75,19 @@ constexpr std::array<Vec3<F>, 3> columns(const Quat<F>& q) {
           Vec3<F>{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
           Vec3<F>{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
-/// The rotation back.
+/// Returns the inverse rotation.
 template <class F>
 constexpr Quat<F> conjugate(const Quat<F>& q) {
   return {-q.x, -q.y, -q.z, q.w};
 }
-/// First a, then b.
+/// Returns the rotation a followed by b.
 template <class F>
 constexpr Quat<F> product(const Quat<F>& b, const Quat<F>& a) {
   return {b.w * a.x + b.x * a.w + b.y * a.z - b.z * a.y, b.w * a.y - b.x * a.z + b.y * a.w + b.z * a.x,
           b.w * a.z + b.x * a.y - b.y * a.x + b.z * a.w, b.w * a.w - b.x * a.x - b.y * a.y - b.z * a.z};
 }
 
-/// The mirror image in the plane x = 0, between the two sides of the body.
+/// Returns the mirror image in the plane x = 0, between the two sides of the body.
 template <class F>
 constexpr Vec3<F> mirrored(const Vec3<F>& v) {
   return {-v.x, v.y, v.z};
@@ -97,7 +97,7 @@ constexpr Quat<F> mirrored(const Quat<F>& q) {
   return {q.x, -q.y, -q.z, q.w};
 }
 
-/// The same in the other precision.
+/// Converts to the other precision.
 constexpr Vec to_double(const Vec3<float>& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Values that are state, but no entity's: one of each type in a world. Modules name them (Module::globals). Snapshots
-// and a simulation's state hash contain those that differ from their first value.
+// Globals: state that does not belong to entities, one value of each type in a world. Modules declare them
+// (Module::globals). Snapshots and state hashes contain those that differ from their first value.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// A type of global, as modules name it. `first`: its bytes when nothing has changed it. `is_sound`: whether a value
-/// from a snapshot makes sense; null where every one does.
+/// Declaration of a type of global. `first`: bytes of the initial value. `is_sound`: checks a value from a snapshot;
+/// null if every value is valid.
 struct GlobalPart {
   std::uint64_t id = 0;
   std::string_view name;
@@ -24,7 +24,7 @@ struct GlobalPart {
   bool (*is_sound)(const void* value) = nullptr;
 };
 
-/// T is trivially copyable, without padding, at most 16-byte aligned; T{} is its first value.
+/// Declares T, which must be trivially copyable, unpadded, at most 16-byte aligned; T{} is its first value.
 template <class T, bool (*sound)(const T&) = nullptr>
 GlobalPart global_part() {
   static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 16);
@@ -47,15 +47,15 @@ class Globals {
   Globals& operator=(const Globals&) = delete;
   ~Globals();
 
-  /// Makes room for a global at its first value. A type that is there already stays as it is.
+  /// Adds a global with its first value; does nothing if the type exists.
   void add(const GlobalPart& part);
-  /// The value's bytes; none where the type was never added.
+  /// Returns the value's bytes; an empty span if the type was never added.
   std::span<std::byte> find(std::uint64_t id) const;
-  /// The same of a type that must be there: throws std::logic_error, which names it, where it is not.
+  /// Returns the value's bytes; throws std::logic_error with the type's name if it was never added.
   std::byte* at(std::uint64_t id, std::string_view name) const;
-  /// Whether the value differs from its first. False for a type that was never added.
+  /// Returns true if the value differs from its first; false for a type that was never added.
   bool changed(std::uint64_t id) const;
-  /// A hash of all that differ from their first values; 0 where none does.
+  /// Returns a hash of all values that differ from their first; 0 if all are equal.
   std::uint64_t hash() const;
 
  private:

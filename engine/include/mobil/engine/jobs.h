@@ -1,5 +1,5 @@
 #pragma once
-// Who does the work of a tick: one thread, a pool of ours, or the caller's own job system.
+// Threads of a tick: the calling thread, a pool, or the host's job system.
 
 #include <cstddef>
 #include <memory>
@@ -7,24 +7,24 @@
 namespace mobil::inline v0_3 {
 
 /// A job system as plain data. `parallel_for` calls `body(context, begin, end)` on disjoint ranges that together are
-/// [0, count), on whatever threads it likes, and returns when all have. Results never depend on how it cuts. It must
-/// not throw (`body` never does), and what it runs on must live as long as the simulation: after an exception out of it
-/// a tick is half done, and the simulation good for nothing but to be restored or destroyed (restoring copes with jobs
-/// that throw). Builds with assertions check that all of the range was worked on, once.
+/// [0, count), on any threads, and returns after all of them. Results do not depend on the ranges. It must not throw
+/// (`body` never does), and must live as long as the simulation. If it throws, the tick is incomplete, and the
+/// simulation can only be restored or destroyed; restoring tolerates jobs that throw. Builds with assertions check that
+/// the whole range is covered once.
 struct Jobs {
   using Body = void (*)(void* context, std::size_t begin, std::size_t end);
 
   void* user = nullptr;
   void (*parallel_for)(void* user, std::size_t count, Body body, void* context) =
       [](void*, std::size_t count, Body body, void* context) { body(context, 0, count); };
-  std::size_t threads = 1;  // about how many work at once, for memory made ready and work cut; more may
+  std::size_t threads = 1;  // typical concurrency, for memory and ranges; not a limit
 };
 
-/// `body` on parts of [0, count), by jobs. What it throws, on whatever thread, is kept from the host's job system: all
-/// parts run, then the first exception is thrown here.
+/// Runs `body` on ranges of [0, count). Exceptions do not reach the host's job system: all ranges run, then the first
+/// exception is rethrown here.
 void run_in_parallel(const Jobs& jobs, std::size_t count, Jobs::Body body, void* context);
 
-/// `work(begin, end)` on parts of [0, count), likewise.
+/// Runs `work(begin, end)` on ranges of [0, count), with exceptions as in run_in_parallel.
 template <class Work>
 void in_parallel(const Jobs& jobs, std::size_t count, Work work) {
   if (count == 1) return work(std::size_t{0}, std::size_t{1});
@@ -33,19 +33,19 @@ void in_parallel(const Jobs& jobs, std::size_t count, Work work) {
       [](void* context, std::size_t begin, std::size_t end) { (*static_cast<Work*>(context))(begin, end); }, &work);
 }
 
-/// A pool (oneTBB). One thread runs everything inline and starts nothing; 0 means as many as the machine has. More than
-/// the machine has are allowed and not used.
+/// A pool (oneTBB). One thread runs everything inline and starts no threads; 0 uses all hardware threads. A larger
+/// count is accepted and reduced to the hardware threads.
 class Threads {
  public:
-  /// A pool of `count` threads, the caller among them.
+  /// Creates a pool of `count` threads, including the caller.
   explicit Threads(int count = 0);
   ~Threads();
   Threads(Threads&&) noexcept;
   Threads& operator=(Threads&&) noexcept;
 
-  /// How many threads work at once, the caller among them.
+  /// Returns the number of concurrent threads, including the caller.
   int count() const;
-  /// Valid as long as this pool lives, also after it has been moved.
+  /// Returns jobs that are valid as long as this pool lives, even after a move.
   Jobs jobs() const;
 
  private:
@@ -53,8 +53,8 @@ class Threads {
   std::unique_ptr<Arena> arena_;
 };
 
-/// While one lives, this thread's arithmetic takes denormal numbers for zero (on x86 and 64-bit ARM); after it the
-/// thread does what it did before.
+/// Flushes denormals to zero in this thread's arithmetic while it lives (on x86 and 64-bit ARM), and then restores the
+/// previous mode.
 class FlushDenormals {
  public:
   FlushDenormals();

@@ -1,6 +1,6 @@
 #pragma once
-// Who belongs to whom: the reverse of a component that names an owner. Each entity has one owner at most; an owner's
-// members are in ascending order of their indices, whatever order they came in.
+// Members of owners: the reverse of a component that names an owner. An entity has at most one owner. An owner's
+// members are in ascending order of their indices, regardless of the order of linking.
 
 #include <algorithm>
 #include <cstddef>
@@ -11,30 +11,30 @@
 
 namespace mobil::inline v0_3 {
 
-/// By entity index. Nothing here takes memory but `reserve`.
+/// Links by entity index. Only `reserve` allocates.
 class Members {
  public:
-  /// The index that no entity has.
+  /// An index that no entity has.
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
   explicit Members(std::pmr::memory_resource* memory) : links_(memory) {}
 
-  /// Room for indices below `end`.
+  /// Makes room for indices below `end`.
   void reserve(std::size_t end) {
     if (end > links_.capacity()) links_.reserve(std::max(end, 2 * links_.capacity()));
   }
-  /// Indices below `end` can be asked for; there must be room.
+  /// Makes indices below `end` valid; there must be room.
   void grow(std::size_t end) {
     if (end > links_.size()) links_.resize(end);
   }
   void clear() { links_.clear(); }
 
-  /// The first member of an owner, the member behind another, and the owner of a member; `nobody` where there is none.
+  /// Return an owner's first member, the member after another, and a member's owner; `nobody` if none exists.
   std::uint32_t first(std::uint32_t owner) const { return owner < links_.size() ? links_[owner].first : nobody; }
   std::uint32_t next(std::uint32_t member) const { return links_[member].next; }
   std::uint32_t owner(std::uint32_t member) const { return member < links_.size() ? links_[member].owner : nobody; }
 
-  /// Makes `member` one of `owner`; it leaves the owner that it had.
+  /// Links `member` to `owner`, and unlinks it from its previous owner.
   void link(std::uint32_t owner, std::uint32_t member) {
     if (links_[member].owner == owner) return;
     unlink(member);
@@ -44,7 +44,7 @@ class Members {
     links_[member].next = *at;
     *at = member;
   }
-  /// Takes a member from its owner; does nothing where it has none.
+  /// Unlinks a member from its owner, if it has one.
   void unlink(std::uint32_t member) {
     if (member >= links_.size() || links_[member].owner == nobody) return;
     std::uint32_t* at = &links_[links_[member].owner].first;
@@ -52,7 +52,7 @@ class Members {
     *at = links_[member].next;
     links_[member].owner = links_[member].next = nobody;
   }
-  /// Its members have no owner any more.
+  /// Unlinks all members of `owner`.
   void release(std::uint32_t owner) {
     while (first(owner) != nobody) unlink(first(owner));
   }

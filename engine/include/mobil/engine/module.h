@@ -1,6 +1,6 @@
 #pragma once
-// An effect in one value: the parts that it puts on rows, the systems that work on them, and what rows must fulfil that
-// come out of a snapshot. The library's own effects are modules, and a host's are the same kind of value:
+// A module: an effect's parts, systems, phases and checks for snapshots. The library's effects are modules, and a
+// host's are values of the same type:
 //
 //   Module fatigue() {
 //     return {.name = "fatigue",
@@ -9,8 +9,8 @@
 //   }
 //   Simulation simulation({.modules = {fatigue()}});
 //
-// A system says by its signature what it reads and writes (mobil/engine/access.h), and runs in the order that follows
-// from that: between the library's systems, before or after them.
+// The order of a system follows from its signature (mobil/engine/access.h): between, before or after the library's
+// systems.
 
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +34,7 @@ struct SavedWorld;  // engine/snapshot.h
 class Table;
 class World;
 
-/// An immutable resource that snapshots name by the module's name and its own. `part`: component_id(Shared<T>{}).
+/// An immutable resource that snapshots identify by the module's name and its own. `part`: component_id(Shared<T>{}).
 struct NamedResource {
   std::string name{};
   ComponentId part;
@@ -46,41 +46,41 @@ NamedResource named_resource(std::string name, std::shared_ptr<const T> resource
 }
 
 struct Module {
-  /// Tells modules of one simulation apart, and is how a snapshot names them.
+  /// Name, unique in a simulation, by which snapshots identify the module.
   std::string name{};
-  /// Of what the parts mean. A snapshot with rows of this module, made with another version of it, is refused.
+  /// Version of the parts' meaning. Snapshots with rows of another version of this module are refused.
   std::uint32_t version = 1;
-  /// Everything that its rows may have: components (`component_id<C>()`), fields (`component_id(FieldWidth<Tag>{})`),
-  /// tags, shared resources and published structs (`component_id(…)` of an empty one). Each part is one module's.
+  /// All parts that its rows can have: components (`component_id<C>()`), fields (`component_id(FieldWidth<Tag>{})`),
+  /// tags, shared resources and published structs (`component_id(…)` of an empty one). A part belongs to one module
+  /// only.
   std::vector<ComponentId> parts{};
-  /// Resources that its rows may share. A snapshot keeps their names; what it does not know here is refused.
+  /// Resources that its rows can share. Snapshots contain their names; a name that is missing here is refused.
   std::vector<NamedResource> resources{};
-  /// Values that are state, but no entity's (mobil/engine/globals.h). Each is one module's.
+  /// State that does not belong to entities (mobil/engine/globals.h). A global belongs to one module only.
   std::vector<GlobalPart> globals{};
-  /// The part of a table whose column follows from the table's other columns, so that snapshots leave it out: its id,
-  /// or 0; one a table at most. `make` makes it of blocks [begin, end) of such a table, with the bits that the last
-  /// tick gave it; from any thread. Both or neither. What another system writes into such a column is not in snapshots:
-  /// after a restore it is there once that system has run.
+  /// `follows` returns the id of a column that can be computed from the table's other columns, or 0; at most one a
+  /// table. Snapshots omit it. `make` computes blocks [begin, end) of it, with the bits of the last tick, from any
+  /// thread. Set both or neither. Values that another system writes into the column are not in snapshots; they return
+  /// when that system has run.
   std::function<std::uint64_t(const Archetype& key)> follows{};
   std::function<void(Table& table, const World& world, std::size_t begin, std::size_t end)> make{};
-  /// Adds its systems; may be empty.
+  /// Adds its systems; can be empty.
   std::function<void(ScheduleBuilder&)> systems{};
   /// Phases before and after the systems of a tick; those of earlier modules come first.
   std::vector<Phase> before{}, after{};
-  /// Whether a table's key makes sense, asked before a snapshot's rows are given a table; may be empty. `world` has the
-  /// key's resources.
+  /// Checks a table's key before a snapshot's rows are given a table; can be empty. `world` has the key's resources.
   std::function<Result<void>(const Archetype& key, const World& world)> check_key{};
-  /// Whether the rows of a saved table that has one of these parts are sound: numbers that lists are read by are in
-  /// range. May be empty. Asked after sizes and layouts were checked.
+  /// Checks the rows of a saved table that has one of these parts, mainly the ranges of numbers used as indices. Can be
+  /// empty. Called after sizes and layouts were checked.
   std::function<Result<void>(const SavedWorld& saved, std::uint32_t table)> check_rows{};
 };
 
-/// The schedule of all modules' systems, in their order. Errors, one line each: two modules of one name, a part that
-/// two modules claim, what ScheduleBuilder::build refuses.
+/// Returns the schedule of all modules' systems, in their order. Errors, one line each: two modules of one name, a part
+/// in two modules, errors of ScheduleBuilder::build.
 Result<Schedule> make_schedule(std::span<const Module> modules,
                                std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// The module that a part is of, or null.
+/// Returns the module of a part, or null.
 const Module* module_of(std::span<const Module> modules, std::uint64_t part);
 
 }  // namespace mobil::inline v0_3

@@ -1,6 +1,6 @@
 #pragma once
-// Systems that work on few of the rows, wherever those lie: a first function chooses lanes of each block, and the rows
-// chosen are packed into full blocks of sixteen, worked on by a second one, and what it writes is put back.
+// Systems that work on few rows. A first function chooses lanes of each block. The chosen rows are gathered into full
+// blocks of sixteen, a second function works on these, and its results are scattered back.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// A chosen row: lane `lane` of a block, with the kernel's parameters as bound in its table.
+/// A chosen row: a lane of a block, with the kernel's parameters bound to its table.
 struct ChosenRow {
   float* block;
   const Bound* bound;
@@ -24,7 +24,7 @@ struct ChosenRow {
 template <class P>
 struct PackedParameter;
 
-/// Those that no row holds.
+/// Parameters that rows do not contain.
 template <class P>
 struct TickParameter {
   struct Block {};
@@ -46,7 +46,7 @@ struct PackedParameter<C<Lanes<float>>&> {
   static constexpr std::size_t words = ComponentLayout<C>::words;
 
   static Block& make(Block& block, Tick) { return block; }
-  /// Lanes without a row get the first one's.
+  /// Gathers the rows; lanes without a row repeat the first one.
   static void gather(Block& block, std::span<const ChosenRow> rows, std::size_t parameter) {
     auto* out = reinterpret_cast<std::byte*>(&block);
     for (std::size_t l = 0; l < lane_count; ++l) {

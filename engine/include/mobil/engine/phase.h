@@ -1,6 +1,6 @@
 #pragma once
-// Work of a tick before or after its systems: one phase after the other, on the thread that ticks. Phases can create,
-// destroy and move rows, which no system can do.
+// Phases: work before or after the systems of a tick, one phase at a time on the calling thread. Phases can create,
+// destroy and move rows; systems cannot.
 //
 //   Module arrivals() {
 //     return {.name = "arrivals",
@@ -25,14 +25,14 @@ namespace mobil::inline v0_3 {
 class Schedule;
 class World;
 
-/// Values kept from one tick to the next, one of each type: memory that phases work in, and results that hosts read
-/// afterwards. No snapshot contains them, and no hash.
+/// Values kept between ticks, one of each type: scratch memory of phases, and results for hosts. They are not in
+/// snapshots or hashes.
 class Workspace {
  public:
-  /// `memory` goes to each T that can be constructed from it.
+  /// Passes `memory` to each T that can be constructed from it.
   explicit Workspace(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : memory_(memory) {}
 
-  /// The T, constructed when first requested. Not for two threads at once.
+  /// Returns the T, constructed on the first call. Not thread-safe.
   template <class T>
   T& get() {
     for (const auto& [type, value] : values_)
@@ -46,7 +46,7 @@ class Workspace {
     values_.emplace_back(type_id<T>(), made);
     return *made;
   }
-  /// The T; null where nobody has requested one yet.
+  /// Returns the T; null before the first `get`.
   template <class T>
   T* find() const {
     for (const auto& [type, value] : values_)
@@ -60,8 +60,8 @@ class Workspace {
   std::vector<std::pair<std::uint64_t, std::shared_ptr<void>>> values_;
 };
 
-/// What a simulation consists of, as its phases see it. `tick.index` counts finished ticks: an `after` phase finds this
-/// one among them. The schedule's timings are those of the last tick.
+/// A simulation as its phases see it. `tick.index` counts finished ticks, in an `after` phase including this one. The
+/// schedule's timings are those of the last tick.
 struct Frame {
   World& world;
   const Jobs& jobs;
@@ -70,11 +70,11 @@ struct Frame {
   const Schedule& schedule;
 };
 
-/// A phase of a module (Module::before, Module::after). A `before` phase that throws ends the tick before its systems
-/// run, and the tick does not count. What earlier phases did stays, and the next tick begins with the phase that threw.
-/// After an `after` phase that throws the tick counts, and the phases behind it do not run for that tick.
-/// A phase that may lack memory takes it before it changes anything, or works within a World::Transaction. A phase can
-/// call the simulation that runs it, except `tick` and `advance`.
+/// A phase of a module (Module::before, Module::after). If a `before` phase throws, the tick ends before its systems
+/// and does not count. The effects of earlier phases stay, and the next tick begins with the phase that threw. If an
+/// `after` phase throws, the tick counts, and later phases do not run in that tick. A phase that can run out of memory
+/// must allocate before it changes anything, or use a World::Transaction. A phase can call the simulation that runs it,
+/// except `tick` and `advance`.
 struct Phase {
   std::string name;
   std::function<void(const Frame& frame)> run;

@@ -1,6 +1,6 @@
 #pragma once
-// Memory that a system works in and leaves nothing in: one buffer for each thread that works at once, lent for a range
-// of blocks. Taking one from the pool needs no lock and no heap once there are enough.
+// Scratch memory of systems: one buffer for each concurrent thread, lent for a range of blocks. Once there are enough
+// buffers, taking one needs no lock and no heap.
 
 #include <atomic>
 #include <cstddef>
@@ -8,30 +8,30 @@
 
 namespace mobil::inline v0_3 {
 
-/// A pool of buffers of one size. `take` and `give` may be called from any threads at once, everything else by one
-/// while nobody holds a buffer.
+/// A pool of buffers of one size. `take` and `give` are thread-safe. All other functions need a single thread and no
+/// taken buffers.
 class ScratchPool {
  public:
-  /// One buffer of the pool's size, in a list of all.
+  /// One buffer of the pool's size, in a linked list.
   struct Buffer {
     float* data = nullptr;
     std::atomic<bool> taken = false;
     Buffer* next = nullptr;
   };
 
-  /// `memory` is asked by one thread at a time and must outlive the pool.
+  /// `memory` must outlive the pool; one thread at a time calls it.
   explicit ScratchPool(std::pmr::memory_resource* memory);
   ~ScratchPool();
   ScratchPool(const ScratchPool&) = delete;
   ScratchPool& operator=(const ScratchPool&) = delete;
 
-  /// Buffers of at least `floats`, enough for `threads` at once; a no-op where there are.
+  /// Makes buffers of at least `floats` for `threads` at once; does nothing if they exist.
   void prepare(std::size_t floats, std::size_t threads);
   std::size_t floats() const { return floats_; }
   std::size_t count() const { return count_; }
 
-  /// One that nobody holds, 64-byte aligned, with whatever the last holder left in it. Takes memory only where more
-  /// threads hold one than ever before. Throws what the memory resource throws.
+  /// Returns a free buffer, 64-byte aligned, with the previous user's contents. Allocates only if more threads hold
+  /// buffers than ever before. Throws what the memory resource throws.
   Buffer* take();
   static void give(Buffer* buffer) { buffer->taken.store(false, std::memory_order_release); }
 
@@ -41,12 +41,12 @@ class ScratchPool {
 
   std::pmr::memory_resource* memory_;
   std::atomic<Buffer*> first_ = nullptr;
-  std::atomic_flag growing_;  // held meanwhile: a lock that needs no threads' library
+  std::atomic_flag growing_;  // held during `add`: a lock without a threading library
   std::size_t floats_ = 0;
   std::size_t count_ = 0;
 };
 
-/// Holds a buffer of a pool; of none, nothing.
+/// Holds a buffer of a pool; null without a pool.
 class ScratchLease {
  public:
   explicit ScratchLease(ScratchPool* pool) : buffer_(pool == nullptr ? nullptr : pool->take()) {}

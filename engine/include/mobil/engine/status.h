@@ -1,24 +1,24 @@
 #pragma once
-// What became of a request, for a program to read.
+// Result codes of requests.
 
 #include <cstdint>
 #include <string_view>
 
 namespace mobil::inline v0_3 {
 
-/// What became of a request. Nothing was changed unless it is `ok`.
+/// Result of a request. Nothing was changed unless it is `ok`.
 enum class Status : std::uint8_t {
   ok,
-  stale_entity,   ///< the entity was destroyed, or never was
-  missing,        ///< it has no such component, field or tag
-  already_there,  ///< it has that component, field or tag already
-  wrong_width,    ///< the span is not as long as the field
-  not_valid,      ///< refused for what the message says: a value out of range, bytes that are damaged, too little room
-  not_yours,      ///< a part or an entity that is the library's, where a host's is asked for
-  no_memory,      ///< there is no memory for it
+  stale_entity,   ///< the entity was destroyed or never existed
+  missing,        ///< the entity has no such component, field or tag
+  already_there,  ///< the entity already has that component, field or tag
+  wrong_width,    ///< the span's length is not the field's
+  not_valid,      ///< refused, with the reason in the message: a value out of range, damaged bytes, too little room
+  not_yours,      ///< a part or an entity of the library, where one of the host's is required
+  no_memory,      ///< memory ran out
 };
 
-/// In words.
+/// Returns a status as text.
 constexpr std::string_view status_text(Status status) {
   switch (status) {
     case Status::ok:

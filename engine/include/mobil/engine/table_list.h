@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a world that have one of some parts. Tables come and stay, so each is looked at once.
+// List of a world's tables that have at least one of some parts. Tables are never removed, so each is checked once.
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,7 @@ class TableList {
   TableList(std::initializer_list<std::uint64_t> parts, std::pmr::memory_resource* memory)
       : parts_(parts, memory), found_(memory) {}
 
-  /// Takes in the world's new tables. The same world each time.
+  /// Adds the world's new tables and returns all. Must be called with the same world each time.
   const std::pmr::vector<Table*>& find(World& world) {
     for (; seen_ < world.tables().size(); ++seen_) {
       Table& table = world.tables()[seen_];
@@ -27,9 +27,9 @@ class TableList {
     }
     return found_;
   }
-  /// Those found so far. Takes no memory.
+  /// Returns the tables found so far, without allocating.
   const std::pmr::vector<Table*>& found() const { return found_; }
-  /// Whether one of them has rows.
+  /// Returns true if a table of the list has rows.
   bool any_rows(World& world) {
     return std::ranges::any_of(find(world), [](const Table* table) { return table->row_count() > 0; });
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Entities and what they are made of. Every combination of parts is a table; adding or removing a part moves the
-// entity's row to another one. See mobil/engine/archetype.h for the kinds of parts.
+// Entities and their parts. Each combination of parts is a table. Adding or removing a part moves the entity's row to
+// another table. mobil/engine/archetype.h has the kinds of parts.
 //
 //   World world;
 //   const auto mesh = world.share(std::make_shared<const Mesh>(…));
@@ -9,9 +9,9 @@
 //   world.get<EndDrive>(muscle)->to;           // 1
 //   world.add(muscle, TagValue<Substeps>{5});  // moves to the table of those with five
 //   world.remove<NodalVelocity>(muscle);       // and on to the table of those without velocities
-//   world.destroy(muscle);                     // from here on everything answers Status::stale_entity
+//   world.destroy(muscle);                     // from here on every call returns Status::stale_entity
 //
-// Structure changes between ticks, by one thread; systems (mobil/schedule.h) change values only.
+// The structure changes only between ticks, on one thread; systems (mobil/schedule.h) change only values.
 
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +34,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Where an entity lies; `table` is null for a stale one. Good until the next change of structure.
+/// Table and row of an entity; `table` is null for a stale one. Valid until the next change of structure.
 template <class T>
 struct Place {
   T* table = nullptr;
@@ -45,82 +45,82 @@ struct Place {
 
 class World {
  public:
-  /// All tables and registers take their memory from `memory`, which must outlive the world.
+  /// All tables and registers allocate from `memory`, which must outlive the world.
   explicit World(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// An entity of these parts: component rows (their first values), FieldWidth (zeros), TagValue, Shared; each type
-  /// once.
+  /// Creates an entity of these parts: component rows (their first values), FieldWidth (zeros), TagValue, Shared; each
+  /// type once.
   template <class... P>
   Entity create(const P&... parts);
   Status destroy(Entity entity);
-  /// Makes an entity consist of just these parts: component rows are written, fields of the same width keep their
-  /// values, other ones begin with zeros.
+  /// Replaces an entity's parts by exactly these. Component rows are written, fields of the same width keep their
+  /// values, other fields begin with zeros.
   template <class... P>
   Status remake(Entity entity, const P&... parts);
-  /// The same from lists put together at run time; each type once.
+  /// `create` and `remake` with lists built at run time; each type once.
   Entity create_from(std::span<const PartValue> parts);
   Status remake_from(Entity entity, std::span<const PartValue> parts);
-  /// The same for some of its parts: of those that `owned` names (ids, sorted) it has just `parts` afterwards, all
-  /// others stay with their values.
+  /// Replaces some parts of an entity: afterwards it has exactly `parts` among those in `owned` (ids, sorted). Other
+  /// parts stay, with their values.
   Status remake_from(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned);
-  /// Many entities of the same parts. A row's values come in blocks of sixteen lanes: that of word w of the entity that
-  /// is number i at [(i / 16 · words + w) · 16 + i % 16]; null is zeros. The same entities as one by one, in
-  /// `entities`. Where memory runs out, the world is unchanged.
+  /// Creates many entities of the same parts. Values are in blocks of sixteen lanes, null for zeros: word w of entity i
+  /// at [(i / 16 · words + w) · 16 + i % 16]. `entities` receives the same handles as from single calls. If memory runs
+  /// out, the world is unchanged.
   void create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs = {});
-  /// As the last remake_from, of many entities of one table, alive, each named once, which move to another table: the
-  /// values of `parts` are as in create_many, but parts that they have already keep their own.
+  /// Replaces some parts of many entities, like the last remake_from. The entities are alive, each named once, of one
+  /// table, and move to another. Values are laid out as in create_many; parts that exist already keep theirs.
   void change_archetype(std::span<const Entity> entities, std::span<const PartValue> parts,
                         std::span<const std::uint64_t> owned, const Jobs& jobs = {});
-  /// While one lives, what create_many and change_archetype do, and what becomes of entities remade, can be undone,
-  /// and is at its end unless it was kept: rows and handles are those of before, also handles given out later. Undoing
-  /// and keeping take no memory. Until then the old rows of who was remade stay in their tables: nobody goes over
-  /// tables, nobody is destroyed, and in a table that others left nobody is created, or leaves but by change_archetype.
-  /// One within another is part of it: what the inner one kept is undone with the outer one.
+  /// Scope that undoes create_many, change_archetype, and later changes of the moved entities, unless committed. Rows
+  /// and handles are then as before, including handles given out later. Undoing and committing do not allocate. Until
+  /// the transaction ends, old rows stay in place: do not iterate tables or destroy entities. In a table that entities
+  /// left, do not create entities, and move others only by change_archetype. A nested transaction is part of the outer
+  /// one, which can undo what the inner one committed.
   class Transaction {
    public:
     explicit Transaction(World& world, const Jobs& jobs = {});
     ~Transaction();
     Transaction(const Transaction&) = delete;
     Transaction& operator=(const Transaction&) = delete;
-    /// What was done stays.
+    /// Makes the changes permanent.
     void commit();
 
    private:
     World& world_;
     Jobs jobs_;
-    std::size_t created_, moved_;  // in the journal as this one began
+    std::size_t created_, moved_;  // in the journal at the start of this one
     bool outer_, kept_ = false;
   };
-  /// All or none: where one of them is stale or named twice, Status::stale_entity. Each row that stays moves once at
-  /// most; in which order rows then lie is not that of one by one. Takes memory until it returns; where there is none,
-  /// they go one by one.
+  /// Destroys all or none: returns Status::stale_entity if one is stale or named twice. Each remaining row moves at
+  /// most once; the resulting order of rows differs from that of single calls. Allocates until it returns; if memory
+  /// runs out, entities are destroyed one by one.
   Status destroy_many(std::span<const Entity> entities, const Jobs& jobs = {});
-  /// Whether all of them are alive, each named once. Takes no memory.
+  /// Returns true if all are alive and each is named once. Does not allocate.
   bool alive_once(std::span<const Entity> entities);
-  /// The entities created last, in the order of their creation, are as if they had never been: handles given out
-  /// afterwards are the same. Takes no memory.
+  /// Undoes the creation of the entities created last, given in order of creation; later handles are the same as
+  /// without them. Does not allocate.
   void undo_create(std::span<const Entity> entities);
-  /// Room for what `remake_from` with the same arguments makes of that entity, and of others like it: `rows` in all.
-  /// It then takes no memory.
+  /// Makes room for the row that `remake_from` with these arguments gives this entity, and for others like it: `rows`
+  /// in total. `remake_from` then does not allocate.
   void reserve_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned,
                       std::uint32_t rows);
-  /// Room for so many more entities of any parts.
+  /// Makes room for `more` entities of any parts.
   void reserve_entities(std::size_t more) {
     entities_.reserve(more);
     if (owner_part_ != 0) members_.reserve(entities_.size() + more);
   }
-  /// Several parts more at once, those of them that are not there.
+  /// Adds several parts at once; existing ones are skipped.
   Status add_parts(Entity entity, std::span<const PartValue> parts);
-  /// Several parts less at once, those of them that are there.
+  /// Removes several parts at once; missing ones are skipped.
   Status remove_parts(Entity entity, std::initializer_list<std::uint64_t> ids);
   bool alive(Entity entity) const { return entities_.alive(entity); }
 
-  /// One more part. Values of the others are kept.
+  /// Adds a part; the values of the others are kept.
   template <class P>
   Status add(Entity entity, const P& part);
-  /// Another value for a component or tag that is there.
+  /// Sets the value of an existing component or tag.
   template <template <class> class C>
   Status set(Entity entity, const C<float>& row);
   template <class Tag>
@@ -131,7 +131,7 @@ class World {
   Status set(Entity entity, const Shared<T>& shared) {
     return replace_tag(entity, component_id(shared));
   }
-  /// One part less: a component by its template (`remove<Pose>`), a field or tag by its type.
+  /// Removes a part: a component by its template (`remove<Pose>`), a field or tag by its type.
   template <template <class> class C>
   Status remove(Entity entity) {
     return remove_part(entity, type_id<C<float>>());
@@ -142,7 +142,7 @@ class World {
     return remove_part(entity, type_id<Tag>());
   }
 
-  /// Whether the entity is alive and has that part.
+  /// Returns true if the entity is alive and has that part.
   template <template <class> class C>
   bool has(Entity entity) const {
     return part_of(entity, type_id<C<float>>()).has_value();
@@ -152,29 +152,29 @@ class World {
     static_assert(!is_row<Tag>, "name the component without its number type: has<Pose>(entity)");
     return part_of(entity, type_id<Tag>()).has_value();
   }
-  /// An entity's row of a component.
+  /// Returns an entity's row of a component.
   template <template <class> class C>
   tl::expected<C<float>, Status> get(Entity entity) const {
     tl::expected<C<float>, Status> row{tl::in_place};
     if (const Status status = read(entity, *row); status != Status::ok) return tl::unexpected(status);
     return row;
   }
-  /// The same into a row that is there.
+  /// Reads an entity's row of a component into `row`.
   template <template <class> class C>
   Status read(Entity entity, C<float>& row) const;
-  /// The value of an entity's tag; of a field, its words a row.
+  /// Returns the value of an entity's tag, or a field's number of words a row.
   template <class Tag>
   tl::expected<std::uint64_t, Status> get(Entity entity) const {
     static_assert(!is_row<Tag>, "name the component without its number type: get<Pose>(entity)");
     return part_of(entity, type_id<Tag>()).map([](const ComponentId& part) { return part.value; });
   }
-  /// An entity's shared resource, null when stale or missing.
+  /// Returns an entity's shared resource, or null if stale or missing.
   template <class T>
   const T* shared(Entity entity) const {
     const auto part = part_of(entity, type_id<T>());
     return part ? static_cast<const T*>(resource(part->value)) : nullptr;
   }
-  /// All of one entity's floats of a field; the span is exactly as long as the field is wide.
+  /// Reads or writes all of one entity's floats of a field; the span must have exactly the field's width.
   template <class Tag>
   Status get_field(Entity entity, std::span<float> out) const {
     return read_field(entity, type_id<Tag>(), out);
@@ -184,46 +184,45 @@ class World {
     return write_field(entity, type_id<Tag>(), in);
   }
 
-  /// The component whose first two words are the index and generation of the entity that a row belongs to: said once,
-  /// while the world is empty. An entity whose row names a alive owner is among its members from then on, until one of
-  /// them is gone or the row names another; systems must not write it.
+  /// Sets the component whose first two words are the index and generation of a row's owner. Call it once, while the
+  /// world is empty. An entity whose row names an alive owner is one of its members, until one of them is destroyed or
+  /// the row names another. Systems must not write that component.
   void set_owner_part(const ComponentId& part) { owner_part_ = part.id; }
   std::uint64_t owner_part() const { return owner_part_; }
-  /// Calls `f(member)` for each entity that belongs to `owner`, in ascending order of their indices. `f` changes
-  /// nothing.
+  /// Calls `f(member)` for each member of `owner`, in ascending order of indices. `f` must not change the structure.
   template <class F>
   void each_member(Entity owner, F&& f) const {
     if (!alive(owner)) return;
     for (std::uint32_t m = members_.first(owner.index); m != Members::nobody; m = members_.next(m)) f(entities_.at(m));
   }
-  /// The first of those, a stale handle where there is none.
+  /// Returns the first member, or a stale handle.
   Entity first_member(Entity owner) const {
     return alive(owner) ? entities_.at(members_.first(owner.index)) : Entity{};
   }
-  /// A stale handle where it belongs to nobody alive.
+  /// Returns the alive owner of a member, or a stale handle.
   Entity owner_of(Entity member) const { return alive(member) ? entities_.at(members_.owner(member.index)) : Entity{}; }
 
-  /// Takes a share in an immutable resource until the world ends. The same resource gives the same handle again.
-  /// `content`: a hash of it, where it is part of the state of rows that share it.
+  /// Shares ownership of an immutable resource until the world ends. The same resource always returns the same handle.
+  /// `content`: a hash of it, if it is part of the state of its rows.
   template <class T>
   Shared<T> share(std::shared_ptr<const T> resource, std::uint64_t content = 0) {
     const T* raw = resource.get();
     return {raw, own(std::move(resource), content)};
   }
-  /// The same of a resource whose type is known as a part alone: component_id(Shared<T>{}).
+  /// Shares a resource whose type is given as a part: component_id(Shared<T>{}).
   ComponentId share_as(ComponentId part, std::shared_ptr<const void> resource) {
     part.value = own(std::move(resource), 0);
     return part;
   }
-  /// The resource of that index, null when there is none.
+  /// Returns the resource with that index, or null.
   const void* resource(std::uint64_t index) const {
     return index < resources_.size() ? resources_[index].get() : nullptr;
   }
   std::uint64_t resource_count() const { return resources_.size(); }
   std::uint64_t resource_content(std::uint64_t index) const { return resource_content_[index]; }
 
-  /// The value of a type that a module names as a global (mobil/engine/globals.h), or that `globals().add` was given.
-  /// Throws std::logic_error, which names the type, where nobody named it.
+  /// Returns the value of a type that a module declares as a global (mobil/engine/globals.h), or that was passed to
+  /// `globals().add`. Throws std::logic_error, with the type's name, for other types.
   template <class T>
   T& global() {
     return *std::launder(reinterpret_cast<T*>(globals_.at(type_id<T>(), type_name<T>())));
@@ -235,17 +234,18 @@ class World {
   Globals& globals() { return globals_; }
   const Globals& globals() const { return globals_; }
 
-  /// The number of its table among `tables()`, and its row; null when stale. Until the next change of structure.
+  /// Returns the index of an entity's table in `tables()` and its row, or null if stale. Valid until the structure
+  /// changes.
   const EntityRegister::Location* locate(Entity entity) const { return entities_.find(entity); }
-  /// Fetches what `locate` reads.
+  /// Prefetches the memory that `locate` reads.
   void fetch(Entity entity) const { entities_.fetch(entity); }
   Place<Table> find(Entity entity);
   Place<const Table> find(Entity entity) const;
-  /// In the order of their creation, empty ones too; a table lives and stays put as long as the world.
+  /// Returns all tables in order of creation, including empty ones. Tables never move or end before the world.
   std::pmr::deque<Table>& tables() { return tables_; }
   const std::pmr::deque<Table>& tables() const { return tables_; }
 
-  /// Tells worlds apart even when one is made at the address of another that is gone.
+  /// Returns a value that differs for every world, even if one is created at the address of a destroyed one.
   const std::shared_ptr<const char>& identity() const { return identity_; }
 
  private:
@@ -277,7 +277,7 @@ class World {
   void write_from(Place<Table> place, std::span<const PartValue> parts);
 
   template <class T>
-  static void write_part(Place<Table>, const T&) {}  // no part: component_id says so
+  static void write_part(Place<Table>, const T&) {}  // component_id rejects it
   template <template <class> class C>
   static void write_part(Place<Table> place, const C<float>& row) {
     place.table->write(place.row, place.table->column(type_id<C<float>>()), ComponentLayout<C>::words, &row);
@@ -300,17 +300,17 @@ class World {
   Globals globals_;
   Members members_;
   std::uint64_t owner_part_ = 0;
-  Archetype scratch_;  // the key being put together, kept for its memory
-  struct Moves {      // rows that are to take others' places, by table; kept for the same reason
+  Archetype scratch_;  // the key under construction, kept for its memory
+  struct Moves {      // rows that replace others, by table; kept for the same reason
     std::pmr::vector<std::uint32_t> table;
     std::pmr::vector<RowMove> move;
   };
   Moves moves_;
   std::pmr::vector<RowAt> going_;
-  struct Journal {  // of an Transaction
+  struct Journal {  // of a Transaction
     bool open = false;
-    std::pmr::vector<RowAt> left;    // rows that entities were remade from
-    std::pmr::vector<Entity> moved;  // whose those are
+    std::pmr::vector<RowAt> left;    // rows from which entities moved
+    std::pmr::vector<Entity> moved;  // their entities
     std::pmr::vector<Entity> created;
   };
   Journal journal_;

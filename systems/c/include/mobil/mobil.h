@@ -1,4 +1,4 @@
-/* mobil for any language: crowds of people who walk, and whose leg muscles deform as they do. C89.
+/* C89 interface of mobil: crowds of walking people with deforming leg muscles.
  *
  *   mobil_options options;
  *   mobil_person person;
@@ -12,21 +12,21 @@
  *   mobil_advance(sim, frame_s, NULL);
  *   mobil_poses(sim, &id, 1, NULL, matrices, 0);
  *
- * Calls. Every function that can fail returns MOBIL_OK (0) or a code below 0, and leaves one line that says what was
- * wrong, the valid range and how to mend it: mobil_message. What failed has changed nothing. Nothing is global, nothing
- * is thrown, nobody is called back but `jobs`, `memory` and the ground (mobil_terrain_set_heights). One thread at a
- * time may use a simulation; any number of simulations may live side by side.
+ * Calls. A function that can fail returns MOBIL_OK (0) or a negative code. mobil_message then returns one line with the
+ * mistake, the valid range and the remedy. A failed call changes nothing. Nothing is global or thrown. The only
+ * callbacks are `jobs`, `memory` and the ground (mobil_terrain_set_heights). One thread at a time can use a simulation.
+ * A program can have any number of simulations.
  *
- * Memory. Arrays are the caller's. Rows lie `stride` bytes apart; 0: close together. No pointer is kept after the call
- * but those of mobil_options and mobil_terrain_set_heights. Strings are UTF-8; those that come out live as long as the
- * simulation or the library.
+ * Memory. The caller owns all arrays. Rows are `stride` bytes apart; 0 means tightly packed. No pointer is kept after a
+ * call, except those of mobil_options and mobil_terrain_set_heights. Strings are UTF-8. Returned strings are valid as
+ * long as the simulation or the library.
  *
- * Structs begin with their size, as the caller knows it: mobil_defaults writes it. A program that was built against an
- * older header goes on working, and one built against a newer header is refused only where it asks for something new.
+ * Structs begin with their size in the caller's header, which mobil_defaults writes. Programs built with an older
+ * header keep working. One built with a newer header is refused only if it uses a new field.
  *
- * Units. SI, radians. Places, directions, rotations and surfaces are in the axes and the unit of length of
- * mobil_options; all other numbers are SI. A heading is 0 along the axis ahead and grows to the left of who walks, in
- * all axes. */
+ * Units are SI and radians. Positions, directions, rotations and surfaces are in the axes and the unit of length of
+ * mobil_options; all other numbers are SI. In all axes a heading is 0 along the axis ahead and grows to the walker's
+ * left. */
 #ifndef MOBIL_H
 #define MOBIL_H
 
@@ -40,7 +40,7 @@
 #else
 #define MOBIL_API __attribute__((visibility("default")))
 #endif
-/* Old names, which go in 0.5, still compile, with a warning that gives the new one. */
+/* Deprecated names compile until 0.5, with a warning that contains the new name. */
 #if defined(__GNUC__)
 #define MOBIL_DEPRECATED(use) __attribute__((deprecated("use " use)))
 #define MOBIL_RENAMED(type, name, old) \
@@ -60,7 +60,7 @@
 extern "C" {
 #endif
 
-/* The version of this header. mobil_interface() is the library's: equal or greater serves. */
+/* Version of this header. The library's version, mobil_interface(), must be equal or greater. */
 #define MOBIL_INTERFACE 4
 MOBIL_API int mobil_interface(void);               /* the library's MOBIL_INTERFACE */
 MOBIL_API const char* mobil_library_version(void); /* "0.3.0" */
@@ -68,22 +68,22 @@ MOBIL_API const char* mobil_library_version(void); /* "0.3.0" */
 typedef struct mobil_sim mobil_sim;           /* one world */
 typedef struct mobil_surfaces mobil_surfaces; /* bones and muscles of one body as triangles */
 typedef struct mobil_id {
-  unsigned int index, generation; /* a person; zeros: nobody */
+  unsigned int index, generation; /* handle of a person; zeros: no person */
 } mobil_id;
 
 enum {
   MOBIL_OK = 0,
-  MOBIL_STALE = -1,   /* a person who is gone, or never was */
-  MOBIL_MISSING = -2, /* the person has no such thing */
+  MOBIL_STALE = -1,   /* a stale or invalid handle */
+  MOBIL_MISSING = -2, /* the person does not have it */
   MOBIL_ALREADY = -3, /* the person has it already */
-  MOBIL_REFUSED = -4, /* a value out of range, a null pointer, damaged bytes: the line says which */
+  MOBIL_REFUSED = -4, /* a value out of range, a null pointer or damaged bytes; the message has details */
   MOBIL_ROOM = -5,    /* the caller's memory is too small */
-  MOBIL_MEMORY = -6,  /* there is no memory */
-  MOBIL_STRUCT = -7,  /* a struct's size is not one that this library knows */
-  MOBIL_INTERNAL = -8 /* a fault of the library's own */
+  MOBIL_MEMORY = -6,  /* out of memory */
+  MOBIL_STRUCT = -7,  /* a struct's size is not valid for this library */
+  MOBIL_INTERNAL = -8 /* an internal error of the library */
 };
 
-/* What the host calls ahead, up and left. */
+/* Axes of the host. */
 enum {
   MOBIL_AXES_Y_UP,   /* x left, y up, z ahead, right-handed: glTF, three.js; the library's own */
   MOBIL_AXES_UNITY,  /* x right, y up, z ahead, left-handed */
@@ -93,37 +93,37 @@ enum {
 };
 enum { MOBIL_RIGHT, MOBIL_LEFT, MOBIL_BOTH };
 
-/* Does the work of a tick: calls `work(context, begin, end)` for disjoint ranges that together are 0 to `count`, on any
- * threads, and returns when all have returned. Results do not depend on how it cuts. */
+/* A part of a tick's work, for the range begin to end. */
 typedef void (*mobil_work)(void* context, size_t begin, size_t end);
-/* The host's threads: `parallel_for` cuts the range 0 to `count` and calls `work` for each part, as mobil_work says.
- * `user` is handed back to it. */
+/* The host's threads. `parallel_for` receives `user`, divides 0 to `count` into disjoint ranges, calls `work` for each
+ * on any thread, and returns when all calls have returned. Results do not depend on the division. */
 typedef struct mobil_jobs {
   void* user;
   void (*parallel_for)(void* user, size_t count, mobil_work work, void* context);
-  size_t threads; /* about how many work at once */
+  size_t threads; /* approximate number of threads */
 } mobil_jobs;
 
-/* Memory for all that grows with people; the rest comes from the heap. Any thread may call it, one at a time. */
+/* Allocator for all memory that scales with the number of people; the rest uses the heap. The library calls it from any
+ * thread, one at a time. */
 typedef struct mobil_memory {
   void* user;
-  void* (*allocate)(void* user, size_t bytes, size_t alignment); /* null: there is none */
+  void* (*allocate)(void* user, size_t bytes, size_t alignment); /* returns null if out of memory */
   void (*release)(void* user, void* memory, size_t bytes, size_t alignment);
 } mobil_memory;
 
-/* How a simulation runs; mobil_defaults gives the usual values. */
+/* Options of a simulation; mobil_defaults writes the defaults. */
 typedef struct mobil_options {
   size_t size;
-  double tick_s;       /* 1e-5 to 1; usual 1/60 */
-  double max_frame_s;  /* of a longer frame the rest is dropped; tick_s to 60, usual 0.25 */
-  int threads;         /* of the built-in pool; 0: as many as the machine has; usual 1 */
+  double tick_s;       /* 1e-5 to 1; default 1/60 */
+  double max_frame_s;  /* tick_s to 60, default 0.25; the time of a frame beyond it is dropped */
+  int threads;         /* of the built-in pool, default 1; 0: one for each hardware thread */
   int axes;            /* MOBIL_AXES_… */
-  float units_per_m;   /* of places and surfaces; 0.001 to 1e6, usual 1 */
+  float units_per_m;   /* of positions and surfaces; 0.001 to 1e6, default 1 */
   mobil_jobs jobs;     /* parallel_for null: the built-in pool */
   mobil_memory memory; /* allocate null: the heap */
 } mobil_options;
 
-/* Which struct mobil_defaults fills. */
+/* Kind of struct for mobil_defaults. */
 enum {
   MOBIL_OPTIONS,
   MOBIL_PERSON,
@@ -144,13 +144,13 @@ enum {
   MOBIL_LEG_MESH,
   MOBIL_TERRAIN_COUNTS
 };
-/* Fills a struct of that kind, as large as the caller knows it. */
+/* Fills a struct of kind `which` with defaults. `size` is its size in the caller's header. */
 MOBIL_API int mobil_defaults(int which, void* filled, size_t size);
 
-/* `line` (`room` bytes, may be null) says why nothing was made. */
+/* Creates a simulation. If that fails, `line` (`room` bytes, can be null) receives the message. */
 MOBIL_API int mobil_create(const mobil_options* options, mobil_sim** out, char* line, size_t room);
 MOBIL_API void mobil_destroy(mobil_sim* sim); /* null is allowed */
-/* The line of the last call that failed; "" before the first. Good until the next call. */
+/* Returns the message of the last failed call; "" before the first. Valid until the next call. */
 MOBIL_API const char* mobil_message(const mobil_sim* sim);
 
 /* ---- People ---------------------------------------------------------------------------------------------------- */
@@ -158,68 +158,67 @@ MOBIL_API const char* mobil_message(const mobil_sim* sim);
 enum { MOBIL_THIN, MOBIL_AVERAGE, MOBIL_ATHLETIC, MOBIL_HEAVY }; /* constitution */
 enum { MOBIL_MAN, MOBIL_WOMAN };                                 /* sex */
 
-/* Which numbers of a walk are said; of speed, step length and step frequency two give the third, and one alone is
- * completed as people of that leg would. */
+/* Bits of `given`: the numbers of a walk that are set. Two of speed, step length and step frequency determine the
+ * third. One alone is completed by the usual walk for that leg length. */
 enum { MOBIL_SPEED = 1, MOBIL_STEP_LENGTH = 2, MOBIL_STEP_FREQUENCY = 4, MOBIL_STYLE = 8, MOBIL_HEADING = 16 };
 
-/* A person as asked for. m, kg, rad; places in the axes and the unit of mobil_options. */
+/* A request for a person, in m, kg and rad; positions in the axes and the unit of mobil_options. */
 typedef struct mobil_person {
   size_t size;
-  float height_m, mass_kg; /* 1.2 to 2.2; 30 to 200, of what lives at that height */
-  float endo, meso, ecto;  /* somatotype, 0.1 to 12; 3 4 3: as height and mass make it */
+  float height_m, mass_kg; /* 1.2 to 2.2; 30 to 200, within the range of real bodies of that height */
+  float endo, meso, ecto;  /* somatotype, 0.1 to 12; 3 4 3: derived from height and mass */
   int constitution;
-  int given;                                         /* MOBIL_SPEED and so on; without: 5 km/h */
-  float speed_m_s, step_length_m, step_frequency_hz; /* a speed of 0 stands */
+  int given;                                         /* bits MOBIL_SPEED and so on; 0: 5 km/h */
+  float speed_m_s, step_length_m, step_frequency_hz; /* speed 0: standing */
   const float* style;                                /* `style_count` values, in the order of mobil_style */
-  size_t style_count;                                /* fewer than mobil_style has: the others are usual */
-  float place[3], heading_rad;                       /* on the ground: the height does not count */
-  int posed, unused; /* posed 1: the host animates the skeleton by mobil_set_poses; begins at the origin */
-  int sex;           /* whose girths the skin has; since interface 2 */
+  size_t style_count;                                /* further values of mobil_style have their defaults */
+  float place[3], heading_rad;                       /* on the ground; the height is ignored */
+  int posed, unused; /* posed 1: the host animates the skeleton by mobil_set_poses; starts at the origin */
+  int sex;           /* selects the girths of the skin; since interface 2 */
 } mobil_person;
 
-/* How a walk is to become: what is not `given` stays. */
+/* A change of walk. Values that are not `given` stay. */
 typedef struct mobil_walk {
   size_t size;
   int given;
   float speed_m_s, step_length_m, step_frequency_hz;
   const float* style;
   size_t style_count;
-  float heading_rad; /* to turn to, the shorter way round */
+  float heading_rad; /* reached by the shorter way */
 } mobil_walk;
 
-/* One number of a walk's style. */
+/* A parameter of a walk's style. */
 typedef struct mobil_style_number {
-  const char *name, *unit, *meaning; /* unit "1": none */
+  const char *name, *unit, *meaning; /* unit "1": dimensionless */
   float low, high, usual;
 } mobil_style_number;
-/* The numbers of a style, from 0 on; MOBIL_MISSING behind the last. */
+/* Writes the style parameter with index `number`, from 0; MOBIL_MISSING after the last. */
 MOBIL_API int mobil_style(int number, mobil_style_number* out);
 
 struct mobil_muscles;
-/* Makes people, all or none. `muscles` may be null: then they have none. Posed people begin in the anatomical position.
- */
+/* Spawns people, all or none. A null `muscles` means no muscles. Posed people start in the anatomical position. */
 MOBIL_API int mobil_spawn(mobil_sim* sim, const mobil_person* people, size_t stride, size_t count,
                           const struct mobil_muscles* muscles, mobil_id* out);
-/* They go, with their muscles; all or none. Their ids are stale from then on. */
+/* Removes people and their muscles, all or none. Their ids become stale. */
 MOBIL_API int mobil_despawn(mobil_sim* sim, const mobil_id* ids, size_t count);
-/* Everybody, in no particular order. `out` null, or too few: *count alone, and then MOBIL_ROOM. */
+/* Writes all people, in no particular order. A null `out` writes *count only, a small one also returns MOBIL_ROOM. */
 MOBIL_API int mobil_people(mobil_sim* sim, mobil_id* out, size_t room, size_t* count);
-/* What was asked of a person; style is null. Place and heading are those of the walking line now. */
+/* Writes a person's request, with a null style. Position and heading are the present ones of the walking line. */
 MOBIL_API int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out);
-/* A walker's style, in the order of mobil_style: as it was asked for, or nearer to the usual one, where a foot would go
- * under the ground, or a joint or the pelvis further than people's go. */
+/* Writes a walker's style in the order of mobil_style. It is the requested one, or one corrected toward the default if
+ * a foot would go under the ground, or a joint or the pelvis would exceed its limit. */
 MOBIL_API int mobil_get_style(mobil_sim* sim, mobil_id id, float* out, size_t room);
-/* How much of a person there is (mobil_get_state); and bits of what a person has (mobil_has): what sleepers have they
- * have again on waking. */
+/* States of a person (mobil_get_state), and bits of a person's features (mobil_has). Sleepers regain their features on
+ * waking. */
 enum {
   MOBIL_FULL = 0,
-  MOBIL_POSED = 1,   /* the host animates the skeleton; stays so */
-  MOBIL_ASLEEP = 2,  /* whom nobody sees: some 100 bytes, no muscles, hardly any cost */
-  MOBIL_COMPACT = 4, /* whom nobody looks at: walks, and muscles move, at a part of the cost */
+  MOBIL_POSED = 1,   /* the host animates the skeleton; permanent */
+  MOBIL_ASLEEP = 2,  /* unseen: about 100 bytes, no muscles, almost no cost */
+  MOBIL_COMPACT = 4, /* unseen: walk and muscles continue at a fraction of the cost */
   MOBIL_HAS_MUSCLES = 8,
   MOBIL_HAS_FORCES = 16,
   MOBIL_MANAGED = 32,    /* mobil_lod_manage */
-  MOBIL_WATCHED = 64,    /* step events */
+  MOBIL_WATCHED = 64,    /* MOBIL_STEP_EVENTS */
   MOBIL_AVOIDS = 128,    /* mobil_avoidance_manage */
   MOBIL_ON_GROUND = 256, /* mobil_terrain_manage */
   MOBIL_HAS_FAT = 512
@@ -227,32 +226,32 @@ enum {
 MOBIL_API int mobil_get_state(mobil_sim* sim, mobil_id id, int* state);
 MOBIL_API int mobil_has(mobil_sim* sim, mobil_id id, int* bits);
 
-/* Asks people to walk otherwise, from the next step on. Nobody is changed where one of them cannot walk so. */
+/* Changes people's walks from the next step on, all or none: one walk for each person. */
 MOBIL_API int mobil_change_walks(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_walk* walks,
                                  size_t stride);
-/* The same, one walk for all of them. */
+/* Changes the walks of people to the same one, all or none. */
 MOBIL_API int mobil_change_walk(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_walk* walk);
-/* Who stands steps aside, m to the left and ahead (negative: to the right and back; up to 0.25 and 0.20). */
+/* Makes a standing walker step left and ahead, m; negative: right and back. Up to 0.25 and 0.20 for a leg of 0.85 m. */
 MOBIL_API int mobil_step_aside(mobil_sim* sim, mobil_id id, float left_m, float ahead_m);
-/* Puts a walker elsewhere at once; no inertia is felt. Of many: mobil_place_many. */
+/* Moves a walker at once, without inertia. mobil_place_many moves many. */
 MOBIL_API int mobil_place(mobil_sim* sim, mobil_id id, const float place[3], float heading_rad);
-/* The origin moves there: every place becomes so much less. The height does not count. */
+/* Moves the world's origin: subtracts `to` from all positions. The height is ignored. */
 MOBIL_API int mobil_shift_origin(mobil_sim* sim, const float to[3]);
-/* Poses of posed people, who take them at the end of the next tick: 48 times place x y z and quaternion x y z w, in the
- * world. `jumped` 1: muscles and fat feel no inertia of the way there. */
+/* Sets the poses of posed people for the end of the next tick: 48 times position x y z and quaternion x y z w, in the
+ * world. With `jumped` 1 muscles and fat feel no inertia from the last pose to this one. */
 MOBIL_API int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const float* poses, size_t stride,
                               int jumped);
-/* People become MOBIL_FULL, MOBIL_ASLEEP or MOBIL_COMPACT, who may. Control points of muscles that begin on waking are
- * within `within_m` of where they would be; usual 0.005. `changed` (may be null): how many of these are in it now. */
+/* Changes people to MOBIL_FULL, MOBIL_ASLEEP or MOBIL_COMPACT where possible; `changed` (can be null) are those in it
+ * now. Control points of muscles that begin on waking are within `within_m` (usually 0.005) of an awake person's. */
 MOBIL_API int mobil_set_state(mobil_sim* sim, const mobil_id* ids, size_t count, int state, float within_m,
                               size_t* changed);
-/* What people have on demand. */
+/* Optional features of people. */
 enum {
-  MOBIL_STEP_EVENTS, /* mobil_events; not of posed people. Is part of mobil_hash: peers watch the same people */
-  MOBIL_FAT,         /* that wobbles under the skin (mobil_write_skin) */
+  MOBIL_STEP_EVENTS, /* mobil_events; not for posed people. In mobil_hash: peers must enable it for the same people */
+  MOBIL_FAT,         /* wobbling of subcutaneous fat (mobil_write_skin) */
   MOBIL_FORCES       /* ground reaction and joint moments */
 };
-/* From the next tick on they have it, or no more (`on` 0); who has it so already is left alone. All or none. */
+/* Switches a feature on or off (`on` 0) from the next tick on, all or none. People with that setting are unchanged. */
 MOBIL_API int mobil_enable(mobil_sim* sim, const mobil_id* ids, size_t count, int feature, int on);
 
 /* ---- Muscles --------------------------------------------------------------------------------------------------- */
@@ -265,7 +264,7 @@ enum {
   MOBIL_MODAL,
   MOBIL_NONE,
   MOBIL_FINITE
-};                                                            /* method; the last wants cells of 4, 4, 16 */
+};                                                            /* method; the last needs cells of 4, 4, 16 */
 enum { MOBIL_FULL_INTEGRATION, MOBIL_BBAR, MOBIL_ONE_POINT }; /* element */
 enum { MOBIL_LUMPED, MOBIL_CONSISTENT };                      /* mass */
 enum { MOBIL_BY_DISPLACEMENT, MOBIL_BY_FORCE };               /* drive */
@@ -275,53 +274,53 @@ enum {
   MOBIL_QUADRICEPS,
   MOBIL_TRICEPS_SURAE,
   MOBIL_TIBIALIS_ANTERIOR
-}; /* further: mobil_find_muscle */
+}; /* others: mobil_find_muscle */
 
-/* How one muscle is simulated. */
+/* Method of one muscle. */
 typedef struct mobil_method {
   size_t size;
   int method;
-  MOBIL_RENAMED(int, modes, vectors); /* of MOBIL_MODAL, as all that follows: 1 to 32 */
+  MOBIL_RENAMED(int, modes, vectors); /* 1 to 32; this and all further fields are for MOBIL_MODAL */
   int moving, corrected, control_points, reported, tuned, linear_shape; /* 0 or 1 */
   unsigned int modal_cells[3];
 } mobil_method;
 
-/* How leg muscles deform. */
+/* Choice of leg muscles and of their deformation. */
 typedef struct mobil_muscles {
   size_t size;
-  unsigned int muscles; /* a bit each, 1 << MOBIL_HAMSTRINGS and so on; usual: the four groups */
-  int method;           /* and what of mobil_method stands here again */
+  unsigned int muscles; /* bits 1 << MOBIL_HAMSTRINGS and so on; default: the four groups */
+  int method;           /* this and the fields to modal_cells are those of mobil_method */
   MOBIL_RENAMED(int, modes, vectors);
   int moving, corrected, control_points, reported, tuned, linear_shape;
   unsigned int modal_cells[3];
   int element, mass, drive, activation;
   int inertia, line_motion; /* 0 or 1 */
-  int finite_shape;         /* 0 or 1; below 0: where there is activation */
+  int finite_shape;         /* 0 or 1; negative: 1 with activation */
   unsigned int cells[3];
   double density_kg_m3, young_pa, poisson; /* 1 to 1e6, 1 to 1e12, -0.99 to 0.4999 */
   double damping_per_s, stiffness_damping_s;
-  double foundation_hz; /* below 0: as the muscle needs it */
-  double dt_s;          /* below 0: 0.9 of each individual's critical step */
+  double foundation_hz; /* negative: chosen for each muscle */
+  double dt_s;          /* negative: 0.9 of each individual's critical step */
 } mobil_muscles;
 
-MOBIL_API int mobil_find_muscle(const char* name);   /* below 0: MOBIL_MISSING */
-MOBIL_API const char* mobil_muscle_name(int muscle); /* null behind the last */
+MOBIL_API int mobil_find_muscle(const char* name);   /* MOBIL_MISSING if unknown */
+MOBIL_API const char* mobil_muscle_name(int muscle); /* null after the last */
 
-/* Makes what these muscles share in bodies of usual build, so that nobody waits for it later. */
+/* Makes the shared data of these muscles for bodies of usual build, so that no later call waits for it. */
 MOBIL_API int mobil_prepare(mobil_sim* sim, const mobil_muscles* muscles);
-/* All meshes and bases that were made so far, as bytes. `out` null: *bytes alone. */
+/* Writes all meshes and bases made so far. A null `out` writes *bytes only. */
 MOBIL_API int mobil_bake(mobil_sim* sim, void* out, size_t room, size_t* bytes);
-/* Takes in what mobil_bake wrote, in milliseconds. */
+/* Loads the bytes of mobil_bake, in milliseconds. */
 MOBIL_API int mobil_load_baked(mobil_sim* sim, const void* baked, size_t bytes);
-/* Muscles come where there are none, and become these where there are; null: they go. Where memory runs out, those
- * before the one for whom there was none have them. */
+/* Adds muscles to people or changes those that they have; null removes them. All or none. Only if memory runs out,
+ * people before that point have changed. */
 MOBIL_API int mobil_set_muscles(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_muscles* muscles);
-/* Another method of one muscle, both sides, without a jump; memory as above. */
+/* Changes the method of one muscle, both sides, without a jump. All or none, with the same exception. */
 MOBIL_API int mobil_set_method(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle,
                                const mobil_method* method);
-/* The method that a muscle has now. */
+/* Writes the present method of a muscle. */
 MOBIL_API int mobil_get_method(mobil_sim* sim, mobil_id id, int muscle, mobil_method* out);
-/* How hard a muscle of MOBIL_BY_HOST is to pull, one number a person; what is beyond 0.01 to 1 is taken as the end. */
+/* Sets the excitation of a muscle with MOBIL_BY_HOST, one value for each person, clamped to 0.01 to 1. */
 MOBIL_API int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle, int side,
                                    const float* excitation, size_t stride);
 
@@ -329,15 +328,15 @@ MOBIL_API int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t c
 
 /* ---- Time ------------------------------------------------------------------------------------------------------ */
 
-/* What a frame amounted to. */
+/* Result of a frame. */
 typedef struct mobil_ticks {
   unsigned int count; /* ticks that ran */
-  double alpha;       /* how far into the next one the frame is, 0 to 1 */
-  double dropped_s;   /* of a frame that was too long */
+  double alpha;       /* position of the frame's end in the next tick, 0 to 1 */
+  double dropped_s;   /* time dropped from a frame that was too long */
 } mobil_ticks;
-/* As many ticks as the time fed so far makes; `out` may be null. */
+/* Adds the time of a frame and runs as many ticks as fit into the accumulated time; `out` can be null. */
 MOBIL_API int mobil_advance(mobil_sim* sim, double seconds, mobil_ticks* out);
-/* So many ticks, whatever the time. */
+/* Runs a number of ticks, independent of the accumulated time. */
 MOBIL_API int mobil_tick(mobil_sim* sim, unsigned int ticks);
 MOBIL_API double mobil_time_s(const mobil_sim* sim); /* simulated so far */
 MOBIL_API double mobil_tick_s(const mobil_sim* sim); /* of one tick */
@@ -345,103 +344,105 @@ MOBIL_API double mobil_tick_s(const mobil_sim* sim); /* of one tick */
 /* ---- Reading --------------------------------------------------------------------------------------------------- */
 
 enum { MOBIL_SEGMENTS = 48 }; /* of a skeleton */
-/* Names, parents and numbers of segments, 0 to MOBIL_SEGMENTS - 1. */
-MOBIL_API const char* mobil_segment_name(int segment); /* null behind the last */
-MOBIL_API int mobil_segment_parent(int segment);       /* the pelvis is its own */
-MOBIL_API int mobil_find_segment(const char* name);    /* below 0: MOBIL_MISSING */
+/* Names, parents and indices of segments, 0 to MOBIL_SEGMENTS - 1. */
+MOBIL_API const char* mobil_segment_name(int segment); /* null after the last */
+MOBIL_API int mobil_segment_parent(int segment);       /* the pelvis is its own parent */
+MOBIL_API int mobil_find_segment(const char* name);    /* MOBIL_MISSING if unknown */
 
-/* How a segment's pose is written. */
+/* Format of a segment's pose. */
 enum {
   MOBIL_PLACE_AND_QUATERNION, /* x y z, x y z w: 7 floats a segment */
-  MOBIL_MATRIX,               /* three rows of four: 12 */
-  MOBIL_DUAL_QUATERNION       /* real part x y z w first: 8 */
+  MOBIL_MATRIX,               /* three rows of four: 12 floats */
+  MOBIL_DUAL_QUATERNION       /* real part x y z w first: 8 floats */
 };
-/* Which segments of a pose are written, at what instant, and how. */
+/* Instant, segments and format of written poses. */
 typedef struct mobil_pose_layout {
   size_t size;
   int form;
-  int to_parent;       /* 1: relative to the segment's parent, the pelvis to the world */
-  double ahead_s;      /* so long after the last tick, 0 to 0.2: alpha times tick_s for a frame */
-  const int* segments; /* null: all 48; else one at least */
+  int to_parent;       /* 1: relative to the parent segment; the pelvis relative to the world */
+  double ahead_s;      /* time after the last tick, 0 to 0.2: alpha times tick_s for a frame */
+  const int* segments; /* null: all 48; if not null, at least one */
   size_t segment_count;
-  size_t segment_stride; /* bytes; 0: close together */
+  size_t segment_stride; /* bytes; 0: tightly packed */
 } mobil_pose_layout;
-/* Poses at any instant, exactly: no lag, no interpolation. `layout` null: places and quaternions after the last tick.
- */
+/* Writes the exact poses of people at any instant, without lag or interpolation. A null `layout` means positions and
+ * quaternions after the last tick. */
 MOBIL_API int mobil_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_pose_layout* layout, void* out,
                           size_t stride);
 
-/* Rows as floats, one a person. Index 0 is right, 1 left. */
+/* Kinds of rows of floats, one row for each person. Index 0 is right, 1 left. */
 enum {
   MOBIL_JOINTS,  /* 13: pelvis rotation, list, tilt; hip flexion [2], knee flexion [2], ankle dorsiflexion [2], shoulder
                     flexion [2], elbow flexion [2]; rad */
   MOBIL_FEET,    /* 20: heel [2][3], toe joint [2][3], toe tip [2][3], phase of the gait cycle [2] */
   MOBIL_CENTRE,  /* 3: centre of mass */
-  MOBIL_STEP,    /* 3, of walkers: steps taken; the side that bears; s since it struck */
+  MOBIL_STEP,    /* 3, walkers only: steps taken; supporting side; s since its heel strike */
   MOBIL_GROUND,  /* 12, with forces: force [2][3] in N, centre of pressure [2][3] */
   MOBIL_MOMENTS, /* 6, with forces: hip, knee, ankle, each [2]; N m, extensor and plantarflexor positive */
   MOBIL_ROWS
 };
 MOBIL_API int mobil_row_floats(int what); /* floats in a row of that kind */
-/* The rows of these people, `stride` bytes apart. */
+/* Writes the rows of people, `stride` bytes apart. */
 MOBIL_API int mobil_read(mobil_sim* sim, int what, const mobil_id* ids, size_t count, float* out, size_t stride);
 
-/* The same of one muscle and side. */
+/* Kinds of rows of one muscle and side. */
 enum {
   MOBIL_LINE,        /* 4: length m, rest length m, stiffness N/m, force N */
   MOBIL_LINE_MOTION, /* 4: lengthening m/s; moment arms about hip, knee, ankle, m */
   MOBIL_REPORT,      /* 5: elongation m, reaction N, volume ratio, kinetic and strain energy J */
   MOBIL_ACTIVATION,  /* 2: excitation, activation */
   MOBIL_TENDON,      /* 5: fibre m, tendon m, pennation rad, force N, belly m */
-  MOBIL_NODES,       /* 3 a node: displacement of control points in the muscle's frame, m */
+  MOBIL_NODES,       /* 3 for each node: displacement of control points in the muscle's frame, m */
   MOBIL_MUSCLE_ROWS
 };
-/* Of a person's muscle: nodes differ. Below 0 where there is none. */
+/* Returns the floats in a row of a person's muscle, because the number of nodes differs. Negative if there is no
+ * row. */
 MOBIL_API int mobil_muscle_row_floats(mobil_sim* sim, int what, mobil_id id, int muscle, int side);
-/* The rows of one muscle of these people. */
+/* Writes the rows of one muscle of people. */
 MOBIL_API int mobil_read_muscles(mobil_sim* sim, int what, const mobil_id* ids, size_t count, int muscle, int side,
                                  float* out, size_t stride);
 
-/* What each system cost in the last tick. */
+/* Cost of a system in the last tick. */
 typedef struct mobil_system {
   const char *name, *module;
-  double seconds;  /* of all threads together */
-  double entities; /* worked on */
+  double seconds;  /* summed over all threads */
+  double entities; /* processed */
 } mobil_system;
-MOBIL_API int mobil_cost(mobil_sim* sim, int system, mobil_system* out); /* MOBIL_MISSING behind the last */
-/* What each phase of the last tick cost: work on the thread that ticks, before the systems or after them, as level of
- * detail, avoidance and terrain do it. */
+MOBIL_API int mobil_cost(mobil_sim* sim, int system, mobil_system* out); /* MOBIL_MISSING after the last */
+/* Cost of a phase in the last tick. Phases such as level of detail, avoidance and terrain run on the calling thread,
+ * before or after the systems. */
 typedef struct mobil_phase {
   const char *name, *module;
-  int after; /* 1: the systems */
+  int after; /* 1: after the systems */
   double seconds;
 } mobil_phase;
-MOBIL_API int mobil_phase_cost(mobil_sim* sim, int phase, mobil_phase* out); /* MOBIL_MISSING behind the last */
+MOBIL_API int mobil_phase_cost(mobil_sim* sim, int phase, mobil_phase* out); /* MOBIL_MISSING after the last */
 
 #include <mobil/c/surfaces.h>
 
 /* ---- State ----------------------------------------------------------------------------------------------------- */
 
-/* A snapshot: how many bytes it takes now, and the bytes (MOBIL_ROOM where `room` is less). */
+/* Return the size of a snapshot, bytes, and write it (MOBIL_ROOM if `room` is smaller). */
 MOBIL_API size_t mobil_snapshot_bytes(mobil_sim* sim);
-MOBIL_API int mobil_save(mobil_sim* sim, void* out, size_t room, size_t* bytes); /* `bytes` may be null */
-/* What was saved, to the last bit, handles included. Bytes are never trusted. What is managed is state; scene, walls,
- * discs, options and the ground are not. Limits are those of mobil_defaults. */
+MOBIL_API int mobil_save(mobil_sim* sim, void* out, size_t room, size_t* bytes); /* `bytes` can be null */
+/* Restores a snapshot to the last bit, handles included. Bytes are never trusted. Management of people is state; scene,
+ * walls, discs, options and ground are not. Limits are those of mobil_defaults. */
 MOBIL_API int mobil_restore(mobil_sim* sim, const void* bytes, size_t count);
-/* How much a snapshot may ask for. Its seal tells accidents, not attackers: of bytes from a network the host must know
- * whose they are. */
+/* Limits on the resources that restoring can use. A snapshot's checksum detects accidents, not attackers, so the host
+ * must authenticate the sender of bytes from a network. */
 typedef struct mobil_limits {
   size_t size;
-  size_t rows;       /* people and muscles together; usual 1000000 */
-  size_t mesh_nodes; /* of any one mesh that must be made; usual 500; 0: none is made that is not there */
-  double seconds;    /* after which no further mesh is made; usual 10 */
-  int numbers;       /* usual 1: a number that is not finite is refused */
-  size_t resources;  /* meshes, solvers, bases and choices that rows share; usual 2000 */
-  size_t steps;      /* that any one muscle may take in a tick; usual 2000; 0: no muscles */
+  size_t rows;       /* people and muscles together; default 1000000 */
+  size_t mesh_nodes; /* of a mesh that must be made; default 500; 0: no new meshes */
+  double seconds;    /* time after which no further mesh is made; default 10 */
+  int numbers;       /* 1 (default): refuses numbers that are not finite */
+  size_t resources;  /* meshes, solvers, bases and choices that rows share; default 2000 */
+  size_t steps;      /* substeps of a muscle in a tick; default 2000; 0: no muscles */
 } mobil_limits;
-/* The same within these limits. */
+/* Restores a snapshot within limits. */
 MOBIL_API int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t count, const mobil_limits* limits);
-/* 64 bits, the lower half first: equal states, equal hashes, whatever threads, machine and order of rows. */
+/* Writes a 64-bit hash of the state, lower half first: equal for equal states, on any threads, machine and row
+ * order. */
 MOBIL_API int mobil_hash(mobil_sim* sim, unsigned int out[2]);
 #include <mobil/c/play.h>
 #include <mobil/c/skin.h>

@@ -1,17 +1,18 @@
 #pragma once
-// A crowd on several ranks: processes on one machine or on many, or threads in a test. Each works on some of the shards
-// (mobil/systems/cluster/shard.h); within a tick they exchange nothing but the commands, which the first rank hands on.
+// Runs a crowd on several ranks: processes on one or more machines, or threads in a test. Each rank simulates some of
+// the shards (mobil/systems/cluster/shard.h). Within a tick ranks exchange only commands, which the first rank
+// distributes.
 //
 //   Ranks ranks(**transport);
 //   auto cluster = Cluster::begin(ranks, {.shards = 64, .folder = "run"}, [](std::uint32_t shard) {
 //     return std::make_unique<PeopleShard>(shard, PeopleShardOptions{.shards = 64});
 //   });
-//   for (…) cluster->tick(commands);              // the first rank's count
+//   for (…) cluster->tick(commands);              // only the first rank's are used
 //   cluster->state_hash();                        // the same on any number of ranks
 //
-// All ranks call the same functions in the same order. Where one of them fails within a tick the work of all ends, with
-// one line that says where (Ranks::stop): a crowd of which a part is missing is of no use. A host that catches an
-// exception does the same, for the others wait for it.
+// All ranks must call the same functions in the same order. If one fails within a tick, all end with one line that
+// names the place (Ranks::stop): an incomplete crowd is useless. A host that catches an exception must do the same,
+// because the other ranks wait for it.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,24 +31,24 @@
 
 namespace mobil::inline v0_3 {
 
-/// How a crowd is cut into shards, checked and saved.
+/// Division of a crowd into shards, load balancing and snapshots.
 struct ClusterOptions {
-  std::uint32_t shards = 16;  // at least one a rank; several, where shards are to move
-  /// The first rank is ahead of the others by so many ticks at most.
+  std::uint32_t shards = 16;  // at least one for each rank; several if shards should move
+  /// Maximum number of ticks by which the first rank is ahead of the others.
   std::uint32_t meet_every = 32;
-  /// Ticks after which shards may move to ranks that have less to do; 0: never. What happens in them stays the same.
+  /// Number of ticks after which shards can move to less loaded ranks; 0: never. Their state does not depend on it.
   std::uint32_t balance_every = 0;
-  /// Where snapshots and commands go, in a folder that all ranks see; empty: nowhere.
+  /// Folder for snapshots and commands, accessible to all ranks; empty: none.
   std::filesystem::path folder{};
-  std::uint32_t save_every = 600;  // ticks; 0: at the beginning alone
-  bool resume = false;             // go on from the last snapshot in the folder and the commands behind it
-  /// What the run is asked for: a run that goes on must be asked for the same.
+  std::uint32_t save_every = 600;  // ticks; 0: at the start only
+  bool resume = false;             // continue from the last snapshot in the folder and the commands after it
+  /// Description of the run. A resumed run must have the same one.
   std::string about{};
-  /// What the first rank's host keeps besides shards, for the snapshot; may be empty.
+  /// Returns data of the first rank's host to be stored in the snapshot; can be empty.
   std::function<std::vector<std::byte>()> host{};
 };
 
-/// Of this rank, since `begin`.
+/// Work of this rank since `begin`.
 struct ClusterReport {
   double worked_s = 0, waited_s = 0, saving_s = 0;
   std::uint64_t bytes_sent = 0, bytes_saved = 0;
@@ -56,35 +57,34 @@ struct ClusterReport {
 
 class Cluster {
  public:
-  /// Makes the shard of that number.
+  /// Makes the shard with that number.
   using Make = std::function<Result<std::unique_ptr<Shard>>(std::uint32_t shard)>;
 
-  /// Makes this rank's shards and populates them, or restores them; brings them to the same tick. `ranks` must outlive
-  /// the cluster. Errors, the same on all ranks: more ranks than shards, a shard that fails, a folder without a
-  /// snapshot of such a run, or for a new run with one.
+  /// Makes this rank's shards, populates or restores them, and brings them to the same tick. `ranks` must outlive the
+  /// cluster. Errors, the same on all ranks: more ranks than shards, a shard that fails, a resumed run without a
+  /// matching snapshot, a new run in a folder with one.
   static Result<Cluster> begin(Ranks& ranks, const ClusterOptions& options, Make make);
 
-  /// One tick of all. `commands`: the first rank's; those of others are ignored, and so are the first rank's where the
-  /// log of a run that goes on has some of that tick. What was carried out, until the next call.
+  /// Runs one tick of all shards. Commands of other ranks than the first are ignored. A resumed run uses logged
+  /// commands as long as there are some. Returns the executed commands, valid until the next call.
   std::span<const std::byte> tick(std::span<const std::byte> commands = {});
-  /// Ticks run so far.
+  /// Number of ticks run so far.
   std::uint32_t ticks() const { return ticks_; }
-  /// Of everybody. Where shards hand over Simulation::state_sum alone: that of one simulation that had them all, at the
-  /// same tick.
+  /// Returns the hash of the crowd: that of one simulation of all people, if shards return Simulation::state_sum only.
   std::uint64_t state_hash();
-  /// A snapshot now; nothing where the last one is of this tick. Errors, the same on all ranks: no folder was named, it
-  /// cannot be written; the last one stays.
+  /// Writes a snapshot, unless the last one is of this tick. Errors, the same on all ranks: no folder, or one that
+  /// cannot be written; the last snapshot stays.
   Result<void> save();
 
-  /// As the cluster was made with.
   const ClusterOptions& options() const { return options_; }
-  /// `number`: below the options' shards. Null where another rank has it. Until the next `tick`, if shards may move.
+  /// Returns a shard (`number` below the options' shards), or null if another rank has it. If shards can move, it is
+  /// valid until the next `tick`.
   Shard* shard(std::uint32_t number) { return shards_[number].get(); }
-  /// The rank that has each shard.
+  /// Rank of each shard.
   std::span<const int> owner() const { return owner_; }
-  /// What the host kept in the snapshot that the run went on from; at the first rank.
+  /// Returns the host's data of the resumed snapshot, at the first rank.
   const std::vector<std::byte>& restored_host() const { return restored_host_; }
-  /// What this rank did since `begin`.
+  /// Returns the work of this rank since `begin`.
   ClusterReport report() const;
 
  private:
@@ -102,8 +102,8 @@ class Cluster {
   Make make_;
   std::vector<std::unique_ptr<Shard>> shards_;
   std::vector<int> owner_;
-  std::vector<std::uint64_t> cost_us_;  // by shard, since shards moved last
-  std::optional<FolderLock> lock_;      // at the first rank, and the next
+  std::vector<std::uint64_t> cost_us_;  // by shard, since the last balancing
+  std::optional<FolderLock> lock_;      // like the next, at the first rank only
   std::optional<CommandLog> log_;
   std::optional<std::uint32_t> saved_tick_;
   std::vector<LoggedCommands> replay_;

@@ -1,5 +1,5 @@
 #pragma once
-// Ranks in one process, each used by a thread of its own: for tests, and for shards without MPI.
+// Ranks in one process, one thread each, for tests and for shards without MPI.
 
 #include <cstdint>
 #include <memory>
@@ -10,15 +10,15 @@
 
 namespace mobil::inline v0_3 {
 
-/// Thrown by `stop`, and by what other ranks do with their transports afterwards.
+/// Thrown by `stop`, and afterwards by calls of other ranks to their transports.
 struct RanksStopped : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The ranks of one process, each with its end of the transport.
+/// The ranks of one process, each with its own transport.
 class LocalRanks {
  public:
-  /// With a `delay_seed` other than 0 messages arrive late, by numbers of looks that are drawn from it.
+  /// A `delay_seed` other than 0 delays each message by a random number of `take` calls.
   explicit LocalRanks(int ranks = 1, std::uint64_t delay_seed = 0);
   ~LocalRanks();
   LocalRanks(const LocalRanks&) = delete;

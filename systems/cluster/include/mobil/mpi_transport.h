@@ -1,5 +1,5 @@
 #pragma once
-// Ranks as mpirun or srun starts them.
+// Ranks started by mpirun or srun.
 
 #include <memory>
 
@@ -8,12 +8,12 @@
 
 namespace mobil::inline v0_3 {
 
-/// Whether this process was started as a rank (by what Open MPI, MPICH and Slurm's PMIx leave in the environment).
+/// Returns true if this process was started as a rank, from environment variables of Open MPI, MPICH and Slurm's PMIx.
 bool started_as_rank();
-/// Whether it is no rank or the first one: before MPI begins, for what only one is to say.
+/// Returns true if this process is not a rank, or is rank 0. Usable before MPI_Init, for messages printed only once.
 bool first_by_environment();
 
-/// Begins MPI, and ends it with the transport; once in a process. Errors: this mobil was built without MPI.
+/// Initializes MPI, once in a process. The transport finalizes it. Errors: this mobil was built without MPI.
 Result<std::unique_ptr<Transport>> mpi_transport();
 
 }  // namespace mobil::inline v0_3

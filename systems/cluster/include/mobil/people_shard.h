@@ -1,5 +1,5 @@
 #pragma once
-// A shard whose people come, walk and go by commands, each person named by a number that the first rank's host gives.
+// A shard controlled by commands. Each person has a number that the first rank's host assigns.
 
 #include <cstdint>
 #include <map>
@@ -13,12 +13,12 @@
 
 namespace mobil::inline v0_3 {
 
-/// `come`: a person of that body begins to walk there; `go` leaves; `walk`: another speed, 0 to stop; `turn` to a
-/// heading; `place` elsewhere at once; `look` moves the camera of all shards, and its number means
-/// nothing.
+/// Kind of a command. `come` spawns a person with a body, position and speed; `go` removes one; `walk` sets a speed, 0
+/// to stop; `turn` sets a heading; `place` moves a person at once. `look` sets the camera of all shards and ignores its
+/// number.
 enum class Wish : std::uint32_t { come, go, walk, turn, place, look };
 
-/// One wish, as it travels. Made by the functions below, which say what the values are.
+/// One command as it is sent. The functions below make it and name its values (m, rad about +Y, m/s).
 struct PersonCommand {
   std::uint64_t number = 0;
   Wish wish = Wish::come;
@@ -31,43 +31,43 @@ PersonCommand go(std::uint64_t number);
 PersonCommand walk(std::uint64_t number, float speed_m_s);
 PersonCommand turn(std::uint64_t number, float heading_rad);
 PersonCommand place(std::uint64_t number, float x_m, float z_m, float heading_rad);
-/// `asleep_beyond_m`: as LodScene has it; 0: nobody sleeps from then on.
+/// `asleep_beyond_m` is that of LodScene; 0 leaves it unset.
 PersonCommand look(const Viewpoint& camera, float tolerance_px, float asleep_beyond_m);
 
-/// What all shards of a crowd share.
+/// Options of all shards of a crowd.
 struct PeopleShardOptions {
   std::uint32_t shards = 16;  // of the crowd
-  /// Of the simulation; give all shards of a rank one library (`library_of`), of a simulation that outlives them.
+  /// Options of each simulation. All shards of a rank should share a `library_of` that outlives them.
   SimulationOptions simulation{};
-  /// Of everybody who comes; left out: they have none, and nothing is chosen.
+  /// Muscles of all people. If unset, people have no muscles, and level of detail is not used.
   std::optional<LegMuscles> muscles{};
   LodScene scene{};  // until the first `look`
 };
 
 class PeopleShard : public Shard {
  public:
-  /// Throws std::invalid_argument where options.simulation or options.scene is out of range.
+  /// Throws std::invalid_argument if options.simulation or options.scene is out of range.
   PeopleShard(std::uint32_t shard, const PeopleShardOptions& options);
   PeopleShard(const PeopleShard&) = delete;
   PeopleShard& operator=(const PeopleShard&) = delete;
 
-  /// Nobody: all come by commands.
+  /// Does nothing, because all people are spawned by commands.
   Result<void> populate() override { return {}; }
   std::uint32_t ticks() const override { return simulation_.ticks(); }
-  /// PersonCommands one after the other; they are obeyed in their order. A wish that cannot be fulfilled (a number that
-  /// is there already or is not, a body or a walk out of range, an unknown wish) is counted as refused. Errors: bytes
-  /// that are no whole number of commands.
+  /// Executes PersonCommands in their order. Commands that cannot be executed are counted as refused: an existing or
+  /// unknown number, a body or a walk out of range, an unknown kind. Errors: bytes that are not a whole number of
+  /// commands.
   Result<void> apply(std::span<const std::byte> commands) override;
   void tick() override;
   std::uint64_t state_sum() const override;
   Result<std::vector<std::byte>> save() const override;
   Result<void> restore(std::span<const std::byte> saved) override;
 
-  /// A stale handle where nobody here has that number.
+  /// Returns the person with that number; a stale handle if this shard has no such person.
   Entity find(std::uint64_t number) const;
-  /// The people of this shard by their numbers.
+  /// People of this shard by number.
   const std::map<std::uint64_t, Entity>& people() const { return people_; }
-  /// Wishes that could not be fulfilled so far.
+  /// Number of refused commands so far.
   std::uint64_t refused() const { return refused_; }
   const Simulation& simulation() const { return simulation_; }
 
@@ -80,7 +80,7 @@ class PeopleShard : public Shard {
   PeopleShardOptions options_;
   Simulation simulation_;
   std::map<std::uint64_t, Entity> people_;
-  std::optional<PersonCommand> looked_;  // the last one obeyed
+  std::optional<PersonCommand> looked_;  // the last executed `look`
   std::uint64_t refused_ = 0;
 };
 

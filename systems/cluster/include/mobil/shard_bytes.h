@@ -1,5 +1,5 @@
 #pragma once
-// A shard as bytes: its simulation, and what its host keeps.
+// Converts a shard to bytes and back: its simulation and the data of its host.
 
 #include <cstddef>
 #include <cstring>
@@ -12,15 +12,15 @@
 
 namespace mobil::inline v0_3 {
 
-/// Plain values one after the other.
+/// Writes trivially copyable values to a byte array.
 class PlainBytes {
  public:
-  /// Appends a value, or all of a list, as they lie in memory.
+  /// Appends the bytes of a value.
   template <class T>
   void put(const T& value) {
     put_all(std::span(&value, 1));
   }
-  /// The same of a list; its length is not written.
+  /// Appends the bytes of a list, without its length.
   template <class T>
   void put_all(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -28,23 +28,23 @@ class PlainBytes {
     bytes_.resize(at + values.size_bytes());
     if (!values.empty()) std::memcpy(&bytes_[at], values.data(), values.size_bytes());
   }
-  /// All that was put so far.
+  /// Returns all bytes written so far.
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:
   std::vector<std::byte> bytes_;
 };
 
-/// The same taken out again; `whole` says whether all of it was there, and nothing is left.
+/// Reads the values of a PlainBytes. `whole` returns true if no read failed and no bytes are left.
 class PlainReader {
  public:
   explicit PlainReader(std::span<const std::byte> bytes) : left_(bytes) {}
-  /// The next value; it stays as it is where the bytes do not suffice.
+  /// Reads the next value. It is unchanged if too few bytes are left.
   template <class T>
   void take(T& value) {
     take_all(std::span(&value, 1));
   }
-  /// The same of a list, whose length the caller knows.
+  /// Reads a list of the given length. It is unchanged if too few bytes are left.
   template <class T>
   void take_all(std::span<T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -53,7 +53,7 @@ class PlainReader {
     std::memcpy(values.data(), left_.data(), values.size_bytes());
     left_ = left_.subspan(values.size_bytes());
   }
-  /// A list of that length; an empty one where fewer values are left.
+  /// Returns a list of that length, or an empty one if fewer values are left.
   template <class T>
   std::vector<T> take_many(std::size_t count) {
     good_ = good_ && count <= left_.size() / sizeof(T);
@@ -68,10 +68,10 @@ class PlainReader {
   bool good_ = true;
 };
 
-/// Errors: what Simulation::save refuses.
+/// Returns a simulation and the host's data as bytes. Errors: those of Simulation::save.
 Result<std::vector<std::byte>> pack_shard(const Simulation& simulation, std::span<const std::byte> host);
-/// The host's part. Errors: bytes that do not fit; what Simulation::restore refuses. The bytes are taken for one's own:
-/// messages and files are sealed, and limits (RestoreLimits) are none.
+/// Restores the simulation and returns the host's data. The bytes are trusted, because messages and files have
+/// checksums, and no RestoreLimits apply. Errors: bytes that do not match, those of Simulation::restore.
 Result<std::vector<std::byte>> unpack_shard(std::span<const std::byte> bytes, Simulation& simulation);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// A picture as a PNG file.
+// Writes pictures as PNG files.
 
 #include <string>
 
@@ -8,11 +8,11 @@
 
 namespace mobil::inline v0_3 {
 
-/// How hard the file is squeezed: quickly, for frames of a video; or until it is about a fifth smaller.
+/// Compression effort: quick, for frames of a video, or small, for files about 20 % smaller.
 enum class PngEffort { quick, small };
 
-/// Writes `path` whole or not at all, by an OutputFile. Opaque pictures are stored without their opacity. Errors: an
-/// empty picture, a folder that is missing or not writable, a full disk.
+/// Writes a picture to `path`, completely or not at all (OutputFile). Opaque pictures are stored without opacity.
+/// Errors: an empty picture, a folder that is missing or not writable, a full disk.
 Result<void> write_png(const std::string& path, const Image& image, PngEffort effort = PngEffort::quick);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures without a window: OpenGL ES 3 through EGL, on a graphics card or in software.
+// Renders pictures without a window by OpenGL ES 3 and EGL, on a graphics card or in software.
 
 #include <cstdint>
 #include <memory>
@@ -10,23 +10,23 @@
 
 namespace mobil::inline v0_3 {
 
-/// Renders scenes of one picture size with four samples a pixel. Holds no global state; several may live side by side.
-/// One thread at a time may use a renderer; any thread may. On one machine and driver, the same scene gives the same
-/// picture.
+/// Renders scenes at one picture size with four samples a pixel. It has no global state, and several renderers can
+/// exist. Any thread can use a renderer, one at a time. On one machine and driver equal scenes give equal pictures.
 class Renderer {
  public:
-  /// Width and height in pixels, 1–8192. Errors: size out of range, no driver (with the packages to install).
+  /// Creates a renderer. Width and height are in pixels, 1–8192. Errors: a size out of range, no driver (with the
+  /// packages to install).
   static Result<Renderer> create(int width, int height);
 
-  /// Into the caller's picture, whose memory is kept. Errors: an invalid mesh (see MeshStore::place) or camera, a
-  /// driver that fails.
+  /// Renders a scene into the caller's picture and reuses its memory. Errors: an invalid mesh (an index out of range, a
+  /// number of indices that is not a multiple of three) or camera, a failure of the driver.
   Result<void> render(const Scene& scene, Image& image);
   Result<Image> render(const Scene& scene);
 
-  /// Frees a mesh that was sent under this key (DrawMesh::key); the next one under it is sent anew.
+  /// Frees the mesh with this key (DrawMesh::key). The next mesh with it is sent again.
   void forget(std::uint64_t key);
 
-  /// The driver's own name, for reports.
+  /// Returns the driver's name, for reports.
   const char* driver() const;
 
   Renderer(Renderer&&) noexcept;

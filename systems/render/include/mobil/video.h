@@ -1,5 +1,5 @@
 #pragma once
-// Pictures in a row as an MP4 film, encoded by the ffmpeg program.
+// Writes pictures as an MP4 film, encoded by the ffmpeg program.
 
 #include <memory>
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace mobil::inline v0_3 {
 
-/// A film being written: H.264, yuv420p, BT.709, playable while it downloads. Until close() succeeds it lies under a
-/// temporary name beside `path`, as an OutputFile; a writer destroyed before that leaves nothing.
+/// Writes a film: H.264, yuv420p, BT.709, playable during download. Until close() succeeds the file has a temporary
+/// name next to `path` (OutputFile). A writer that is destroyed before that leaves no file.
 class VideoWriter {
  public:
-  /// `path` ends in .mp4; width and height even, 2–8192 pixels; 1–240 pictures a second. Errors: those ranges, ffmpeg
-  /// missing (with the package to install), no room for a process.
+  /// Starts a film. `path` must end in .mp4; width and height are even, 2–8192 pixels; 1–240 pictures a second. Errors:
+  /// a value out of range, ffmpeg is missing (with the package to install), a process cannot be started.
   static Result<VideoWriter> create(const std::string& path, int width, int height, double pictures_per_second);
 
-  /// Waits while ffmpeg is busy. Errors: a picture of another size, ffmpeg gave up (with what it says).
+  /// Adds a picture and waits while ffmpeg is busy. Errors: another size, a failure of ffmpeg (with its message).
   Result<void> add(const Image& image);
 
-  /// Finishes the film and gives it its name. Errors: ffmpeg gave up, no picture was added, already closed.
+  /// Finishes the film and renames it to `path`. Errors: a failure of ffmpeg, no pictures, already closed.
   Result<void> close();
 
   VideoWriter(VideoWriter&&) noexcept;

@@ -1,5 +1,5 @@
 #pragma once
-// A scene's camera and lamps as the numbers the device's programs read.
+// Converts a scene's camera and lamps to the uniform blocks of the shaders.
 
 #include <mobil/engine/error.h>
 #include <mobil/systems/render/matrix.h>
@@ -8,14 +8,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// The same block for the camera and for the key lamp, which sees the casters' shadows.
+/// Blocks of the camera and of the key lamp, from which the shadow map is rendered.
 struct FrameBlocks {
   FrameBlock camera, lamp;
   bool shadows = false;
 };
 
-/// `casters`: what throws shadows, in the world; the shadow map just covers it. Error: a camera that sees nothing
-/// (field of view outside 1–170 degrees, eye in the target, NaN) or a light from below.
+/// Computes the blocks. `casters` is the box of all objects that cast shadows, in the world, and the shadow map covers
+/// it. Errors: an invalid camera (field of view outside 1–170 degrees, eye at the target, NaN), a light from below.
 Result<FrameBlocks> frame_blocks(const Scene& scene, int width, int height, const capture_math::Box& casters);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// Places among stations, and turns: what tables of sections are looked up by.
+// Interpolation among stations, and turns: lookup in tables of sections.
 
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace mobil::inline v0_3::form {
 /// A full turn, rad.
 inline constexpr double tau = 2 * std::numbers::pi;
 
-/// Where `at` lies among rising keys: the one before, and how far towards the next (0–1).
+/// Returns the index of the rising key before `at`, and the fraction of the way to the next key (0–1).
 template <class Key>
 std::pair<std::size_t, double> between(std::size_t count, double at, const Key& key) {
   std::size_t k = 0;

@@ -5,7 +5,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// All in m, of a standing body.
+/// Measures of a standing body, m.
 struct BodyMeasures {
   double thigh_girth;        // under the buttock
   double lower_thigh_girth;  // above the kneecap
@@ -20,9 +20,9 @@ struct BodyMeasures {
   double hand_breadth, foot_length, foot_breadth;
 };
 
-/// What people of that height and mass have in the mean, each measure a power of both, fitted to the survey of US Army
-/// personnel ANSUR II (Gordon et al. 2014, NATICK/TR-15/007). Residual deviations are 2.5 to 6 %. The biceps was
-/// measured flexed and the forearm too; relaxed ones are taken as 0.93 and 0.95 of them, our choice.
+/// Returns the mean measures of people of that height and mass. Each is a power of both, fitted to the survey of US
+/// Army personnel ANSUR II (Gordon et al. 2014, NATICK/TR-15/007). Residual deviations are 2.5 to 6 %. Biceps and
+/// forearm were measured flexed; relaxed ones are taken as 0.93 and 0.95 of them, our choice.
 BodyMeasures body_measures(const BodyRequest& request);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// A small CSV file read whole, its cells found by the column's name.
+// A small CSV file, read completely, with cells found by column name.
 
 #include <cstddef>
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Header and rows, every row as wide as the header. `path`: the file, or what else messages are to call it; `line[r]`:
-/// the row's line in it, counted from 1.
+/// Header and rows, every row as wide as the header. `path` is the file, or its name in messages. `line[r]` is the
+/// row's line in it, counted from 1.
 struct CsvTable {
   std::string path;
   std::vector<std::string> header;
@@ -22,20 +22,20 @@ struct CsvTable {
 };
 
 /// Reads commas, double quotes (a quote inside is doubled; no line break inside), LF or CRLF, an optional UTF-8 mark;
-/// empty lines are passed over. Fails for a table without rows, a missing column of `required`, an open quote, a row
-/// that is not as wide as the header.
+/// skips empty lines. Fails on a table without rows, a missing column of `required`, an open quote, or a row that is
+/// not as wide as the header.
 Result<CsvTable> parse_csv(std::string_view text, std::string_view name, std::span<const std::string_view> required);
 
-/// The same from a file; also fails where it cannot be read.
+/// Reads a table from a file. Also fails if the file cannot be read.
 Result<CsvTable> read_csv(const std::string& path, std::span<const std::string_view> required);
 
-/// Where a column stands, if it is there.
+/// Returns the index of a column, or nothing.
 std::optional<std::size_t> column(const CsvTable& table, std::string_view name);
 
-/// The cell, or nothing where the column is absent.
+/// Returns the cell, or nothing if the column is absent.
 std::string_view cell(const CsvTable& table, std::size_t row, std::string_view name);
 
-/// The whole cell as a finite number, with or without a sign.
+/// Returns the whole cell as a finite number, with or without a sign, or nothing.
 std::optional<double> number(std::string_view text);
 
 }  // namespace mobil::inline v0_3

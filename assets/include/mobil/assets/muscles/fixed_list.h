@@ -1,5 +1,5 @@
 #pragma once
-// A list that lies in its owner, so that a row of a table can hold it and be made when compiled.
+// A list stored in its owner, so that a row of a table can contain it at compile time.
 
 #include <array>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// Up to `capacity` items. One that is made with more when compiled does not compile.
+/// List of up to `capacity` items. More items at compile time are a compile error.
 template <class T, std::size_t capacity>
 class FixedList {
  public:

@@ -1,6 +1,6 @@
 #pragma once
-// A skin mesh of somebody's own, as from a scan or an atlas: legs so far, in place of those of their body's skin, with
-// which it moves.
+// Custom skin meshes, such as scans or atlases. So far they are legs, which replace those of a body's skin and move
+// with it.
 
 #include <cstdint>
 #include <span>
@@ -12,17 +12,17 @@
 
 namespace mobil::inline v0_3 {
 
-/// Where a vertex is beside a triangle of the body's skin: the corners and their weights (sum 1) of the point nearest
-/// to it, how far off it is, m, and its normal, both along the triangle's first edge, across it in the skin, and
-/// outwards.
+/// A vertex relative to a triangle of the body's skin. `corner` and `weight` (sum 1) give the point nearest to it.
+/// `beside_m` is its offset from there, m, and `normal` its normal: along the triangle's first edge, across it in the
+/// skin, and outwards.
 struct SkinFollower {
   std::uint32_t corner[3];
   float weight[3];
   Vec3<float> beside_m, normal;
 };
 
-/// `triangle`: corners among `vertex`, wound outwards. `left`: of the body's skin, what is not in its place, part by
-/// part as in SkinMesh.
+/// A bound mesh. `triangle` has its corners in `vertex`, wound outwards. `left` has the triangles of the body's skin
+/// that stay, part by part as in SkinMesh.
 struct CustomSkin {
   std::vector<std::uint32_t> triangle;
   std::vector<SkinFollower> vertex;
@@ -30,11 +30,11 @@ struct CustomSkin {
   std::array<std::uint32_t, skin_parts + 1> first_left{};
 };
 
-/// Binds meshes of right legs, the body standing at x = z = 0 (m), and their mirror images. They may be closed flat at
-/// their top, which is left out; over the last 6 cm below it they come to the body's skin. `position`, `normal`: of the
-/// body's skin where it stands, over muscles as they are at rest (pose_skin). Vertices that are more than 8 cm beside
-/// it are brought as near as that. Meshes without triangles make nothing. `shorts_stay`: the body's
-/// shorts are shown, and what is under them is left out or keeps under them.
+/// Binds meshes of right legs, the body standing at x = z = 0 (m), and their mirror images. A flat cap at their top is
+/// left out; over the last 6 cm below it they approach the body's skin. `position` and `normal` are of the body's skin
+/// in that stance, over muscles at rest (pose_skin). Vertices farther than 8 cm from it are moved to that distance.
+/// Meshes without triangles are skipped. `shorts_stay` shows the body's shorts; skin under them is left out or kept
+/// below them.
 CustomSkin bind_custom_skin(const BodySkin& skin, std::span<const Vec3<float>> position,
                             std::span<const Vec3<float>> normal, std::span<const SurfaceMesh> legs,
                             bool shorts_stay = false);

@@ -9,18 +9,18 @@
 
 namespace mobil::inline v0_3::form {
 
-/// One body's right leg and foot, in m; origin and axes are those of the standing body (mobil/components/body.h).
+/// One body's right leg and foot, m. Origin and axes are those of the standing body (mobil/components/body.h).
 class LegForm {
  public:
-  /// `shod`: a shoe's tip in place of toes. `hip_part`: by what radii are multiplied at the hip; from the middle of
-  /// the thigh on they are the profile's.
+  /// Builds the form. `shod` replaces the toes by a shoe's tip. `hip_part` is a factor on the radii at the hip; from
+  /// the middle of the thigh on they are the profile's.
   LegForm(const Body& body, const BodyMeasures& measures, bool shod, double hip_part = 1);
-  /// Of a point of the right leg, standing straight.
+  /// Returns the distance of a point to the right leg, standing straight.
   double distance(const Vec& p) const;
-  /// How far down the leg a height lies: 0 at the hip's centre, 1 at the knee's, 2 at the ankle's.
+  /// Converts a height to the position along the leg: 0 at the hip centre, 1 at the knee's, 2 at the ankle's.
   double s(double y) const { return y > knee_y_ ? (hip_.y - y) / (hip_.y - knee_y_) : 1 + (knee_y_ - y) / shank_m_; }
   double y(double s) const { return s < 1 ? hip_.y - s * (hip_.y - knee_y_) : knee_y_ - (s - 1) * shank_m_; }
-  /// Of the skin about the leg's line; `s` and `turn` as LegProfile has them, m.
+  /// Returns the radius of the skin about the leg's line, m; `s` and `turn` as in LegProfile.
   double radius(double s, double turn) const;
   const Vec& hip() const { return hip_; }
   const LegProfile& profile() const { return profile_; }
@@ -30,7 +30,7 @@ class LegForm {
 
   Vec hip_;
   double knee_y_, shank_m_, dome_m_;
-  double long_, wide_;  // of the foot, over that of 1.75 m and 75 kg
+  double long_, wide_;  // of the foot, relative to 1.75 m and 75 kg
   LegProfile profile_;
   std::vector<Ring> foot_;
   bool shod_;
@@ -41,7 +41,7 @@ class LegForm {
 class ArmForm {
  public:
   ArmForm(const Body& body, const BodyMeasures& measures);
-  /// Of a point of the right arm, hanging, palm forward.
+  /// Returns the distance of a point to the right arm, hanging, palm forward.
   double distance(const Vec& p) const;
   const Vec& shoulder() const { return shoulder_; }
 

@@ -12,9 +12,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// A muscle surface with the meshes that can drive it: its own muscle's where that is simulated, else its group's
-/// (tendons and ligaments have no other). `tendon`: one a vertex, 0 in the belly to 1 in the tendon. A ligament follows
-/// its two bones alone: bind it with bind_ligament, the others with bind_muscle (surface_binding.h).
+/// A muscle surface with the muscles whose meshes can drive it: its own if that is simulated, else its group (tendons
+/// and ligaments have only that). `tendon` has one value per vertex, 0 in the belly to 1 in the tendon. A ligament
+/// follows only its two bones: bind it with bind_ligament, the others with bind_muscle (surface_binding.h).
 struct GroupSurface {
   Muscle group, muscle;
   MuscleSurface surface;
@@ -23,21 +23,21 @@ struct GroupSurface {
   bool ligament = false;
 };
 
-/// The one of the `simulated` muscles whose mesh a surface follows: its own, else its group's, or of a tendon, which
-/// has none of its own, that of the group's largest member; nothing where none of them is simulated.
+/// Returns the `simulated` muscle whose mesh a surface follows: its own, else its group's. A tendon without either
+/// follows the largest simulated member of its group. Returns nothing if none is simulated.
 std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, Muscle muscle);
 
-/// How muscles are drawn: as they would grow alone, away from the bone; or cut back to the muscle beneath and to the
-/// leg's skin, whose measures are mean people's (mobil/assets/body/leg_profile.h), growing until their volume is met.
+/// Room of drawn muscles. `alone` grows each by itself, away from the bone. `together` cuts it back to the muscle
+/// beneath and to the skin of mean people's legs (mobil/assets/body/leg_profile.h), growing it to its volume.
 enum class MuscleRoom : std::uint8_t { alone, together };
 
-/// The members in the order of member_muscles(), then the calcaneal tendon and the patellar ligament; right side, world
-/// axes, the body standing in the anatomical position at x = z = 0, m; closed, wound outwards, not bound yet. Each
-/// follows its measured path (muscle_table.h) on this body's bones; its girth is set so that it encloses the member's
-/// volume, growing away from the bone, and it is cut back where it would enter the femur or the tibia.
+/// Returns the members in the order of member_muscles(), then the calcaneal tendon and the patellar ligament. They are
+/// of the right side in world axes, the body standing in the anatomical position at x = z = 0, m; closed, wound
+/// outwards, not yet bound. Each follows its measured path (muscle_table.h) on this body's bones. Its girth encloses
+/// the member's volume, growing away from the bone, and it is cut back where it would enter the femur or the tibia.
 std::vector<GroupSurface> make_muscle_surfaces(const Body& body, MuscleRoom room = MuscleRoom::together);
 
-/// Volume of each member in this body, its physique included, m³, in the order of member_muscles().
+/// Returns the volume of each member in this body, physique included, m³, in the order of member_muscles().
 std::vector<double> member_volumes_m3(const Body& body);
 
 }  // namespace mobil::inline v0_3

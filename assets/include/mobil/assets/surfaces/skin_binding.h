@@ -1,7 +1,6 @@
 #pragma once
-// How a body's skin hangs on its segments. Every joint turns its skin about the one point that both segments share:
-// where a vertex turns with a part of the joint's angle it keeps its distance from the joint, which a mean of two
-// places would not.
+// Binding of a body's skin to its segments. Every joint turns its skin about the one point that both segments share. A
+// vertex that turns by a part of the joint's angle keeps its distance from the joint, unlike a mean of two positions.
 
 #include <array>
 #include <cstdint>
@@ -18,23 +17,23 @@ struct SkinFrame {
   float turn;
   bool operator==(const SkinFrame&) const = default;
 };
-/// The forearm of either side as the elbow alone would turn it, without the pronation about its own length, which the
-/// skin takes up evenly from elbow to wrist.
+/// Returns the forearm of either side as the elbow alone would turn it. The skin takes up the pronation about its
+/// length evenly from elbow to wrist.
 constexpr std::uint8_t untwisted_forearm(std::size_t side) {
   return static_cast<std::uint8_t>(segment_count + side);
 }
 inline constexpr std::size_t skin_segments = segment_count + 2;
-/// A frame's segment: the forearm of an untwisted one.
+/// Returns a frame's segment; for an untwisted forearm, the forearm.
 constexpr std::size_t segment_of(std::uint8_t s) {
   return s < segment_count ? s : index(on_side(Segment::forearm_right, s - segment_count));
 }
-/// How far above and below a joint of the leg its skin bends, m of a body of 1.75 m; at the ankle, in front.
+/// Extent of bending skin above and below a joint of the leg, m for a body of 1.75 m; at the ankle, in front.
 struct SkinBend {
   double above_m, below_m;
 };
 inline constexpr SkinBend hip_bend{0.12, 0.20}, knee_bend{0.10, 0.10}, ankle_bend{0.09, 0.02};
 
-/// Weights add up to 1; frames that are not used weigh 0.
+/// Frames of a vertex. Weights add up to 1; unused frames have weight 0.
 struct SkinVertex {
   static constexpr std::size_t max_frames = 4;
   std::array<std::uint16_t, max_frames> frame{};
@@ -42,16 +41,16 @@ struct SkinVertex {
 };
 
 struct SkinBinding {
-  std::vector<SkinFrame> frame;  // those between the same two segments one after the other
+  std::vector<SkinFrame> frame;  // those between the same two segments are adjacent
   std::vector<SkinVertex> vertex;
   std::vector<Vec3<double>> rest;  // in the anatomical position, m
 };
 
-/// Binds places in the pose that is meshed (body_form.h) and brings them into the anatomical position. `turns`: steps
-/// of a joint's angle that vertices share a frame for.
+/// Binds points of the meshing pose (body_form.h) and moves them to the anatomical position. `turns` is the number of
+/// steps of a joint's angle for which vertices share a frame.
 SkinBinding bind_skin(const form::BodyForm& form, const Body& body, const std::vector<Vec3<double>>& place, int turns);
 
-/// Brings places that are bound already, of another body's surface, into the anatomical position.
+/// Moves points of another body's surface, which are bound already, to the anatomical position.
 std::vector<Vec3<double>> skin_at_rest(const form::BodyForm& form, const std::vector<Vec3<double>>& place);
 
 }  // namespace mobil::inline v0_3

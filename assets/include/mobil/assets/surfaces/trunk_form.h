@@ -1,5 +1,5 @@
 #pragma once
-// Forms of trunk, neck and head in the anatomical position, as distances (form_shapes.h), m. Both sides are alike.
+// Forms of trunk, neck and head in the anatomical position, as distances (form_shapes.h), m. They are symmetric.
 
 #include <vector>
 
@@ -13,9 +13,9 @@ namespace mobil::inline v0_3::form {
 class TrunkForm {
  public:
   TrunkForm(const Body& body, const BodyMeasures& measures, const TrunkFit& fit);
-  /// Of a point in the anatomical position.
+  /// Returns the distance of a point in the anatomical position.
   double distance(const Vec& p) const;
-  /// Beyond it to either side nothing of the trunk lies.
+  /// Returns the distance to either side that the trunk does not exceed.
   double reach() const { return reach_; }
 
  private:
@@ -25,16 +25,16 @@ class TrunkForm {
   };
   double sections(const Vec& p) const;
 
-  double size_;  // over 1.75 m
+  double size_;  // relative to 1.75 m
   Vec shoulder_;
   bool woman_;
   double breast_front_, blade_back_, chest_wide_, buttock_, breast_m_ = 0;
-  double full_, round_;  // chest and buttocks, over those of 75 kg
+  double full_, round_;  // chest and buttocks, relative to 75 kg
   double reach_;
   std::vector<Section> section_;
 };
 
-/// Of a body of 1.75 m with its head in the usual place; other heads are as much larger as their bodies are taller.
+/// Returns the distance to the head of a body of 1.75 m in its usual place. Other heads scale with the body's height.
 double head_distance(const Vec& p, Sex sex);
 
 }  // namespace mobil::inline v0_3::form

@@ -22,7 +22,7 @@ typedef mobil_avoidance_counts mobil_steered MOBIL_DEPRECATED("mobil_avoidance_c
 typedef mobil_custom_skin mobil_own_skin MOBIL_DEPRECATED("mobil_custom_skin");
 
 MOBIL_API MOBIL_DEPRECATED("mobil_get_state and mobil_has") int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
-/* mobil_wake leaves compact people as they are, and mobil_expand sleepers. */
+/* mobil_wake does not change compact people, and mobil_expand does not change sleepers. */
 MOBIL_API MOBIL_DEPRECATED("mobil_set_state") int mobil_sleep(mobil_sim* sim, const mobil_id* ids, size_t count,
                                                               size_t* changed);
 MOBIL_API MOBIL_DEPRECATED("mobil_set_state") int mobil_wake(mobil_sim* sim, const mobil_id* ids, size_t count,
@@ -48,10 +48,10 @@ MOBIL_API MOBIL_DEPRECATED("mobil_lod_why") int mobil_why(mobil_sim* sim, mobil_
                                                           size_t room, float* error_m, double* cost_us);
 MOBIL_API MOBIL_DEPRECATED("mobil_lod_level") int mobil_way(int way, int muscle, float speed_m_s, float height_m,
                                                             int inertia, int pulling, mobil_level* out);
-/* `out` may be null. */
+/* `out` can be null. */
 MOBIL_API MOBIL_DEPRECATED("mobil_lod_report") int mobil_choose(mobil_sim* sim, mobil_lod_counts* out);
 
-/* Removes walls and discs too. */
+/* Also removes walls and discs. */
 MOBIL_API MOBIL_DEPRECATED("mobil_avoidance_set_options") int mobil_start_avoidance(
     mobil_sim* sim, const mobil_avoidance_options* options);
 MOBIL_API MOBIL_DEPRECATED("mobil_avoidance_manage") int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count,
@@ -63,7 +63,7 @@ MOBIL_API MOBIL_DEPRECATED("mobil_avoidance_set_walls") int mobil_set_walls(mobi
                                                                             size_t stride, size_t count);
 MOBIL_API MOBIL_DEPRECATED("mobil_avoidance_set_discs") int mobil_set_discs(mobil_sim* sim, const float* discs,
                                                                             size_t stride, size_t count);
-/* `out` may be null. */
+/* `out` can be null. */
 MOBIL_API MOBIL_DEPRECATED("mobil_avoidance_report") int mobil_steer(mobil_sim* sim, mobil_avoidance_counts* out);
 
 MOBIL_API MOBIL_DEPRECATED("mobil_terrain_manage") int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids,

@@ -1,61 +1,61 @@
-/* What a game plays by: events of steps, root motion, walks read back, people put elsewhere. A part of mobil.h, which
- * includes it; in the header that hosts have it stands in its place. Since interface 2. */
+/* Step events, root motion, present walks and placing of people. A part of mobil.h, which includes it. Since interface
+ * 2. */
 #ifndef MOBIL_PLAY_H
 #define MOBIL_PLAY_H
 
 /* ---- Play ------------------------------------------------------------------------------------------------------- */
 
-/* What a walker is to do, as mobil_change_walk takes it: speed and step length (of who is to stand a speed of 0), the
- * heading to turn to; and the step frequency that follows, which is not among the `given`. `style`: room for as many
- * numbers as mobil_style has, to which `out` then points; null: without. All of it is as limits have it
- * (mobil_get_style). */
+/* Writes a walker's requested walk, as mobil_change_walk takes it: speed, step length and heading, or speed 0 to stand.
+ * The resulting step frequency is written too, but is not `given`. `style` has room for all values of mobil_style, and
+ * `out` points to it; null skips the style. All values are corrected to the limits (mobil_get_style). */
 MOBIL_API int mobil_get_walk(mobil_sim* sim, mobil_id id, mobil_walk* out, float* style, size_t room);
 
-/* Puts walkers elsewhere at once, all or none: rows of four floats, a place and a heading in rad. */
+/* Moves walkers at once, all or none: rows of four floats, a position and a heading in rad. */
 MOBIL_API int mobil_place_many(mobil_sim* sim, const mobil_id* ids, size_t count, const float* places, size_t stride);
 
-/* The limits of ground, joints and pelvis that a walker is beyond now: few are, for a moment, while they change their
- * walk. A line each ("a knee is bent by 146 deg; the limit is 143.8"), all ended by a 0, are written to `text`; *length
- * is how many characters they have without it, and may be null. Without `text` the call writes nothing else; with too
- * little room it writes nothing else and returns MOBIL_ROOM. */
+/* Writes the limits of ground, joints and pelvis that a walker violates now. Few walkers do, briefly, while they change
+ * their walk. `text` receives one line for each ("a knee is bent by 146 deg; the limit is 143.8") and a final 0.
+ * *length is the number of characters without the 0, and can be null. If `text` is null, only *length is written; if
+ * `room` is too small as well, and the call returns MOBIL_ROOM. */
 MOBIL_API int mobil_limit_violations(mobil_sim* sim, mobil_id id, char* text, size_t room, size_t* length);
-/* How many people were beyond a limit in the last tick, and how many in all ticks together. Either may be null. */
+/* Writes the numbers of people beyond a limit in the last tick, and in all ticks together. Either can be null. */
 MOBIL_API int mobil_limit_violation_counts(mobil_sim* sim, size_t* people, size_t* all);
 
-/* What can happen in a walker's steps. */
+/* Kinds of step events. */
 enum {
-  MOBIL_HEEL_STRIKE, /* a foot comes to the ground */
-  MOBIL_TOE_OFF,     /* a foot leaves it */
-  MOBIL_STOPPED,     /* who walked, or stepped on the spot or aside, stands */
-  MOBIL_STARTED      /* who stood begins to step */
+  MOBIL_HEEL_STRIKE, /* a foot touches the ground */
+  MOBIL_TOE_OFF,     /* a foot leaves the ground */
+  MOBIL_STOPPED,     /* a person who walked, or stepped on the spot or aside, stands */
+  MOBIL_STARTED      /* a standing person begins to step */
 };
-/* One thing that happened in a step. */
+/* One step event. */
 typedef struct mobil_event {
   mobil_id id;
   int kind, side;    /* MOBIL_HEEL_STRIKE and so on; MOBIL_RIGHT or MOBIL_LEFT */
-  unsigned int tick; /* in which it was, from 1 on */
-  float part;        /* of that tick which was over, 0 to 1: at (tick - 1 + part) times tick_s, to half a microsecond */
-  float place[3];    /* on the ground under the foot's ankle when it lies flat; of who stops or starts on their line */
-  float heading_rad; /* where the foot points; of who stops or starts the body */
+  unsigned int tick; /* the tick of the event, from 1 */
+  float part;        /* fraction of that tick, 0 to 1: time (tick - 1 + part) times tick_s, to half a microsecond */
+  float place[3];    /* on the ground under the ankle of the flat foot; stops and starts: on the walking line */
+  float heading_rad; /* of the foot; stops and starts: of the body */
 } mobil_event;
-/* What happened to who has MOBIL_STEP_EVENTS, in all ticks of the last mobil_advance or mobil_tick, in order of time.
- * *count is how many there are. Without `out` the call writes nothing else; with too little room it writes nothing else
- * and returns MOBIL_ROOM. Places are those of the tick, before a later mobil_shift_origin or mobil_place. Ticks that
- * run again after going back give their events again. */
+/* Writes the events of people with MOBIL_STEP_EVENTS in all ticks of the last mobil_advance or mobil_tick, by time.
+ * *count is their number. If `out` is null, only *count is written; if `room` is too small as well, and the call
+ * returns MOBIL_ROOM. Positions are those at the tick, before a later mobil_shift_origin or mobil_place. Ticks that run
+ * again after a rollback write their events again. */
 MOBIL_API int mobil_events(mobil_sim* sim, mobil_event* out, size_t room, size_t* count);
 
-/* Where a person is on the ground and heads, smooth along the walking line, without the sway of the hips. */
+/* Position and heading of a person on the ground, smooth along the walking line, without the sway of the hips. */
 typedef struct mobil_root {
   double place[3], heading_rad;
 } mobil_root;
-/* The way from one root to another, in the host's axes as if the first headed along the axis ahead; by how much it
- * turned, to the left, rad. */
+/* Motion from one root to another, in the host's axes with the first root's heading along the axis ahead, and the turn
+ * to the left, rad. */
 typedef struct mobil_motion {
   float way[3], turn_rad;
 } mobil_motion;
-/* `ahead_s` after the last tick, 0 to 0.2: alpha times tick_s for a frame. */
+/* Writes the roots of people `ahead_s` after the last tick, 0 to 0.2: alpha times tick_s for a frame. */
 MOBIL_API int mobil_roots(mobil_sim* sim, const mobil_id* ids, size_t count, double ahead_s, mobil_root* out);
-/* From `roots`, as mobil_roots wrote them before time went on, to where people are now; that is written over them. */
+/* Writes the motion from `roots`, which mobil_roots or an earlier call wrote, to the present roots, and stores these in
+ * `roots`. */
 MOBIL_API int mobil_root_motion(mobil_sim* sim, const mobil_id* ids, size_t count, double ahead_s, mobil_root* roots,
                                 mobil_motion* out);
 

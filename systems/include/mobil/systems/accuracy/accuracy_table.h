@@ -1,6 +1,6 @@
 #pragma once
-// How far off each way to deform a muscle is, and what it costs: measured from walks of the library's own
-// (`mobil fit-accuracy`), so that a scene can choose the cheapest that is good enough.
+// Measured errors and costs of each way to deform a muscle, from walks of the library itself (`mobil fit-accuracy`).
+// Level of detail uses them to choose the cheapest method that is accurate enough.
 
 #include <array>
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// One way to deform a muscle. Of Method::modal: `modes` of a mesh of `cells`, extrapolated, `moving` or the static
-/// answer alone. Of muscles that pull: whether control points are those of finite strain (LegMuscles::finite_shape),
-/// and whether tension stiffens what moves (ModalOptions::tuned).
+/// One way to deform a muscle. Method::modal uses `modes` modes of a mesh of `cells`, extrapolated; if not `moving`, it
+/// uses the static solution alone. For active muscles `finite_shape` sets LegMuscles::finite_shape, and `tuned` sets
+/// ModalOptions::tuned (tension stiffens the belly).
 struct LodLevel {
   std::string_view name;
   Method method = Method::none;
@@ -25,8 +25,8 @@ struct LodLevel {
   bool finite_shape = false, tuned = false;
 };
 
-/// A lod_table, about from cheap to dear: nothing, static, 4 to 32 modes of 4×4×16 elements, 32 of 8×8×32, and the
-/// paper's choice, explicit on 2×2×8.
+/// Levels of inactive muscles, roughly from cheap to dear: none, static, 4 to 32 modes of 4×4×16 elements, 32 modes of
+/// 8×8×32, and the paper's choice, explicit central differences on 2×2×8.
 inline constexpr std::size_t level_count = 11;
 using LodLevels = std::array<LodLevel, level_count>;
 inline constexpr LodLevels levels = {{
@@ -42,8 +42,8 @@ inline constexpr LodLevels levels = {{
     {"modal-32-fine", Method::modal, 32, true, {8, 8, 32}},
     {"full", Method::explicit_central, 0, true, {2, 2, 8}},
 }};
-/// That of people whose muscles pull, beside tissue at finite strain. A finer mesh's modes and the explicit mesh,
-/// which tension does not stiffen, are no nearer to that (`mobil frontier --finite`).
+/// Levels of active muscles, judged against tissue at finite strain. Modes of a finer mesh, and the explicit mesh,
+/// which tension does not stiffen, are not more accurate (`mobil frontier --finite`).
 inline constexpr LodLevels active_levels = {{
     {"none", Method::none, 0, true, {}},
     {"linear-static", Method::modal, 12, false, {4, 4, 16}},
@@ -61,21 +61,21 @@ constexpr const LodLevels& levels_of(bool active) {
   return active ? active_levels : levels;
 }
 
-/// What changing a muscle's method to a level takes, both legs', µs of a core of an Intel Xeon of 3 GHz (`mobil bench
-/// lod`): finding a body's motions along many modes takes most.
+/// Time of changing a muscle's method to a level, both legs, µs on one core of an Intel Xeon at 3 GHz (`mobil bench
+/// lod`). With many modes the eigenvectors of the body's modal stiffness take most of it.
 inline constexpr std::array<float, level_count> switch_us = {9, 55, 40, 45, 52, 66, 86, 155, 290, 290, 15};
 inline constexpr std::array<float, level_count> active_switch_us = {9, 55, 40, 55, 40, 45, 52, 66, 86, 155, 290};
 
-/// Walks that errors were measured in, as the reference body walks them; others walk as fast in proportion to the root
-/// of their height.
+/// Speeds at which errors were measured, for the reference body. Speeds of other bodies are scaled by the square root
+/// of height.
 enum class SpeedClass : std::uint8_t { slow, free, fast };
 inline constexpr std::array<std::string_view, 3> speed_class_name = {"slow", "free", "fast"};
 inline constexpr std::array<float, 3> speed_class_m_s = {0.9F, 1.4F, 2.0F};
 
-/// `error_m`: of each level the 99.9th percentile over ticks of the largest distance of a control point from where a
-/// converged reference has it, m, in a body of the reference body's height; others in proportion. `active`: of muscles
-/// that pull, on their lod_table, beside nonlinear tissue, rounded up by up to 9 %; of these `volume_off` too: of the
-/// volume that the control points enclose off that at rest, as a part of it, the same percentile.
+/// Errors of one muscle. `error_m` is the largest distance of a control point from a converged reference, m, for each
+/// level: the 99.9th percentile over ticks, in a body of the reference height. Other bodies have errors in proportion
+/// to height. Rows of `active` muscles are for `active_levels`, against nonlinear tissue, rounded up by up to 9 %. For
+/// them `volume_off` is the same percentile of the relative change of the enclosed volume from that at rest.
 struct AccuracyRow {
   Muscle muscle = Muscle::hamstrings;
   SpeedClass speed = SpeedClass::free;
@@ -85,8 +85,8 @@ struct AccuracyRow {
   std::array<float, level_count> volume_off{};
 };
 
-/// What one muscle of one leg costs in one tick of 1/60 s, µs: its motion; and, on top, its control points where
-/// someone looks. What makes it pull (LegMuscles::activation) is no part: that goes on whatever the level.
+/// Cost of one muscle of one leg in a tick of 1/60 s, µs: its motion, and its control points where they are placed.
+/// Activation (LegMuscles::activation) is excluded, because it runs at every level.
 struct LevelCost {
   std::array<float, level_count> state_us{}, points_us{};
 };
@@ -97,11 +97,11 @@ struct AccuracyTable {
 
   const LevelCost& cost_of(bool inertia, bool active) const { return cost[(active ? 2U : 0U) + (inertia ? 1U : 0U)]; }
 
-  /// A muscle's row; of one that was not measured its group's. Null where there is neither.
+  /// Returns a muscle's row, or that of its group if the muscle was not measured. Null if neither exists.
   const AccuracyRow* find(Muscle muscle, SpeedClass speed, bool inertia, bool active = false) const;
 };
 
-/// The one that was measured.
+/// Returns the library's measured table.
 const AccuracyTable& accuracy_table();
 
 }  // namespace mobil::inline v0_3

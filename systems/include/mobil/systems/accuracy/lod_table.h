@@ -1,6 +1,6 @@
 #pragma once
-// The cheapest method that is good enough, and the best that a budget affords: the arithmetic of level of detail
-// (mobil/lod.h), which knows nothing of people.
+// Arithmetic of level of detail (mobil/lod.h), independent of people: the cheapest method within a tolerance, and the
+// best one within a budget.
 
 #include <array>
 #include <cstddef>
@@ -11,53 +11,53 @@
 
 namespace mobil::inline v0_3 {
 
-/// Which of a table's figures apply.
+/// Selects the figures of a table.
 struct LevelCase {
   std::uint32_t muscle = 0;
   std::uint32_t speed_step = 0;  // LodTable::speed_step
   bool inertia = false, points = true, active = false;
 };
 
-/// An accuracy table prepared for choosing: errors at even steps of speed, each the larger of its ends'; levels by
-/// cost. Pure functions of the table.
+/// An accuracy table prepared for lookup: errors at equal steps of speed, each the larger one of both ends, and levels
+/// ordered by cost. All functions depend on the table alone.
 class LodTable {
  public:
-  /// The lod_table has errors at so many speeds, so far apart.
+  /// Number and distance of the speeds at which errors are stored.
   static constexpr std::uint32_t speed_steps = 26;
   static constexpr float speed_step_m_s = 0.1F;
 
   explicit LodTable(const AccuracyTable& table);
 
-  /// The step of a walk of that speed (m/s) by a body of that height (m); NaN gives the last step.
+  /// Returns the step for a speed (m/s) and a body height (m); the last step for NaN.
   static std::uint32_t speed_step(float speed_m_s, float height_m);
 
-  /// Predicted error in a body of the reference's height, m.
+  /// Predicted error in a body of the reference height, m.
   float error_m(const LevelCase& of, std::uint32_t level) const {
     return error_[of.active][of.inertia][of.speed_step][of.muscle][level];
   }
-  /// The same in a body of that height.
+  /// Predicted error in a body of height `height_m`, m.
   float error_m(const LevelCase& of, std::uint32_t level, float height_m) const;
-  /// How much of the volume at rest its control points enclose more or less; 0 where that was not measured.
+  /// Relative error of the volume that the control points enclose; 0 if not measured.
   float volume_off(const LevelCase& of, std::uint32_t level) const {
     return volume_off_[of.active][of.inertia][of.muscle][level];
   }
-  /// Of both legs' muscles, a tick of 1/60 s, picoseconds on the machine that was measured.
+  /// Cost of both legs' muscles in a tick of 1/60 s, picoseconds on the measured machine.
   std::int64_t cost_ps(const LevelCase& of, std::uint32_t level) const {
     return cost_[of.active][of.inertia][of.points][level];
   }
-  /// The same in microseconds, for people to read.
+  /// Cost in microseconds, for display.
   float cost_us(const LevelCase& of, std::uint32_t level) const {
     return 1e-6F * static_cast<float>(cost_ps(of, level));
   }
-  /// Levels by cost, the cheapest first; of equal cost the lower.
+  /// Levels by cost, the cheapest first; of two with equal cost the lower one first.
   const std::array<std::uint8_t, level_count>& by_cost(const LevelCase& of) const {
     return order_[of.active][of.inertia][of.points];
   }
 
-  /// The cheapest level whose error is at most `limit_m`; where none is, the one of the least error.
+  /// Returns the cheapest level with an error of at most `limit_m`, or the level with the smallest error.
   std::uint32_t cheapest(const LevelCase& of, float limit_m) const;
-  /// The same for a muscle that has a level already: it goes to a cheaper one only where that meets `slack` (at most 1)
-  /// of the limit, and stays else while its own meets the limit.
+  /// Returns the next level of a muscle at level `current`. It changes to a cheaper level only if that is within
+  /// `slack` (at most 1) of the limit, and to a dearer one only if its own exceeds the limit.
   std::uint32_t from(std::uint32_t current, const LevelCase& of, float limit_m, float slack) const;
 
  private:
@@ -74,8 +74,8 @@ class LodTable {
   ByCase<std::array<std::array<std::uint8_t, level_count>, 2>> order_{};
 };
 
-/// What a crowd costs as a function of the factor by which everybody may miss their tolerance: a histogram of costs
-/// over the factors at which they fall due, sixteen bins an octave. Whole numbers: the same in any order of adding.
+/// Cost of a crowd as a function of the common factor on all tolerances: a histogram of costs over the factors below
+/// which they are incurred, sixteen bins an octave. Costs are integers, so their sum does not depend on the order.
 class CostSpectrum {
  public:
   /// The range of factors that the spectrum covers.
@@ -83,17 +83,17 @@ class CostSpectrum {
 
   /// Removes all costs.
   void clear() { due_.fill(0); }
-  /// `cost_ps` falls due while the factor is below `factor`.
+  /// Adds a cost that is incurred while the common factor is below `factor`.
   void add(float factor, std::int64_t cost_ps) { due_[bin(factor)] += cost_ps; }
   void add(const CostSpectrum& more) {
     for (std::size_t i = 0; i < bins; ++i) due_[i] += more.due_[i];
   }
-  /// What a muscle costs whose errors are `size` times the table's parts of its tolerance (`size` in 1/m).
+  /// Adds the costs of a muscle. `size`, 1/m, times an error of the table is that error over the muscle's tolerance.
   void add(const LodTable& lod_table, const LevelCase& of, float size);
-  /// The least factor, min_factor ≤ … ≤ max_factor, at which all costs at most `budget_ps`, up to a bin (4 %).
+  /// Returns the smallest factor in the range at which all costs are at most `budget_ps`, to within a bin (4 %).
   float factor_within(std::int64_t budget_ps) const;
   std::int64_t cost_at(float factor) const;
-  /// Whether no cost is negative or larger than sums can hold.
+  /// Returns true if all costs are non-negative and small enough to be summed.
   bool is_sound() const;
 
  private:
@@ -104,18 +104,18 @@ class CostSpectrum {
   std::array<std::int64_t, bins> due_{};
 };
 
-/// How much slower this machine is than the one that was measured: a smoothed mean of measured over predicted time, and
-/// how it scatters.
+/// Time of this machine over that of the measured one: a smoothed mean of the ratio of measured and predicted time, and
+/// its deviation.
 class MachineFactor {
  public:
   MachineFactor() = default;
   explicit MachineFactor(double first) : mean_(first) {}
-  /// One tick, both in seconds. Ticks predicted below 1 µs tell nothing; a single one counts at most twice the mean.
+  /// Adds a tick, times in s. Ticks predicted below 1 µs are ignored, and a ratio is clamped to twice the mean.
   void observe(double measured_s, double predicted_s);
   double mean() const { return mean_; }
-  /// A factor to plan by so that 99 of 100 ticks stay within 1.1 of what is planned.
+  /// Returns the factor with which 99 of 100 ticks take at most 1.1 times the planned time.
   double pessimistic() const;
-  /// Whether it is finite and positive.
+  /// Returns true if the factor is finite and positive.
   bool is_sound() const;
 
  private:

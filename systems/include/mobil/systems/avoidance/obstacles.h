@@ -1,17 +1,17 @@
 #pragma once
-// What is in walkers' way and is no walker.
+// Obstacles for walkers: walls and moving discs.
 
 namespace mobil::inline v0_3 {
 
-/// A place on the ground, m.
+/// A point on the ground, m.
 struct GroundPoint {
   float x_m, z_m;
 };
-/// What nobody walks through: a straight wall between two points.
+/// A straight wall between two points.
 struct Wall {
   GroundPoint from, to;
 };
-/// A player, a car, a pillar. It goes on at that velocity as far as anybody looks.
+/// A player, a car or a pillar. Its velocity is taken to be constant as far as walkers look ahead.
 struct Disc {
   GroundPoint at;
   float radius_m;

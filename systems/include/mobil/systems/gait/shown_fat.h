@@ -1,5 +1,5 @@
 #pragma once
-// Where fat that wobbles is shown.
+// Displayed displacement of wobbling fat.
 
 #include <array>
 
@@ -8,11 +8,11 @@
 
 namespace mobil::inline v0_3 {
 
-/// Fat is shown beside its place by this part of its thickness at most.
+/// Maximum displayed displacement of fat, as a fraction of its thickness.
 inline constexpr float fat_reach = 0.3F;
 
-/// By how much each region's fat is shown beside its place, m, world frame: `beside_m`, which ever larger swings bring
-/// no further than `fat_reach` of the thickness. `size`: the person's, as body_size has it.
+/// Returns the displayed displacement of each region's fat, m, world frame: `beside_m`, which approaches `fat_reach` of
+/// the thickness for large amplitudes. `size` is the person's (body_size).
 std::array<Vec3<float>, fat_regions> shown_fat(const BodySize<float>& size, const FatWobble<float>& fat);
 
 }  // namespace mobil::inline v0_3

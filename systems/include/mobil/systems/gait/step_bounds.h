@@ -1,5 +1,5 @@
 #pragma once
-// What of a step the ground and the joints bound, at one instant.
+// Quantities of a step that ground and joints limit, at one instant.
 
 #include <array>
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// What may go too far, each counted in the direction in which it does.
+/// Limited quantities. Each is positive in the direction of its limit.
 enum class WalkBound : std::uint8_t {
-  under_ground,  // the lowest point of both soles, m
-  hip_back,      // rad from here to the last but one: of the joint that goes furthest, from the anatomical position
+  under_ground,  // depth of the lowest point of both soles, m
+  hip_back,      // angles: rad from the anatomical position, of the joint that goes furthest
   hip_forward,
   hip_outward,  // abduction
   hip_inward,
-  hip_turned_out,  // the foot's heading beside the pelvis'
+  hip_turned_out,  // the foot's heading relative to the pelvis'
   hip_turned_in,
   knee_straight,
   knee_bent,
@@ -31,28 +31,28 @@ enum class WalkBound : std::uint8_t {
   arm_forward,
   elbow_straight,
   elbow_bent,
-  trunk_forward,  // the chest beside the pelvis
+  trunk_forward,  // the chest relative to the pelvis
   trunk_back,
   trunk_aside,
-  neck_bent,      // the head beside the chest
-  pelvis_shaken,  // up or down, m/s²; of more than one instant, so that `step_bounds` leaves it alone
+  neck_bent,      // the head relative to the chest
+  pelvis_shaken,  // vertical acceleration, m/s²; it needs several instants, so `step_bounds` does not set it
 };
 inline constexpr std::size_t bound_count = static_cast<std::size_t>(WalkBound::pelvis_shaken) + 1;
 
 template <class F>
 struct StepBounds {
-  F value[bound_count];  // by WalkBound: the furthest so far
-  F pelvis_up_m;         // now
+  F value[bound_count];  // maximum so far, by WalkBound
+  F pelvis_up_m;         // present height
 };
 
-/// What bounds are before anything was noted: below all that is.
+/// Initial value of a bound, below all possible values.
 inline constexpr float min_bound = -10;
 inline void clear_bounds(StepBounds<Lanes<float>>& bounds) {
   for (Lanes<float>& value : bounds.value) value = in_every_lane<Lanes<float>>(min_bound);
 }
 
-/// Notes in `bounds` what goes further than there in the pose that `pose_skeleton` makes of a step
-/// (systems/gait/kinematics.h), without the pose.
+/// Raises `bounds` to the values of the pose that `pose_skeleton` computes from a step (systems/gait/kinematics.h),
+/// without computing the pose.
 void step_bounds(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                  const GaitState<Lanes<float>>& state, StepBounds<Lanes<float>>& bounds);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Styles of which each number is in its range, and which together would put a foot under the ground, bend a joint
-// further than it goes or shake the pelvis: they are drawn toward the usual style by as little as mends it.
+// Corrects gait styles. Numbers that are each in range can together put a foot under the ground, bend a joint beyond
+// its limit or shake the pelvis. Such a style is moved toward the usual one by the smallest sufficient amount.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,40 +16,40 @@
 
 namespace mobil::inline v0_3 {
 
-/// One number of a style that was moved, and why: as asked it would bring `bound` to `would_be` (m, rad or m/s²).
+/// A change to one number of a style: the requested value would bring `bound` to `would_be` (m, rad or m/s²).
 struct StyleChange {
-  std::size_t parameter;  // of gait_parameters; behind the last: the step length, m
+  std::size_t parameter;  // index into gait_parameters; one past the last: step length, m
   float asked, walked;
   WalkBound bound;
   float would_be, speed_m_s;
   WalkPart part;  // of a walk at that speed
 };
-/// "time_asymmetry 0.3 was lowered to 0.11: the pelvis would be shaken with 78 m/s2 at 2.1 m/s"; "... in stopping from
-/// 2.1 m/s".
+/// Returns a description, for example "time_asymmetry 0.3 was lowered to 0.11: the pelvis would be shaken with 78 m/s2
+/// at 2.1 m/s" or "... in stopping from 2.1 m/s".
 std::string described(const StyleChange& change);
 
-/// What looking at styles works in, kept from one time to the next.
+/// Scratch memory of `keep_walk_limits`, reused between calls.
 struct StyleLimitWork {
-  std::vector<std::size_t> near, far, farther;  // who is looked at; far: in stopping too; farther: and in changing
+  std::vector<std::size_t> near, far, farther;  // checked walkers; far: stops also; farther: changes also
   std::vector<std::uint8_t> breaks;
 };
 
-/// Moves step lengths and styles of gaits (as resolve_gait has them) so that a steady walk of that speed keeps all
-/// limits (mobil/systems/limits/walk_limits.h), and so do stops from it, turns and changes of speed, or all go no
-/// further than the usual walk of that speed does: first the step length, if the usual style breaks one with it; then
-/// as few numbers of the style as it takes, all by one part of their way to the usual ones, to a 256th. Not everything
-/// is looked at:
-///   the usual style with steps of 0.76 to 1.12 of the usual length: nothing;
-///   styles near the usual one whose knees bend little: walking alone;
-///   styles near it whose knees bend more: stops too;
-///   all others: stops, turns and changes of speed too. They keep 7° clear of the ends of ankles and 3° of hips in
-///   walking and stopping, but may always go 3° further than the usual walk.
-/// Two turns and one change of speed are looked at (`Looking`). Other ones may go beyond a limit, and are counted
-/// (mobil/systems/limits/limit_monitor.h). Bits depend on neither neighbours nor threads. `moved`: what was, gait by
-/// gait, as long as `gaits`; or empty. Takes memory in `work` alone, which keeps it, and for what is moved.
+/// Corrects step lengths and styles of resolved gaits (resolve_gait) so that the steady walk at that speed keeps all
+/// limits (mobil/systems/limits/walk_limits.h), and so do stops from it, turns and changes of speed. A gait that goes
+/// no further than the usual walk of that speed is accepted as well. The step length is corrected first, if the usual
+/// style with it violates a limit. Then the minimum of numbers of the style is moved, by one common fraction of their
+/// distance to the usual ones, to 1/256. Checks depend on the style:
+///   the usual style with steps of 0.76 to 1.12 of the usual length is not checked;
+///   styles near the usual one with little knee flexion are checked in steady walking;
+///   styles near it with more knee flexion are checked in stops also;
+///   all others are checked in turns and changes of speed also. They must keep 7° from the limits of ankles and 3° from
+///   those of hips in walking and stopping, but can always go 3° further than the usual walk.
+/// Two turns and one change of speed are checked (`Looking`). Others can violate a limit and are counted
+/// (mobil/systems/limits/limit_monitor.h). Bits do not depend on neighbours or threads. `moved` receives the changes of
+/// each gait; it is as long as `gaits`, or empty. Allocates in `work`, which keeps the memory, and for `moved`.
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
                       StyleLimitWork& work, std::span<std::vector<StyleChange>> moved = {});
-/// The same of one.
+/// Corrects one gait and returns the changes.
 std::vector<StyleChange> keep_walk_limits(const BodySize<float>& size, Gait<float>& gait);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// How far a walk may go, and how far one goes.
+// Limits of a walk, and the extremes that a walk reaches.
 
 #include <array>
 #include <cmath>
@@ -13,82 +13,82 @@
 
 namespace mobil::inline v0_3 {
 
-/// Limits of a walk. Of joints: assets/body/joint_limits.h; the column's from pelvis to chest and from chest to head,
-/// of the joint between that comes to its end first (its turns are left out: five lumbar vertebrae take two thirds of
-/// them). Under the ground: 5 mm. The pelvis up and down: 16 m/s²; usual walks of all bodies have up to 6.3 up, at 2.3
-/// m/s, and up to 15.1 down, where at 0.3 m/s a leg comes to its end.
+/// A limit of a walk. Joint limits are from assets/body/joint_limits.h. Those of the spine, from pelvis to chest and
+/// from chest to head, are of the joint in between that reaches its limit first. Axial rotation is excluded, because
+/// five lumbar vertebrae provide two thirds of it. The limit of ground penetration is 5 mm. The limit of the pelvis'
+/// acceleration is 16 m/s²: usual walks of all bodies reach 6.3 upward, at 2.3 m/s, and 15.1 downward, when a leg
+/// straightens fully at 0.3 m/s.
 struct WalkLimit {
   WalkBound bound;
-  double limit;           // m, rad or m/s²: what is more is too far
-  double shown;           // of these one of the unit in which people read it
-  std::string_view says;  // what would be, {} for the number
+  double limit;           // maximum, m, rad or m/s²
+  double shown;           // size of the displayed unit, m, rad or m/s²
+  std::string_view says;  // description, with {} for the number
 };
-/// By WalkBound.
+/// Returns all limits by WalkBound.
 std::span<const WalkLimit, bound_count> walk_limits();
 
-/// The pelvis' acceleration is the second difference of its height over that time, s.
+/// Time step of the second difference that gives the pelvis' acceleration, s.
 inline constexpr float difference_s = 1.0F / 60;
-/// m/s², of the height now, that time ago and twice that time ago, m.
+/// Returns the magnitude of the pelvis' acceleration, m/s², from its heights now and one and two steps earlier, m.
 inline float pelvis_acceleration(float now_m, float before_m, float first_m) {
   constexpr float per_s2 = 1 / (difference_s * difference_s);
   return std::fabs(now_m - 2 * before_m + first_m) * per_s2;
 }
 
-/// A part of a walk: at its speed; in stopping from it; in turning; in slowing down from it and coming back to it.
+/// A part of a walk: steady at its speed, a stop from it, a turn, or a slowdown from it and back.
 enum class WalkPart : std::uint8_t { steady, stop, turn, change_of_speed };
 
-/// "in stopping from", and so on.
+/// Returns the words of a message, for example "in stopping from".
 std::string_view said_of(WalkPart part);
 
-/// How far each bound goes, by WalkBound, and in which part of the walk.
+/// Extreme value of each bound, by WalkBound, and the part of the walk in which it occurs.
 struct WalkReach {
   Lanes<float> value[bound_count];
   std::array<WalkPart, lane_count> part[bound_count];
 };
-/// Of the steady walk and of stops; of turns and changes of speed, `min_bound` where those are not looked at.
+/// Extremes of steady walk and stops, and of turns and changes of speed. Parts that are not checked have `min_bound`.
 struct WalkExtremes {
   WalkReach steady, changing;
 };
-/// What of a walk is looked at. Between sixty instants a second a joint goes up to 1.5° further, and the pelvis is
-/// shaken up to 4 m/s² more. Who is too slow to slow down to 0.6 of their speed slows down to the lowest that there is.
+/// Parts and sampling of a check. Between samples at 60 a second a joint goes up to 1.5° further, and the pelvis'
+/// acceleration is up to 4 m/s² higher. A walk too slow for 0.6 of its speed slows down to the minimum speed.
 enum class Looking : std::uint8_t {
-  roughly,       // the steady walk at 60 instants a second
+  roughly,       // the steady walk at 60 samples a second
   closely,       // the steady walk at 240
-  at_stops_too,  // besides, stops from either foot at 120
-  at_changes,    // at 60: a first step, turns by 60° to either side, slowing down to 0.6 of the speed and coming back
-  at_changes_too,  // all of the last two
+  at_stops_too,  // `closely`, and stops from either foot at 120
+  at_changes,    // at 60: a first step, turns by 60° to either side, slowing down to 0.6 of the speed and back
+  at_changes_too,  // the last two together
 };
-/// What else is kept free in steady walks and stops of styles far from the usual one: turns and changes of speed bend
-/// hips and ankles so much further.
+/// Returns the additional margin in steady walks and stops of styles far from the usual one, because turns and changes
+/// of speed bend hips and ankles further by that amount.
 double for_turns(WalkBound bound, Looking looking);
-/// How far a walk may go as far as it is looked at so, by number of a WalkBound. What is kept free below the limits,
-/// for a walk goes a little further between the instants that are looked at. The usual style with other steps moves
-/// smoothly.
+/// Returns the maximum accepted in such a check, by index of a WalkBound. It is below the limit, because a walk goes
+/// slightly further between samples. The margin is smaller for the usual style with other steps, which moves smoothly.
 float held_to(std::size_t bound, Looking looking, bool usual_style);
 
-/// Of sixteen walkers. A lane's bits depend on no other lane.
+/// Computes the extremes of sixteen walkers. A lane's bits do not depend on other lanes.
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes);
 
-/// Whether each number of a style is within that part of the usual one, or as near as rounding makes it (`snapped`).
+/// Returns true if each number of a style is within that part of the usual one, or within rounding (`snapped`) of it.
 bool is_within_usual(const GaitStyle& style, float part);
-/// Whether each number is within a tenth of the usual one, and all are off by 7 % in the root mean square. Numbers
-/// drawn evenly within a tenth are off by 5.8 %: 299 of 300 such styles are near.
+/// Returns true if each number is within a tenth of the usual one, and all deviate by at most 7 % rms. Numbers drawn
+/// uniformly within a tenth deviate by 5.8 % rms; 299 of 300 such styles are near.
 bool is_near_usual(const GaitStyle& style);
 
-/// Whether a walk has steps of the lengths that the table of steps has, 0.76 to 1.12 of the usual one at that speed
+/// Returns true if the step length is within the table of steps: 0.76 to 1.12 of the usual length at that speed
 /// (assets/gait/README.md).
 bool has_usual_steps(float height_m, float speed_m_s, float step_length_m);
 
-/// True if the walk certainly keeps the limits; false says nothing. It requires steps of the usual length and each
-/// number of the style within a tenth of the usual one. It estimates the walk's extremes from the usual walk of that
-/// height and speed, by the first-order effect of each number, plus a quarter of all effects as a margin. 180 000
-/// random styles were tried, every number up to a tenth off, a third of the numbers at that end. 4000 of them broke a
-/// limit. For two thirds the answer was true, and all of those kept the limits, the nearest by 0.9°. The first call
-/// computes the numbers, in some tens of milliseconds.
+/// Returns true if the walk certainly keeps the limits; false has no meaning. It requires steps of the usual length and
+/// each number of the style within a tenth of the usual one. It estimates the walk's extremes from the usual walk of
+/// that height and speed by the first-order effect of each number, plus a quarter of all effects as a margin. It was
+/// tested with 180 000 random styles, each number up to a tenth off, a third of the numbers at that end. 4000 of them
+/// violated a limit. It returned true for two thirds of the styles; all of these kept the limits, the closest by 0.9°.
+/// The first call computes the effects, in some tens of milliseconds.
 bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait);
 
-/// Whether all numbers of two styles are equal; and the speed and the step length too.
+/// Return true if all numbers of two styles are equal; `same_walk` also compares speed and step length.
 bool same_style(const GaitStyle& a, const GaitStyle& b);
 bool same_walk(const Gait<float>& a, const Gait<float>& b);
 

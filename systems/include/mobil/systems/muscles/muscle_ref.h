@@ -1,5 +1,5 @@
 #pragma once
-// One of a person's muscles: both its entities.
+// One of a person's muscles, with its two entities.
 
 #include <array>
 
@@ -8,7 +8,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// By side (right, left); a side that is gone has a stale handle.
+/// A muscle's entities by side (right, left). A side that does not exist has a stale handle.
 struct MuscleRef {
   Muscle muscle{};
   std::array<Entity, 2> entity{};

@@ -1,5 +1,5 @@
 #pragma once
-// The critical step of explicit methods, for each muscle.
+// The critical time step of explicit methods, for each muscle.
 
 #include <optional>
 
@@ -8,8 +8,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// The critical step of a muscle's mesh at that size, s; its substeps are shorter. Nothing for a stale handle, without
-/// a mesh, and of sizes beyond those that the mesh is good for.
+/// Returns the critical time step of a muscle's mesh at that size, s. The muscle's substeps are shorter. Nothing for a
+/// stale handle, a muscle without a mesh, or a size out of the mesh's range.
 std::optional<double> critical_step_s(const World& world, Entity muscle, const BellyScale<float>& scale);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// One person with body and muscles, as Simulation::person makes it.
+// One person with body and muscles, as Simulation::person returns it.
 
 #include <array>
 #include <vector>
@@ -12,21 +12,21 @@
 
 namespace mobil::inline v0_3 {
 
-/// One of a person's muscles, by side, with its plan.
+/// One of a person's muscles, with its plan and its entities by side.
 struct PersonMuscle {
   MusclePlan plan;
   std::array<Entity, 2> entity;
-  MuscleMethod method;  // as it is
+  MuscleMethod method;  // at present
 };
 
-/// One person with all that follows from what was asked for.
+/// A person's requests and all that follows from them.
 struct Person {
   Entity entity;
   Body body;
-  Gait<float> gait;                   // as last asked for; zeros of posed people
-  std::vector<PersonMuscle> muscles;  // in the table's order; empty without muscles
-  LegMuscles leg_muscles;             // as asked for; means nothing without muscles
-  bool posed = false;                 // its host animates the skeleton: no gait
+  Gait<float> gait;                   // last request; zeros for posed people
+  std::vector<PersonMuscle> muscles;  // in the order of the muscle table; empty without muscles
+  LegMuscles leg_muscles;             // requested choice; meaningless without muscles
+  bool posed = false;                 // the host animates the skeleton, and the person has no gait
 };
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// How much of a person there is: what states people are in, and the effects that they may have.
+// States of people, and the features that they can have.
 
 #include <cstdint>
 #include <optional>
@@ -10,44 +10,43 @@ namespace mobil::inline v0_3 {
 
 class World;
 
-/// `systems/states/README.md` has a table of what each call does to people of each state.
+/// State of a person. `systems/states/README.md` has a table of the effect of each call on people of each state.
 enum class PersonState : std::uint8_t {
-  /// A walker with everything.
+  /// A walker with pose and muscles.
   full,
-  /// A walker in less time and memory, for people whom nobody looks at. The walk and the muscles continue. Compact
-  /// people have no pose of their own. Their muscles are fields of the person's row, so the handles of muscles become
-  /// stale; new ones come when the person is full again. Simulation::get computes Pose, JointAngles, Feet and
-  /// CentreOfMass on request, in some microseconds; PoseWriter computes sixteen people's at a time. each<Pose> skips
-  /// them. Control points later are within 4 µm of where they would be. These people cannot become compact: people with
-  /// forces, or on terrain; people whose muscles place control points, have effects or parts of the host's, have a
-  /// method other than modal or none, or fade.
+  /// An unseen walker at lower cost in time and memory. Walk and muscles continue. Compact people store no pose:
+  /// Simulation::get computes Pose, JointAngles, Feet and CentreOfMass on request, in some microseconds, and PoseWriter
+  /// computes sixteen people at a time. each<Pose> skips them. Muscles are fields of the person's row, so their handles
+  /// become stale, and a full person gets new ones. Control points are then within 4 µm of those of a person who stayed
+  /// full. Not possible for people with forces or on terrain, and for people whose muscles place control points, have
+  /// effects or parts of the host, have a method other than modal or none, or fade.
   compact,
-  /// A walker whom nobody sees: the rows go, and a hundred bytes are left from which the person comes back where they
-  /// would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking. A host's own
-  /// parts stay. Simulation::get reads a sleeper's body, walk and pose as anybody's (a pose takes some microseconds).
-  /// Neither systems nor `each` see sleepers. Nobody falls asleep who turns, changes speed or walks unevenly, nor whose
-  /// muscles have several methods. A sleeper wakes who cannot follow what is asked: another style, or a second request
-  /// while the first is being carried out.
+  /// An unseen walker whose rows are freed. About 100 bytes are kept, from which walk, pose and lines of action are
+  /// reconstructed bit-exactly on waking. Muscles are removed and their handles become stale; new ones start on waking.
+  /// A host's own parts stay. Simulation::get returns a sleeper's body, walk and pose (a pose takes some microseconds).
+  /// Systems and `each` skip sleepers. Not possible for people who turn, change speed or walk unevenly, or whose
+  /// muscles have several methods. A sleeper wakes for a request that cannot be carried out asleep: another style, or a
+  /// second request during the first.
   asleep,
-  /// A person whose host animates the skeleton; neither becomes compact nor falls asleep.
+  /// A person whose skeleton the host animates. Never becomes compact or falls asleep.
   posed,
 };
 
-/// Nothing for a stale handle, and for entities that are not people.
+/// Returns a person's state; nothing for a stale handle and for entities that are not people.
 std::optional<PersonState> person_state(const World& world, Entity person);
 
-/// What people have on demand (Simulation::enable).
+/// Optional features of people (Simulation::enable).
 enum class Feature : std::uint8_t {
-  /// Heel strikes, toe-offs, stops and starts (Simulation::events). Compact people are watched as well; who falls
-  /// asleep is watched again on waking, and what happened meanwhile is not reported. Not of posed people.
+  /// Heel strikes, toe-offs, stops and starts (Simulation::events). Compact people have events as well. Sleepers have
+  /// them again after waking, and events during sleep are not reported. Not available for posed people.
   step_events,
-  /// Fat under the skin that wobbles (mobil/components/fat.h), of walkers and posed people; skin shows it
-  /// (mobil/skin_writer.h). Compact people and sleepers keep it, and it begins at rest when they are full.
+  /// Wobbling of subcutaneous fat (mobil/components/fat.h) of walkers and posed people, displayed by the skin
+  /// (mobil/skin_writer.h). Compact people and sleepers keep the feature; it starts at rest when they become full.
   fat,
-  /// Ground reaction and joint moments (mobil/forces.h). Walkers' follow from their step, at once; posed people's from
-  /// how their last three poses move, one tick late: give them a pose before every tick, for one that stays is a stop,
-  /// and near the origin, for places of single precision are 8 µm apart 64 m from there, which is 0.03 m/s². The masses
-  /// of limbs of their own lie where the height has them. People become full for it.
+  /// Ground reaction and joint moments (mobil/forces.h). People become full for it. A walker's forces follow from the
+  /// step without delay. Those of a posed person follow from the last three poses, one tick late. Set a pose before
+  /// every tick, because a repeated pose is a stop, and stay near the origin: at 64 m positions are 8 µm apart, which
+  /// is 0.03 m/s². With individual limb lengths, masses stay where the height puts them.
   forces,
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Walkers who fall asleep and wake: a row of some hundred bytes instead of one of four thousand, of which the same
-// walker comes back to the bit. What a sleeper is asked meanwhile is kept to the step.
+// Walkers asleep: rows of about one hundred bytes instead of four thousand, from which the walker is reconstructed
+// bit-exactly. Requests to sleepers take effect at the same steps as those to awake walkers.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,36 +19,36 @@
 
 namespace mobil::inline v0_3 {
 
-/// Ticks that have been run, and their length.
+/// Number of ticks run, and their length, s.
 struct SleepTime {
   std::uint32_t tick;
   float tick_s;
 };
 
 bool is_asleep(const World& world, Entity person);
-/// What was asked of a sleeper's body, and its sizes.
+/// Return the request that a sleeper's body was made from, and its sizes.
 BodyRequest body_of(const Asleep<float>& asleep);
 BodySize<float> size_of(const Asleep<float>& asleep);
-/// What is asked of who walks so.
+/// Returns the requested gait of a steady walk.
 Gait<float> gait_of(float height_m, const SteadyWalk<float>& walk, const GaitStyle& style);
 GaitStyle sleeper_style(const World& world, Entity person);
-/// What a sleeper is still about, or was: nothing where that has been taken off the row; whether it goes on.
+/// Returns the last change of a sleeper; nothing after its removal from the row. `is_unsettled`: it is in progress.
 std::optional<Unsettled<float>> unsettled_of(const World& world, Entity person);
 bool is_unsettled(const std::optional<Unsettled<float>>& since, const SleepTime& time);
-/// The same of somebody by handle, and what is to be walked.
+/// Return a sleeper's body request and requested gait.
 BodyRequest sleeper_body(const World& world, Entity person);
 Gait<float> sleeper_gait(const World& world, Entity person);
 
-/// A walker as a sleeper. `style`: on the grid, or nothing where it is not.
+/// A walker in the form of a sleeper. `style` is empty if it is not on the grid; `own_style` is used then.
 struct Sleeper {
   Entity entity;
   Asleep<float> asleep;
   std::optional<SleepingStyle<float>> style;
   OwnStyle<float> own_style;
 };
-/// Of `people` those walkers who may fall asleep now: who walk steadily or stand, and are to go on so. Appended.
+/// Appends those of `people` who can fall asleep now: walkers who walk steadily or stand, without a pending change.
 void find_steady(const World& world, std::span<const Entity> people, const SleepTime& time, std::vector<Sleeper>& out);
-/// Memory that people fall asleep in, kept from one time to the next.
+/// Scratch memory of `put_to_sleep`, reused between calls.
 struct FallingAsleep {
   std::vector<Asleep<Lanes<float>>> asleep;
   std::vector<SleepingStyle<Lanes<float>>> style;
@@ -56,31 +56,31 @@ struct FallingAsleep {
   std::vector<Entity> people;
   std::vector<PartValue> parts;
 };
-/// Walkers of one table, whose styles are all on the grid or all not: their rows keep of the parts that `owned` names
-/// (ids, sorted) none but what sleepers have, and `more`; all others stay.
+/// Puts walkers of one table to sleep. Either all or none of their styles are on the grid. Their rows lose the parts in
+/// `owned` (sorted ids), except those of sleepers, and get `more`.
 void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const> sleepers,
                   std::span<const ComponentId> more, std::span<const std::uint64_t> owned, FallingAsleep& work);
 
-/// Whether a sleeper is still about what was asked last: then they must wake to be asked for more.
+/// Returns true if a sleeper still carries out the last request, and must wake for another one.
 bool is_busy(const World& world, Entity person, const SleepTime& time);
-/// Asks sleepers who are not busy, each named once, in the style that there is; times and places of the steps are
-/// worked out in the next tick.
+/// A new gait for a sleeper.
 struct AskedSleeper {
   Entity entity;
   Gait<float> gait;
 };
+/// Sets new gaits, in the present style, of sleepers who are not busy, each named once. The next tick plans the steps.
 void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> asked, const SleepTime& time);
-/// Tables of sleepers who are not settled, by what they are and not by which came first: rows that leave them come to
-/// lie in the same order in a world that was restored.
+/// Tables of sleepers with a change in progress, ordered by archetype instead of creation, so that rows leave them in
+/// the same order in a restored world.
 struct UnsettledTables {
-  std::size_t seen = 0;                                          // tables of the world
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> by_hash;  // of the key; the table's number
+  std::size_t seen = 0;                                          // tables of the world that were checked
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> by_hash;  // hash of the archetype, and index of the table
 };
-/// After a tick: who is steady again has nothing but that on the row. Looks at a part of the sleepers each tick.
-/// Appends to `restless` who does not come to walk steadily: they are to be woken. `work`: memory to work in.
+/// Removes finished changes from the rows of sleepers after a tick. Checks a part of the sleepers in each tick. Appends
+/// those who reach no steady walk to `restless`, to be woken. `work` is scratch memory.
 void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, UnsettledTables& tables,
                    std::vector<Entity>& work, std::vector<Entity>& restless);
-/// All sleepers' places, less (x, 0, z).
+/// Subtracts (x, 0, z) from the positions of all sleepers.
 void shift_sleepers(World& world, const SleepTime& time, float x_m, float z_m);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// What happens in the steps of people who are watched: for sounds, dust, footprints and a game's own counting.
+// Step events of people with Feature::step_events, for sounds, dust, footprints and a game's own counting.
 
 #include <cstdint>
 
@@ -10,20 +10,20 @@
 
 namespace mobil::inline v0_3 {
 
-/// What happened in a walker's steps.
+/// One event of a walker's steps.
 struct StepEvent {
   Entity person;
   StepEventKind kind;
-  /// The foot that came to the ground or left it; that came down last before somebody stood; that goes first.
+  /// Heel strike and toe-off: the foot. Stop: the foot that came down last. Start: the foot that moves first.
   Side side;
-  /// Time of the event: (tick − 1 + part) · tick_s seconds after the beginning. `tick` counts from 1, as
-  /// Simulation::ticks does. `part` is 0 to 1, in units of the walker's clock (a 32768th of a tick).
+  /// Time of the event: (tick − 1 + part) · tick_s seconds after the start. `tick` counts from 1, as Simulation::ticks
+  /// does. `part` is 0 to 1, in units of the walker's clock (a 32768th of a tick).
   std::uint32_t tick;
   float part;
-  /// On the ground, m: of a foot the point under its ankle when it lies flat, the same as it comes down and as it
-  /// leaves; of who stops or starts the point of the walking line.
+  /// Position on the ground, m. For a foot it is the point under the ankle of the flat foot, equal at heel strike and
+  /// toe-off; for a stop or start it is the point of the walking line.
   Vec3<float> place_m;
-  /// Where the foot points, of who stops or starts the body; rad about +Y, 0 toward +Z, positive to the left.
+  /// Heading of the foot, or of the body at a stop or start; rad about +Y, 0 toward +Z, positive to the left.
   float heading_rad;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// People whose steps are watched: what happened in them, when and where, for sounds, dust, footprints and a game's own
-// counting. Who is not watched pays nothing.
+// Step events of people with Feature::step_events, for sounds, dust, footprints and a game's own counting. Other people
+// cost nothing.
 
 #include <cstdint>
 #include <memory_resource>
@@ -18,30 +18,30 @@
 
 namespace mobil::inline v0_3 {
 
-/// Publishes<StepEvents> of who is awake, SleepsWithStepEvents of who sleeps.
+/// Returns the module with Publishes<StepEvents> for awake people and SleepsWithStepEvents for sleepers.
 Module step_events_module();
-/// Takes memory for the events of a tick: the last module, for phases before it may change who is watched.
+/// Returns the module that reserves memory for events: the last one, because earlier phases can enable the feature.
 Module step_memory_module();
 
-/// Whether a person's steps are watched; false for a stale handle.
+/// Returns true if a person has step events; false for a stale handle.
 bool has_step_events(const World& world, Entity person);
-/// People, named once each, are watched from the next tick on, or no more; who is so already is left alone. All or
-/// none: Status::missing where one is posed.
+/// Switches step events of people on or off from the next tick on, each named once. People who have that setting
+/// already are unchanged. All or none. Errors: a posed person (Status::missing).
 Status enable_step_events(World& world, const Jobs& jobs, std::span<const Entity> people, bool on);
 
-/// What happened in the ticks since it was cleared, in order of time, at one time in the order of handles.
+/// Events of the ticks since the last `clear`, by time and then by handle.
 class StepLog {
  public:
   explicit StepLog(std::pmr::memory_resource* memory) : events_(memory), tables_({type_id<StepEvents>()}, memory) {}
 
-  /// Forgets all events.
+  /// Removes all events.
   void clear() { events_.clear(); }
-  /// The longest `advance`, in ticks.
+  /// Sets the maximum number of ticks of an `advance`.
   void plan_for(std::uint32_t ticks) { max_ticks_ = ticks; }
-  /// Before a tick: takes memory where more people are watched than ever before, for the longest `advance`, and where a
-  /// longer `tick(n)` has had more events.
+  /// Reserves memory before a tick, enough for the longest `advance`. It grows only if more people have step events
+  /// than before, or a longer `tick(n)` had more events.
   void prepare(World& world, float tick_s);
-  /// After the tick has run: `tick` is its number, from 1 on. Takes no memory.
+  /// Collects the events after a tick. `tick` is its number, from 1 on. Does not allocate.
   void take(std::uint32_t tick, float tick_s);
   std::span<const StepEvent> events() const { return events_; }
 

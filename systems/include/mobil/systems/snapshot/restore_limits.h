@@ -1,28 +1,27 @@
 #pragma once
-// How much a snapshot may ask for.
+// Limits on the resources that restoring a snapshot can use.
 
 #include <cstddef>
 #include <limits>
 
 namespace mobil::inline v0_3 {
 
-/// What `restore` may take and do. A snapshot's seal tells accidents, not attackers, who can seal what they please:
-/// bytes from a network need these limits, and to be told whose they are by the host. Defaults are for one of a game's
-/// peers.
+/// Limits of `restore`. A snapshot's checksum detects accidents, not attackers, who can compute it as well. Bytes from
+/// a network therefore need these limits, and the host must authenticate their sender. Defaults suit a peer of a game.
 struct RestoreLimits {
   std::size_t rows = 1'000'000;  // people and muscles
-  /// Nodes of any one mesh that must be made, because no muscle here has it yet. 0: no mesh is made that this
-  /// simulation has not prepared (MuscleLibrary::prepare, load). What sleepers and compact people are to have later
-  /// counts, too; it is made when they wake.
+  /// Maximum nodes of a mesh that must be made because no muscle of this simulation uses it yet. With 0 only meshes
+  /// that this simulation has prepared are allowed (MuscleLibrary::prepare, load). Meshes that sleepers and compact
+  /// people need later count as well; they are made on waking.
   std::size_t mesh_nodes = 500;
-  double seconds = 10;           // after which no further mesh, solver or basis is made
-  bool numbers = true;           // whether every number is looked at: one that is not finite is refused
+  double seconds = 10;           // time after which no further mesh, solver or basis is made
+  bool numbers = true;           // true: checks every number and refuses those that are not finite
   std::size_t resources = 2000;  // meshes, solvers, bases and choices that rows share
-  /// That any one muscle may take in a tick; what a tick takes follows from the muscles that there are, too. 0: no
+  /// Maximum substeps of a muscle in a tick; 0 allows no muscles. The time of a tick also depends on the number of
   /// muscles.
   std::size_t steps = 2000;
 
-  /// For bytes that this program has made itself.
+  /// Returns limits for bytes that this program has made itself.
   static constexpr RestoreLimits none() {
     constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
     return {any, any, std::numeric_limits<double>::infinity(), false, any, any};

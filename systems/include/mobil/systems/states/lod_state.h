@@ -1,5 +1,5 @@
 #pragma once
-// What level of detail keeps of a person whom it manages, and the methods that its levels are.
+// State of a person managed by level of detail, and the methods of its levels.
 
 #include <cstddef>
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace mobil::inline v0_3 {
 
-/// What a person has who is managed by level of detail, for SpawnRequest::parts.
+/// Returns the parts of a managed person, for SpawnRequest::parts.
 std::span<const ComponentId> managed_parts();
-/// Whether somebody's muscles are chosen, awake or asleep.
+/// Returns true if level of detail manages a person, awake or asleep.
 bool is_managed(const World& world, Entity person);
-/// What choosing begins from: a person's muscles, whole, and their methods. What the caller forced stays so.
+/// Returns the initial state for a person with the present muscles and methods. Forced methods stay forced.
 LodState<float> lod_state_of(const World& world, Entity person);
-/// A level as Simulation takes it, of the lod_table of muscles that pull or of others.
+/// Returns the method of a level for Simulation::set_method, of `active_levels` or of `levels`.
 MuscleMethod level_method(std::size_t level, bool control_points, bool active = false);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// A skin mesh of somebody's own where the skin of their body is now.
+// Moves a custom skin mesh with the skin of the body.
 
 #include <span>
 
@@ -7,8 +7,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Positions and unit normals of all its vertices. `skin_position`, `skin_normal`: of the body's skin (place_skin), of
-/// the detail that the mesh was bound to. `position`, `normal`: as many as own.vertex. Some 10 ns a vertex.
+/// Computes positions (m) and unit normals of a custom skin, both as long as own.vertex, at 10 ns a vertex.
+/// `skin_position` and `skin_normal` are of the body's skin (place_skin) at the detail that the mesh was bound to.
 void follow_skin(const CustomSkin& own, std::span<const Vec3<float>> skin_position,
                  std::span<const Vec3<float>> skin_normal, std::span<Vec3<float>> position,
                  std::span<Vec3<float>> normal);

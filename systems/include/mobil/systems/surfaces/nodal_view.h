@@ -1,5 +1,5 @@
 #pragma once
-// Where a muscle's control points are.
+// Read access to a muscle's control points.
 
 #include <cstdint>
 
@@ -7,14 +7,14 @@
 
 namespace mobil::inline v0_3 {
 
-/// One individual's nodal displacement within its block: component c of node n (m) at first[(3·n + c)·16].
+/// Nodal displacements of one muscle within its block. Component c of node n, m, is at first[(3·n + c)·16].
 struct NodalView {
   const float* first = nullptr;
   std::uint32_t nodes = 0;
 };
 
-/// A muscle's control points where they are now, in its frame, as they are to be shown (what fades after a change of
-/// method included); `first` is null for a stale handle and where there are none. Until the next change of structure.
+/// Returns the displayed displacements of a muscle's control points, in its frame, including fades after changes of
+/// method. `first` is null for a stale handle or without control points. Valid until the next structural change.
 NodalView nodal_displacement(const World& world, Entity muscle);
 
 }  // namespace mobil::inline v0_3

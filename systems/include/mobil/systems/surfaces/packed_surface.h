@@ -1,6 +1,6 @@
 #pragma once
-// A bound surface as the kernels read it: vertices of one hexahedron side by side, eight in a block, so that its nodes
-// are read once for all of them.
+// A bound surface in the layout of the kernels: vertices of one hexahedron are adjacent, eight in a block, so that its
+// nodes are read once for all of them.
 
 #include <array>
 #include <cstddef>
@@ -17,27 +17,27 @@
 
 namespace mobil::inline v0_3 {
 
-/// Vertices a block.
+/// Vertices in a block.
 inline constexpr std::size_t block_vertices = 8;
 struct alignas(32) Eight {
   float lane[block_vertices];
 };
 
-/// What vertices of one hexahedron take from its nodes: trilinear weights, and the vertex in the muscle's rest frame.
+/// Vertices that follow a hexahedron: trilinear weights of its nodes, and positions in the muscle's rest frame, m.
 struct LatticeBlock {
   Eight node_weight[8];
   Vec3<Eight> rest_in_lattice;
 };
 
-/// What they take from their bones: the vertex in the standing body, and shares (sum 1).
+/// Vertices that follow bones: positions in the standing body, m, and weights with the sum 1.
 struct BoneBlock {
   Vec3<Eight> rest;
   Eight origin, insertion, lattice;
 };
 
-/// A muscle's surface. Blocks lie in this order: those of the lattice alone, those of lattice and bones, those of bones
-/// alone; the first two kinds have a LatticeBlock and nodes, the last two a BoneBlock. Lanes left over repeat a vertex.
-/// A vertex' place is its number among all lanes.
+/// A muscle's surface. Blocks are stored in three groups: those of the lattice alone, of lattice and bones, and of
+/// bones alone. The first two groups have a LatticeBlock and nodes, the last two a BoneBlock. Unused lanes repeat a
+/// vertex. A vertex' place is its index among all lanes.
 struct PackedSurface {
   SurfaceRest rest;
   std::uint32_t nodes = 0;              // of the lattice
@@ -52,17 +52,17 @@ struct PackedSurface {
   std::size_t places() const { return block_vertices * (lattice_only_blocks + bone.size()); }
 };
 
-/// Packs a surface that is bound to a lattice of `nodes` nodes; `along`: of each vertex, or nothing. Errors, in one
-/// line that names the surface: not bound, or to other nodes; triangles of vertices that are not there; too many
-/// vertices.
+/// Packs a surface that is bound to a lattice of `nodes` nodes. `along` has one element for each vertex, or is empty.
+/// Errors, with the surface's name: a surface that is not bound or has other nodes, a vertex index out of range, too
+/// many vertices.
 Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& body, std::uint32_t nodes,
                                    std::span<const AlongStencil> along = {});
 
-/// A surface that moves as one rigid piece, in order, with its normals at rest. Lanes left over repeat the last vertex.
+/// Vertices of a rigid surface, in their order, with normals at rest. Unused lanes repeat the last vertex.
 struct RigidBlock {
   Vec3<Eight> rest, normal;
 };
-/// A vertex' direction along the surface at rest.
+/// Direction along the surface at a vertex, at rest.
 struct RigidAlong {
   Vec3<float> direction;
   float handed;
@@ -73,7 +73,7 @@ struct RigidSurface {
   std::vector<RigidAlong> along;  // by vertex; empty: no tangents
 };
 
-/// Errors: triangles of vertices that are not there.
+/// Packs a rigid surface. Errors: a vertex index out of range.
 Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh, std::span<const AlongStencil> along = {});
 
 }  // namespace mobil::inline v0_3

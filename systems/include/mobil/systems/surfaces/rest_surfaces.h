@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces of a body as it stands with its muscles at rest, which skins and contacts are bound over.
+// Surfaces of a standing body with its muscles at rest, to which skins and contacts are bound.
 
 #include <span>
 #include <vector>
@@ -14,20 +14,20 @@
 
 namespace mobil::inline v0_3 {
 
-/// Of all vertices of some surfaces, in the anatomical position at the origin, m.
+/// Positions, m, and normals of all vertices of surfaces, in the anatomical position at the origin.
 struct RestSurfaces {
   std::vector<Vec3<float>> position, normal;
 };
 
-/// Of surfaces that were bound to that body, or to one like it. `choice`: the muscles and cells that drive them; what
-/// else it says does not matter. Some tens of milliseconds. Errors: as make_body and Simulation::set_muscles;
-/// surfaces with a driver that is not among the muscles.
+/// Computes the rest vertices of surfaces that were bound to that body or a similar one, in some tens of milliseconds.
+/// `choice` contains the muscles and cells that drive them; its other fields are ignored. Errors: those of make_body
+/// and Simulation::set_muscles, a driver that is not among the muscles.
 Result<RestSurfaces> surfaces_at_rest(const BodySurfaces& surfaces, const Body& body, const LegMuscles& choice);
 
-/// Who may touch whom in them (find_contacts). Errors: as surfaces_at_rest.
+/// Finds the possible contacts of surfaces at rest (surface_contacts.h). Errors: those of surfaces_at_rest.
 Result<SurfaceContacts> find_contacts(const BodySurfaces& surfaces, const Body& body, const LegMuscles& choice);
 
-/// The muscles' vertices of a side, in the order of the surfaces' parts, out of those of all parts.
+/// Extracts the vertices of one side's muscles from those of all parts, in the order of the parts.
 std::vector<Vec3<float>> muscle_vertices(const BodySurfaces& surfaces, std::span<const Vec3<float>> position,
                                          Side side);
 

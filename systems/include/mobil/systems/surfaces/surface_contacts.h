@@ -1,14 +1,14 @@
 #pragma once
-// Single muscles kept out of each other and of bones, on what is drawn: for close views.
+// Resolves contacts of single muscles with each other and with bones, on displayed surfaces, for close views.
 //
-//   const SurfaceContacts contacts = find_contacts(*bound, rest, rest_normal);   // once a body, standing
+//   const SurfaceContacts contacts = find_contacts(*bound, rest, rest_normal);   // once for each body, standing
 //   writer.write(...);                                                           // positions and normals, own memory
 //   keep_apart(contacts, position, normal, work);                                // each frame
 //
-// Bellies are deformed along their own lines, and bodies at rest already lie in each other a little. What lies deeper
-// in a neighbour than at rest is moved out, both muscles by half, from bones alone; the volume that this takes is given
-// back round the same part of the belly, and what that has no room for elsewhere, where muscles' surfaces are closed,
-// as all here are. Dynamics do not hear of it.
+// Bellies deform along their own lines, and at rest surfaces already overlap slightly. Vertices that are deeper in a
+// neighbour than at rest are moved out: by half for each of two muscles, and fully for a muscle in a bone. The
+// displaced volume is restored around the same part of the belly, or elsewhere if it does not fit there. This requires
+// closed surfaces, which all of the library's are. The dynamics are not affected.
 
 #include <cstdint>
 #include <span>
@@ -19,42 +19,42 @@
 
 namespace mobil::inline v0_3 {
 
-/// A muscle's vertex, the vertex of another muscle or bone that is nearest to it at rest, and how far it is out of that
-/// there along its normal, m, where it is less than 0.
+/// A muscle's vertex, the nearest vertex of another muscle or bone at rest, and the distance from it along its normal
+/// at rest, m, if negative.
 struct ContactPair {
   std::uint32_t vertex, other;
   float rest_m;
 };
 
-/// Who may touch whom in a body's surfaces, and how vertices hang together.
+/// Possible contacts of a body's surfaces, and the connectivity of vertices.
 struct SurfaceContacts {
   std::vector<ContactPair> pair;                          // by vertex
-  std::vector<std::uint32_t> first_neighbour, neighbour;  // of each vertex; first_neighbour has one more at its end
-  std::vector<float> edge_m;                              // of each vertex, at rest: its longest edge
+  std::vector<std::uint32_t> first_neighbour, neighbour;  // of each vertex; first_neighbour ends with the total
+  std::vector<float> edge_m;                              // longest edge of each vertex at rest
   std::vector<std::uint32_t> triangle;                    // of muscles
-  std::vector<std::uint16_t> band;  // of each vertex of a muscle: a part of its length; else no_band
-  std::vector<float> within;        // and where in it: 0 to 1
+  std::vector<std::uint16_t> band;  // section of a muscle's length for each vertex; no_band for bones
+  std::vector<float> within;        // position within the section, 0 to 1
   std::uint16_t bands = 0;
 
   static constexpr std::uint16_t no_band = 0xFFFF;
 };
 
-/// Pairs that are within 15 mm of each other at rest. Parts of one driver do not touch. `position`, `normal`: of all
-/// vertices of the surfaces, the person standing with muscles at rest, as SurfaceWriter writes them.
+/// Finds pairs within 15 mm of each other at rest. Parts of one driver have no contacts. `position` and `normal` are
+/// those of all vertices, as SurfaceWriter writes them for a standing person with muscles at rest.
 SurfaceContacts find_contacts(const BodySurfaces& surfaces, std::span<const Vec3<float>> position,
                               std::span<const Vec3<float>> normal);
 
-/// Memory that it works in.
+/// Scratch memory of `keep_apart`.
 struct ContactWork {
   std::vector<Vec3<float>> push, smooth, shift;
   std::vector<float> area, taken, free_area, pushed_area;
-  std::vector<float> weight, wide, out, moved_out;  // of what gives volume back
+  std::vector<float> weight, wide, out, moved_out;  // for restoring volume
   std::vector<double> volume, now_volume;           // of each muscle
   std::vector<std::uint8_t> touches;
-  std::vector<std::uint32_t> other;  // by pair: the other surface's vertex that was nearest in the last pass
+  std::vector<std::uint32_t> other;  // by pair: nearest vertex of the other surface in the last pass
 };
-/// Moves muscles' vertices, and makes their normals anew. `position`, `normal`: as SurfaceWriter wrote them, of the
-/// same surfaces, in any frame. Some 0.7 µs a pair.
+/// Moves muscles' vertices out of contact and recomputes their normals. `position` and `normal` are those that
+/// SurfaceWriter wrote for the same surfaces, in any frame. Takes about 0.7 µs a pair.
 void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position, std::span<Vec3<float>> normal,
                 ContactWork& work);
 

@@ -1,9 +1,9 @@
 #pragma once
-// Which neighbours a vertex' normal is made of.
+// The neighbours from which a vertex' normal is computed.
 //
-// The triangles round a vertex are bounded by a closed polygon, and the sum of their normals weighted by their areas is
-// that of any other triangles with the same boundary. So six neighbours a … f take two products instead of six:
-// (c − a)×(d − b) + (e − a)×(f − d) is twice the area of the hexagon as a vector.
+// The triangles around a vertex are bounded by a closed polygon. The area-weighted sum of their normals is that of any
+// other triangles with the same boundary. So six neighbours a … f need two cross products instead of six: (c − a)×(d −
+// b) + (e − a)×(f − d) is twice the area vector of the hexagon.
 
 #include <array>
 #include <cstdint>
@@ -15,27 +15,27 @@
 
 namespace mobil::inline v0_3 {
 
-/// Places are numbered by 16 bits, doubled.
+/// Maximum number of places: twice an index must fit into 16 bits.
 inline constexpr std::size_t max_places = 32768;
 
-/// Twice the place of each of six vertices (what addresses are made of); fewer neighbours repeat some of them.
+/// Twice the place of each of six neighbours, for computing addresses. Rings with fewer neighbours repeat some of them.
 using VertexRing = std::array<std::uint16_t, 6>;
 
-/// Of every vertex, in their order, twice its own place, and its ring.
+/// Twice a vertex' own place, and its ring. Stored in the order of vertices.
 struct PlacedRing {
   std::uint16_t twice_place;
   VertexRing ring;
   std::uint16_t unused;
 };
 
-/// What is to be added to a vertex' normal where six neighbours are not all.
+/// A further ring of a vertex with more than six neighbours, to be added to its normal.
 struct MoreRing {
   std::uint32_t vertex;
   VertexRing ring;
 };
 
-/// How the direction along a surface follows from four neighbours (mobil/assets/surfaces/texture_places.h), by twice
-/// their places.
+/// Stencil of the direction along a surface (mobil/assets/surfaces/texture_places.h), with twice the places of four
+/// neighbours.
 struct PlacedAlong {
   std::array<std::uint16_t, 4> twice_place;
   std::array<float, 4> weight;
@@ -47,8 +47,8 @@ struct VertexRings {
   std::vector<MoreRing> more;  // ascending
 };
 
-/// Rings of a mesh of triangles, whatever its topology (a vertex on a boundary counts itself). `place`: where each
-/// vertex is looked up, below max_places. Errors: an index out of range.
+/// Computes the rings of a triangle mesh of any topology. A vertex on a boundary is part of its own ring. `place` is
+/// the place of each vertex, below max_places. Errors: an index out of range.
 Result<VertexRings> vertex_rings(std::span<const std::uint32_t> triangle, std::span<const std::uint16_t> place);
 
 }  // namespace mobil::inline v0_3

@@ -1,5 +1,5 @@
 #pragma once
-// Where vertices go in a caller's buffer.
+// Layout of vertices in a caller's buffer.
 
 #include <cstddef>
 #include <span>
@@ -8,18 +8,18 @@
 
 namespace mobil::inline v0_3 {
 
-/// Three floats a vertex, of tangents four: vertex v begins at byte v · stride. Nothing else in it is written, and
-/// nothing read.
+/// Three floats a vertex, or four for tangents. Vertex v begins at byte v · stride. No other byte is written, and none
+/// is read.
 struct VertexStream {
   std::span<std::byte> bytes;
-  std::size_t stride = 3 * sizeof(float);  // at least 12, of tangents 16
+  std::size_t stride = 3 * sizeof(float);  // at least 12, or 16 for tangents
 };
 
-/// Whether so many vertices of `bytes` each have room in it. Errors, in one line with `what`: a stride or a buffer that
-/// is too small.
+/// Checks that the stream has room for so many vertices of `bytes` bytes each. Errors, with `what` in the message: a
+/// stride or a buffer that is too small.
 Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices, std::size_t bytes);
 
-/// Whether any of a stream's vertices lies over any of another's. Streams in the same memory share a stride.
+/// Returns true if vertices of two streams overlap. Streams in the same memory must have the same stride.
 bool lie_over(const VertexStream& a, std::size_t a_bytes, const VertexStream& b, std::size_t b_bytes,
               std::size_t vertices);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Positions and normals into a caller's vertex buffer, which is written in order and never read.
+// Writes positions and normals to a caller's vertex buffer, in order and without reading it.
 
 #include <cstddef>
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Where three floats of vertex v go: at `position` + v · `position_stride`, in bytes, and likewise of its normal, and
-/// four of its tangent; null: none wanted. Tangents need normals.
+/// Destination of vertices. Three floats of vertex v go to `position` + v · `position_stride`, in bytes. Normals and
+/// tangents (four floats) have pointers and strides of their own; null skips them. Tangents need normals.
 struct VertexTarget {
   std::byte* position = nullptr;
   std::byte* normal = nullptr;
@@ -18,15 +18,15 @@ struct VertexTarget {
   std::size_t tangent_stride = 0;
 };
 
-/// Positions from their places as place_vertices leaves them; unit normals, the mean of a vertex' triangles' normals
-/// weighted by their areas, times `sense` (−1 turns them over, as of reflected surfaces); up (+Y) where there is no
-/// triangle with area. The same bits on every instruction set. `along`: of each vertex; empty where no tangents are
-/// wanted. A tangent is the unit direction along the surface at right angles to the normal, and ±1: on which side of
-/// normal × tangent the back is.
+/// Writes positions from the places that place_vertices computed. A unit normal is the area-weighted mean of the
+/// normals of a vertex' triangles times `sense` (−1 for mirrored surfaces), or +Y if no triangle has area. `along` has
+/// one element for each vertex, or is empty without tangents. A tangent is the unit direction along the surface,
+/// perpendicular to the normal, and ±1: the side of normal × tangent on which the back is. The bits are the same on
+/// every instruction set.
 void write_vertices(const VertexRings& rings, std::span<const PlacedAlong> along, const float* places, float sense,
                     const VertexTarget& out);
 
-/// A rigid surface, made `scale` times as large and along y `stretch` times more, carried by `map`.
+/// Writes a rigid surface, scaled by `scale` and along y also by `stretch`, and transformed by `map`.
 void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale = 1,
                  float stretch = 1);
 

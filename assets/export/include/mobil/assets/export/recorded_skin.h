@@ -1,5 +1,5 @@
 #pragma once
-// A person's skin and clothes as exporters take them.
+// Conversion of a person's skin and clothes for exporters.
 
 #include <span>
 
@@ -9,17 +9,17 @@
 
 namespace mobil::inline v0_3 {
 
-/// A surface a part (SkinPart), whose number is its cloth, from `first_cloth` on, with its places in the skin's atlas
-/// (mobil/skin_atlas.h). Of several joints that a vertex follows the four heaviest are kept: formats blend their
-/// matrices, which at a bent elbow loses a little of the girth that the library's own skin keeps.
-/// `own`: what has taken the place of some of it, which is left out.
+/// Returns a surface per part (SkinPart) with its places in the skin's atlas (mobil/skin_atlas.h). Its cloth is the
+/// part's number plus `first_cloth`. A vertex keeps the four heaviest of its joints. Formats blend their matrices,
+/// which at a bent elbow loses a little of the girth that the library's own skin keeps. Parts that `own` replaces are
+/// left out.
 std::vector<SkinnedSurface> recorded_skin(const BodySkin& skin, std::size_t first_cloth = 0,
                                           const CustomSkin* own = nullptr);
-/// A skin mesh of somebody's own, of that cloth. `bare`: the body's skin that it was bound to; `position`, `normal`: of
-/// its vertices where that stands (follow_skin). Each follows the segments that the skin nearest to it does.
+/// Returns a custom skin mesh of that cloth. `bare` is the body's skin to which it was bound; `position` and `normal`
+/// are of its vertices in that stance (follow_skin). Each vertex follows the segments of the nearest skin.
 SkinnedSurface recorded_custom_skin(const BodySkin& bare, const CustomSkin& own, std::span<const Vec3<float>> position,
                                     std::span<const Vec3<float>> normal, std::size_t cloth);
-/// Where its segments stand.
+/// Returns the standing places of its segments.
 std::array<Vec3<float>, segment_count> standing_of(const BodySkin& skin);
 
 }  // namespace mobil::inline v0_3

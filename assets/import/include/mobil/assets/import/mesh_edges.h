@@ -9,19 +9,19 @@
 
 namespace mobil::inline v0_3 {
 
-/// Edge e of a mesh goes from corner e to the next corner of the same triangle. `ends`: its two vertices, whichever
-/// comes first.
+/// Edge e of a mesh goes from corner e to the next corner of the same triangle. `ends` is the same for both orders of
+/// its two vertices.
 struct MeshEdge {
   std::uint64_t ends;
   std::uint32_t edge;
 };
 
-/// The corner that follows `e` in its triangle; corners 3t to 3t + 2 are those of triangle t.
+/// Returns the corner after `e` in its triangle; corners 3t to 3t + 2 are those of triangle t.
 inline std::uint32_t next_corner(std::uint32_t e) {
   return e % 3 == 2 ? e - 2 : e + 1;
 }
 
-/// By ends, then by number.
+/// Returns the edges by ends, then by number.
 std::vector<MeshEdge> sorted_edges(const SurfaceMesh& mesh);
 
 /// Calls `use(first, last)` with each run of edges between the same two vertices.
@@ -33,7 +33,7 @@ void each_edge(const std::vector<MeshEdge>& sorted, Use use) {
   }
 }
 
-/// Edges by how many triangles use them: one (a border), or more than two (not a surface).
+/// Counts of edges that one triangle uses (a border), or more than two (not a surface).
 struct EdgeCount {
   std::size_t border = 0, overused = 0;
 };

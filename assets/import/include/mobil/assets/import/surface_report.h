@@ -1,5 +1,5 @@
 #pragma once
-// What is said about one surface of an anatomy.
+// Report about one surface of an anatomy.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,18 +8,18 @@
 
 namespace mobil::inline v0_3 {
 
-/// What tissue a mesh shows.
+/// Tissue of a mesh.
 enum class AnatomyKind : std::uint8_t { bone, muscle, tendon, skin };
 
-/// Whose surface must be that of a body: closed, with a volume.
+/// True if the surface must be that of a body: closed, with a volume.
 constexpr bool is_fleshy(AnatomyKind kind) {
   return kind == AnatomyKind::muscle || kind == AnatomyKind::tendon;
 }
 
-/// What a mesh was in its file and became; one line for all that was done to it.
+/// Data of a mesh in its file and after repair, with one line for each repair.
 struct SurfaceReport {
   std::size_t triangles = 0, open_edges = 0, overused_edges = 0;  // in the file
-  std::size_t pieces = 0;                                         // that hang together, of what is kept
+  std::size_t pieces = 0;                                         // connected, of the mesh that remains
   std::size_t self_intersections = 0;  // pairs of triangles without a common vertex that cut each other
   double volume_cm3 = 0, area_cm2 = 0;
   std::vector<std::string> said;

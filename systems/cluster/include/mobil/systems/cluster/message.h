@@ -1,6 +1,6 @@
 #pragma once
-// What ranks tell each other and what a run leaves on disk: bytes with a kind, a tick, a length and a seal. Nothing
-// that comes in is trusted.
+// Messages between ranks and records on disk: bytes with a kind, a tick, a length and a checksum (the seal). Input is
+// never trusted.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,23 +11,23 @@
 
 namespace mobil::inline v0_3 {
 
-/// What a message carries: a tick's commands, numbers to add up, a sign of life, bytes, a shard, a snapshot's index.
+/// Content of a message: a tick's commands, numbers to reduce, a heartbeat, bytes, a shard, or a snapshot's index.
 enum class MessageKind : std::uint32_t { commands = 1, numbers, beat, bytes, shard, index };
 
-/// Good as long as the bytes it was read from.
+/// A message, valid as long as the bytes that it was read from.
 struct Message {
   MessageKind kind = MessageKind::bytes;
   std::uint32_t tick = 0;
   std::span<const std::byte> bytes{};
 };
 
-/// The message as it travels and as it lies in files; into memory that is kept for the next one.
+/// Encodes a message for sending or storing. The first function reuses the memory of `out`.
 void seal_message(const Message& message, std::vector<std::byte>& out);
 std::vector<std::byte> seal_message(const Message& message);
-/// The first message of `in`, which then begins behind it. Errors, `in` staying as it is: too few bytes
-/// (Status::missing); bytes that are no message of this version or that were altered.
+/// Decodes the first message of `in` and removes it from `in`. Errors, with `in` unchanged: too few bytes
+/// (Status::missing), altered bytes, bytes that are not a message of this version.
 Result<Message> take_message(std::span<const std::byte>& in);
-/// The one message that `in` is. Errors: the same; more bytes than the message has; another kind.
+/// Decodes the only message of `in`. Errors: those of take_message, further bytes, another kind.
 Result<Message> open_message(std::span<const std::byte> in, MessageKind kind);
 
 }  // namespace mobil::inline v0_3

@@ -1,7 +1,7 @@
 #pragma once
-// What ranks do together: they share numbers and bytes along a tree, and say now and then that they are alive. These
-// are made of single messages, not of MPI's own operations on all ranks: while one waits here it naps instead of
-// spinning (which takes half of a busy machine's time), and can say which rank it is that does not answer.
+// Collective operations of ranks: they share numbers and bytes along a tree and send heartbeats. They are built from
+// single messages instead of MPI's collectives. A waiting rank therefore sleeps instead of spinning, which would take
+// half the time of a busy machine, and it can name a rank that does not respond.
 
 #include <chrono>
 #include <cstddef>
@@ -18,49 +18,49 @@ namespace mobil::inline v0_3 {
 
 class Ranks {
  public:
-  /// `silence_s`: a rank that says nothing for so long within ticks stops the work of all; ten times as long before the
-  /// first tick and after `between_ticks`; three times as long as either where it is the first rank, whom the others
-  /// must not name too soon.
+  /// `silence_s` is the time without a heartbeat after which a rank within ticks stops all ranks. The limit is 10 times
+  /// longer before the first tick and after `between_ticks`. For the first rank both are 3 times longer, so that the
+  /// others do not name it too early.
   explicit Ranks(Transport& transport, double silence_s = 60);
 
-  /// This rank, from 0 on, and how many there are.
+  /// Index of this rank from 0, and the number of ranks.
   int rank() const { return transport_.rank(); }
   int count() const { return transport_.ranks(); }
-  /// The one that decides and writes what there is one of.
+  /// True for the rank that decides, and writes everything that exists once.
   bool first() const { return rank() == 0; }
 
-  // All ranks call these, in the same order. What arrives cut or altered stops the work.
+  // All ranks must call these in the same order. A truncated or altered message stops all ranks.
 
-  /// Each value becomes the sum of all ranks' (modulo 2⁶⁴).
+  /// Replaces each value by the sum over all ranks (modulo 2⁶⁴).
   void sum(std::span<std::uint64_t> values);
   std::uint64_t sum(std::uint64_t value);
-  /// The largest.
+  /// Returns the maximum over all ranks.
   std::uint64_t most(std::uint64_t value);
-  /// The first rank's bytes; what others hand over is ignored.
+  /// Returns the first rank's bytes. Those of other ranks are ignored.
   std::vector<std::byte> share(std::span<const std::byte> bytes);
-  /// At the first rank everybody's, by rank; nothing at others.
+  /// Returns the bytes of all ranks, by rank, at the first rank; nothing at others.
   std::vector<std::vector<std::byte>> gather(std::span<const std::byte> bytes);
-  /// Success if all ranks have it; else the error of the first that has one, which all then have.
+  /// Returns success if all ranks succeeded, or the error of the first rank that failed, the same at all ranks.
   Result<void> agree(const Result<void>& own);
 
-  /// The commands of a tick, handed on to all ranks; the first one does not wait for the others.
+  /// Sends the commands of a tick from the first rank to all others, without waiting for them.
   void send_commands(std::uint32_t tick, std::span<const std::byte> commands);
-  /// Good until the next call that waits for another rank.
+  /// Receives the commands of a tick. Valid until the next call that waits for another rank.
   std::span<const std::byte> take_commands(std::uint32_t tick);
-  /// From one to another, apart from all the rest.
+  /// Send and receive bytes between two ranks, independent of all other messages.
   void send(int to, std::span<const std::byte> bytes);
   std::vector<std::byte> receive(int from);
 
-  /// This rank has come to that tick.
+  /// Marks the start of a tick of this rank.
   void at_tick(std::uint32_t tick);
-  /// It works on: to be said between parts of what may take long.
+  /// Sends a heartbeat if one is due. Call it between parts of long work.
   void alive();
-  /// From here to the next tick something is done that may take long.
+  /// Announces work until the next tick that can take long.
   void between_ticks() { within_ticks_ = false; }
-  /// Ends the work of all ranks with that line.
+  /// Ends all ranks with that message.
   [[noreturn]] void stop(const std::string& line);
 
-  /// Since the beginning: spent waiting for others, s; bytes sent.
+  /// Time spent waiting for other ranks since the start, s, and bytes sent.
   double waited_s() const { return waited_s_; }
   std::uint64_t bytes_sent() const { return bytes_sent_; }
 
@@ -89,7 +89,7 @@ class Ranks {
   std::uint32_t tick_ = 0;
   std::chrono::steady_clock::time_point said_;
   std::vector<Heard> heard_;                // by rank; at the first rank
-  std::vector<std::byte> out_, in_, beat_;  // kept for their memory
+  std::vector<std::byte> out_, in_, beat_;  // buffers, reused
   std::vector<int> children_;
   double waited_s_ = 0;
   std::uint64_t bytes_sent_ = 0;

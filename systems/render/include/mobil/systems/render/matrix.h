@@ -1,5 +1,5 @@
 #pragma once
-// The little linear algebra that placing things before a camera takes.
+// Linear algebra for cameras and shadows.
 
 #include <array>
 #include <cmath>
@@ -13,12 +13,12 @@ namespace mobil::inline v0_3::capture_math {
 
 using geometry::dot;
 
-/// Degrees in radians.
+/// Converts degrees to radians.
 inline float radians(float degrees) {
   return degrees * (std::numbers::pi_v<float> / 180);
 }
 
-/// Column-major, as OpenGL reads it.
+/// A 4×4 matrix, column-major as in OpenGL.
 using Matrix4 = std::array<float, 16>;
 
 inline Matrix4 operator*(const Matrix4& a, const Matrix4& b) {
@@ -31,7 +31,7 @@ inline Matrix4 operator*(const Matrix4& a, const Matrix4& b) {
   return product;
 }
 
-/// World to a frame with these (orthonormal) axes at `origin`.
+/// Returns the transform from the world to a frame with these orthonormal axes at `origin`.
 inline Matrix4 into_frame(Vec3<float> x, Vec3<float> y, Vec3<float> z, Vec3<float> origin) {
   return {x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0, -dot(x, origin), -dot(y, origin), -dot(z, origin), 1};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a picture shows. A scene only looks at the caller's memory; it must live until render() returns.
+// Content of a picture. A scene refers to the caller's memory, which must stay valid until render() returns.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace mobil::inline v0_3 {
 
-/// sRGB, each channel 0–1, as a colour picker shows it.
+/// An sRGB colour, each channel 0–1.
 struct Colour {
   float red, green, blue;
 };
@@ -19,40 +19,40 @@ inline constexpr Colour bone_ivory{0.91F, 0.86F, 0.74F};
 inline constexpr Colour muscle_red{0.53F, 0.17F, 0.14F};
 inline constexpr Colour joint_steel{0.30F, 0.38F, 0.48F};
 
-/// A vertex p of the mesh stands in the world at position + rotation · (scale ∘ p). A negative scale mirrors.
+/// Placement of a mesh. A vertex p is in the world at position + rotation · (scale ∘ p). A negative scale mirrors.
 struct Placement {
   Vec3<float> position{0, 0, 0};  // m
   Quat<float> rotation{0, 0, 0, 1};
   Vec3<float> scale{1, 1, 1};
 };
 
-/// A lit surface, smooth over its vertices; its back is not drawn, except as wireframe.
+/// A lit surface with smooth shading. Back faces are drawn only for wireframes.
 struct DrawMesh {
   std::span<const Vec3<float>> position{};    // m
   std::span<const std::uint32_t> triangle{};  // three indices each, counter-clockwise seen from outside
-  std::span<const Vec3<float>> normal{};      // of each position; none: the mean of its triangles'
+  std::span<const Vec3<float>> normal{};      // of each position; empty: the mean of its triangles' normals
   Colour colour = muscle_red;
   float wetness = 0;                       // 0 dry as bone, 1 wet as living muscle
-  float opacity = 1;                       // below 1 what lies behind is seen through it, its own back not
+  float opacity = 1;                       // below 1 other objects behind it are visible, but not its own back
   bool wireframe = false;                  // the triangles' edges only, front and back
-  bool flip = false;                       // the triangles are wound clockwise, as those of a mirrored mesh
-  std::span<const Placement> placement{};  // one copy each; none: one copy where the positions say
-  std::uint64_t key = 0;  // 0: sent every frame. Else the mesh is sent once and known by this key; its positions and
-                          // triangles are not read again until Renderer::forget(key)
+  bool flip = false;                       // true: triangles are wound clockwise, as in a mirrored mesh
+  std::span<const Placement> placement{};  // one copy for each; empty: one copy, not transformed
+  std::uint64_t key = 0;  // 0: sent every frame. Other keys: the mesh is sent once, and its positions and triangles are
+                          // not read again until Renderer::forget(key)
 };
 
-/// What a line's width is measured in.
+/// Unit of a line's width.
 enum class LineUnit { metre, pixel };
 
-/// Line segments with round ends that face the camera, shaded as tubes.
+/// Line segments with round ends, facing the camera and shaded as tubes.
 struct DrawLines {
-  std::span<const Vec3<float>> position{};  // two ends each, m
+  std::span<const Vec3<float>> position{};  // two ends for each segment, m
   Colour colour = joint_steel;
   float width = 2;
   LineUnit unit = LineUnit::pixel;
 };
 
-/// Balls.
+/// Points, drawn as balls.
 struct DrawPoints {
   std::span<const Vec3<float>> position{};  // centres, m
   Colour colour = joint_steel;

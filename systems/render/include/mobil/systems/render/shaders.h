@@ -1,5 +1,5 @@
 #pragma once
-// The programs that run on the graphics device, in GLSL ES 3.00.
+// Shaders of the renderer, in GLSL ES 3.00.
 
 #include <array>
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace mobil::inline v0_3 {
 
-/// What all programs know of a picture: uniform block "Frame", std140.
+/// Uniform block "Frame" of all programs, std140.
 struct FrameBlock {
   capture_math::Matrix4 clip_from_world;
   capture_math::Matrix4 shadow_from_world;  // to texture coordinates and depth, all 0–1
-  std::array<float, 4> eye;                 // the camera; w: the distance at which the ground has faded, m
-  std::array<float, 4> facing;              // what billboards face: a point (w = 1) or a direction (w = 0)
-  std::array<float, 4> light;               // direction to the key light; w: a shadow texel's size, m (0: no shadows)
+  std::array<float, 4> eye;                 // of the camera; w: distance at which the ground has faded, m
+  std::array<float, 4> facing;              // point (w = 1) or direction (w = 0) that billboards face
+  std::array<float, 4> light;               // direction to the key light; w: a shadow texel's size, m, or 0
   std::array<float, 4> fill;                // direction to the fill light; w: a shadow texel's size in the texture
   std::array<float, 4> picture;             // width and height in pixels; a pixel's size at 1 m, m; unused
 };
@@ -30,10 +30,10 @@ enum Attribute : unsigned {
   at_centre = 8
 };
 
-inline constexpr int line_vertices = 12;   // of the strip that draws one segment
-inline constexpr int point_vertices = 20;  // of the fan that draws one ball
+inline constexpr int line_vertices = 12;   // of the strip of one segment
+inline constexpr int point_vertices = 20;  // of the fan of one ball
 
-/// The sources, in GLSL ES 3.00.
+/// Return the sources, in GLSL ES 3.00.
 std::string mesh_vertex_source();
 std::string mesh_fragment_source();
 std::string wireframe_fragment_source();

@@ -69,7 +69,7 @@ Physique<float> physique(const BodyRequest& request) {
 
 namespace {
 
-/// Errors: a stale handle, a posed person; `asked` is what was asked, `mend` what to do instead.
+/// Returns an error for a stale handle or a posed person. `asked` is the name of the call, `mend` the remedy.
 Result<void> is_walker(const World& world, Entity person, std::string_view asked, std::string_view mend) {
   if (!is_person(world, person))
     return fail(fmt::format("{}: that person is not there (a stale handle); spawn one first", asked),
@@ -79,7 +79,7 @@ Result<void> is_walker(const World& world, Entity person, std::string_view asked
   return {};
 }
 
-/// The number of the next request; a sleeper keeps 16 bits of it.
+/// Returns the number of the next request, modulo 2¹⁶ because a sleeper stores 16 bits.
 std::uint32_t next_request(std::uint32_t before) {
   return (before + 1) & 0xFFFFU;
 }
@@ -212,7 +212,7 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   world.set(person, state);
   world.set(person, gait);
   auto footing = world.get<Footing>(person);
-  bool poses_anew = footing.has_value();  // on other ground, or with shoulders straight
+  bool poses_anew = footing.has_value();  // the ground differs, or shoulders are straightened
   if (auto course = world.get<AvoidanceState>(person)) {
     poses_anew = poses_anew || course->turn_rad != 0;
     course->turn_rad = course->turn_rad_s = course->turn_to_rad = 0;
@@ -284,7 +284,7 @@ Result<void> check_pose(const World& world, Entity person, const Pose<float>& po
   for (std::size_t s = 0; s < segment_count; ++s) {
     const auto& [x, y, z] = pose.position_m[s];
     const auto& [qx, qy, qz, qw] = pose.rotation[s];
-    // No comparison holds for what is not a number.
+    // Comparisons with NaN are false.
     if (!(std::fabs(x) < farthest_m && std::fabs(y) < farthest_m && std::fabs(z) < farthest_m))
       return fail(fmt::format("set_pose: {} is at ({}, {}, {}) m; give a finite place within 1000 km", segment_name[s],
                               x, y, z));

@@ -17,7 +17,7 @@ struct BellySolver;  // assets/fem/belly_solver.h
 /// = 1 in all lanes and takes 3/4 of the arithmetic. It belongs to a table, independent of a lane's values.
 enum class Stiffness : std::uint8_t { individual, shared };
 
-/// Drive of a block's far face during this tick, linear from start to end, in the way for which the template was built:
+/// Drive of a block's far face during this tick, linear from start to end, as the template's far end is:
 /// - FarEnd::held: held sideways, moving along z by EndDrive's displacement;
 /// - FarEnd::sliding: held sideways, pulled along z by a uniform traction whose total is EndDrive's force;
 /// - FarEnd::free: loaded by a uniform traction whose total is EndTraction's.

@@ -127,14 +127,14 @@ TEST(BadMuscle, AFileIsNamed) {
 
 TEST(Usage, DeprecatedWordsWorkWithAWarning) {
   const TemporaryFolder folder;
-  const std::string_view moved = "muscle --cells 2x2x8 --seconds 0.02 --out ";
+  const std::string_view moved = "muscle --cells 2x2x8 --seconds 0.02 --quiet --out";
   for (const auto& [old, current] :
        std::map<std::string, std::string>{{"--method ecd", "--method explicit-central"},
                                           {"--method=icd", "--method=implicit-central"},
                                           {"--method caa", "--method newmark"},
                                           {"--method reduced --vectors 4", "--method modal --modes 4"}}) {
-    const Ran was = run_mobil(std::string(moved) + "was.csv --quiet " + old, folder.path);
-    const Ran is = run_mobil(std::string(moved) + "is.csv --quiet " + current, folder.path);
+    const Ran was = run_mobil(fmt::format("{} was.csv {}", moved, old), folder.path);
+    const Ran is = run_mobil(fmt::format("{} is.csv {}", moved, current), folder.path);
     EXPECT_EQ(was.status, 0) << was.err;
     EXPECT_EQ(is.status, 0) << is.err;
     EXPECT_NE(was.err.find("' is deprecated; use '"), std::string::npos) << was.err;

@@ -6,30 +6,32 @@
 //   Result<Schedule> schedule = systems.build();
 //   schedule->run(world, {1.0F / 60, 0}, threads.jobs());
 //
-// Order: readers of a component run after its writers; readers of its Previous run before them. An `after` overrides
-// both. Two writers of one component need an `after`, even on different tables, or must be alternatives. Ties are
-// resolved by the order of adding, so the order is always the same.
+// Order: systems that read a component run after those that write it; systems that read Previous<C> run before those
+// that write C. An `after` overrides both. Two writers of one component need an `after`, even on different tables, or
+// must be alternatives. Ties are resolved by the order of adding, so the order is always the same.
 //
-// Passes: neighbours in that order form one pass while they need only their own rows. A system begins a new pass if it
-// looks up (Lookup, LookupPublished) a part that the pass writes, or writes a part that the pass looks up. A packed
-// system (mobil/engine/packed.h) is a pass of its own. Threads wait for each other only between passes. For walkers:
+// Passes: consecutive systems form one pass as long as they need only their own rows. A system begins a new pass in two
+// cases: it looks up (Lookup, LookupPublished) a part that the present pass writes, or writes one that the present pass
+// looks up. A packed system (mobil/engine/packed.h) is a pass of its own. Threads wait for each other only between
+// passes. For walkers:
 //
 //   phases ─► steps ahead, gait ─► replan ─► turn, … kinematics, … ─► lines of action, … deformation, … ─► phases
 //   1 thread  pass                 packed    pass                     pass                                 1 thread
 //
 // Tiles: a pass cuts each matching table into tiles of neighbouring blocks. A tile has about 128 kB, so that it fits
-// into a core's own cache. It has at least one block, and up to four in large tables of wide rows.
+// into a core's own cache, but at least one block. In large tables a tile has up to four blocks even if they exceed 128
+// kB.
 //
 //   table A  │ b0 b1 │ b2 b3 │ b4 b5 │ b6 b7 │     4 tiles of 2 blocks of 16 rows:  A0 A1 A2 A3;
 //   table B  │ b0 │ b1 │                           2 tiles of 1 block, wider rows:  B0 B1.
 //
-// Tiles of all tables are interleaved in proportion, so that muscles of one person are close in time:
-// A0 A1 B0, A2 A3 B1. The job system hands out ranges of that list. A thread takes each tile through all systems that
-// match its table.
+// Tiles of all tables are interleaved in proportion to their numbers, so that rows of one person's muscles are
+// processed at about the same time: A0 A1 B0, A2 A3 B1. The job system distributes ranges of that list. A thread takes
+// each tile through all systems that match its table.
 //
 //   A0:  lines of action(b0, b1) ─► activation(b0, b1) ─► deformation(b0, b1) ─► …     then A1, B0, …
 //
-// A packed system instead chooses lanes tile by tile, and then runs on the chosen rows, sixteen at a time.
+// A packed system first chooses lanes, tile by tile. It then runs on the chosen rows, sixteen at a time.
 
 #include <algorithm>
 #include <atomic>
@@ -60,8 +62,8 @@ struct System {
   std::string module{};          // its module (mobil/engine/module.h); can be empty
   std::vector<Access> accesses;  // of its parameters
   std::size_t parameters = 0;
-  std::vector<std::string> after;  // names of systems or alternatives that must run earlier
-  std::string alternatives{};      // name of a set of systems; no table has two that write one component
+  std::vector<std::string> after;  // names of systems or alternatives that run before it
+  std::string alternatives{};      // name of its set; in no table do two of a set write one component
   bool (*bind)(const World&, const Table&, Bound*) = nullptr;
   std::function<void(const BlockView&, const Bound*)> run;
   /// Packed systems only: the chosen lanes of a block, as bits; and the work on at most sixteen rows.
@@ -73,8 +75,8 @@ struct System {
 /// Returns a type's name (Access::name) without namespace and scalar: "mobil::Pose<float>" is Pose.
 std::string_view plain_name(std::string_view type);
 
-/// Ticks, rows and time of a system: totals, and those of the last tick. Rows are entities, in a packed system the
-/// chosen ones. Time is the sum over all threads, and 0 for a system without tables.
+/// Ticks, rows and time of a system: totals, and those of the last tick. Rows are those that the system processed; a
+/// packed system counts the chosen rows. Time is the sum over all threads, and 0 for a system that matches no table.
 struct Timing {
   std::uint64_t calls = 0;
   std::uint64_t rows = 0;
@@ -104,15 +106,15 @@ struct SystemRange {
 class Schedule {
  public:
   /// Runs one tick. In each pass, tiles of neighbouring blocks go through all systems that match their table. Allocates
-  /// only after new tables or a change of world, or if threads, chosen rows or blocks exceed all earlier ticks.
-  /// Denormals are zero while a system runs.
+  /// only if there are new tables or another world, or more threads, chosen rows or blocks than in any earlier tick.
+  /// Denormals are flushed to zero while a system runs.
   void run(World& world, Tick tick, const Jobs& jobs = {});
 
   /// Runs a whole tick: phases before the systems, `run`, and phases after them. `tick.index` is incremented after the
   /// systems. Throws what phases throw (mobil/engine/phase.h); the next tick then begins with the phase that threw.
   void tick(World& world, Tick& tick, Workspace& workspace, const Jobs& jobs = {});
-  /// Lets the next tick begin with its first phase; for worlds that were replaced, for example by a restored snapshot.
-  /// It does not affect a tick in progress.
+  /// Makes the next tick begin with its first phase even if an earlier tick threw. Used if the world was replaced, for
+  /// example by a restored snapshot. It does not affect a tick in progress.
   void begin_anew() { phases_done_ = 0; }
 
   /// In running order.
@@ -130,8 +132,8 @@ class Schedule {
   Counted tally() const {
     return tally(type_id<Tag>());
   }
-  /// Sets the clock of timings, s; nullptr: the steady clock. A clock of the calling thread's processor time measures
-  /// systems correctly on a loaded machine.
+  /// Sets the clock of timings, s; nullptr: the steady clock. On a loaded machine only a clock of the calling thread's
+  /// processor time measures systems correctly.
   void measure_with(double (*clock)());
 
   /// Returns the order as text, one line a phase or system with its reads and writes.
@@ -144,7 +146,7 @@ class Schedule {
     std::size_t system;
     std::vector<Bound> bound;
   };
-  /// A table in a pass. It is worked on in tiles of some blocks, which stay in a cache.
+  /// A table in a pass, with the systems that match it. Its blocks are processed in tiles.
   struct Match {
     Table* table;
     std::vector<Step> steps;
@@ -237,10 +239,10 @@ class ScheduleBuilder {
     return *this;
   }
 
-  /// Returns an error for two systems or phases of one name; an `after` without such a system; a system that takes a
-  /// component twice and writes it; two writers without an order that are not alternatives; and cycles. `memory` serves
-  /// scratch memory and lists of chosen rows. One thread at a time calls it, possibly during a run. It must outlive the
-  /// schedule.
+  /// Orders the systems and returns the schedule. Errors: two systems or phases of one name; an `after` that names no
+  /// system; a system with two parameters of one component that it writes; two writers without an order that are not
+  /// alternatives; a cycle. `memory` allocates scratch memory and lists of chosen rows, and must outlive the schedule.
+  /// One thread at a time uses it, possibly while systems run.
   Result<Schedule> build(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const;
 
  private:

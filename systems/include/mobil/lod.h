@@ -1,19 +1,21 @@
 #pragma once
 // Level of detail: chooses the deformation method of each muscle from the needs of a scene. A scene sets the acceptable
-// error, in metres or in pixels of a camera, or the time a tick for all deformation. Each muscle gets the cheapest
-// method whose measured error is acceptable (mobil/systems/accuracy/accuracy_table.h). A scene can change every tick.
+// error, in metres or in pixels of a camera, or a time budget for all deformation in a tick. Each muscle gets the
+// cheapest method whose measured error is acceptable (mobil/systems/accuracy/accuracy_table.h). A scene can change
+// every tick.
 //
 //   Simulation simulation;
 //   Lod lod = simulation.lod();
 //   lod.set_scene({.camera = Viewpoint{.position_m = eye, .forward = gaze}, .tolerance_px = 1});
 //   lod.prepare();                                           // once: no tick then waits for bases and meshes
-//   lod.manage(person);                                       // with leg muscles of its own, or those of options
+//   lod.manage(person);                                       // adds the scene's muscles if the person has none
 //   simulation.advance(frame_seconds);                       // chooses and switches
 //   lod.why(person, Muscle::hamstrings)->text;                // "modal-8: 0.9 mm of 1.2 mm allowed; …"
 //
-// It costs nothing while it manages no person, and changes managed people only. Decisions are stored on the person's
-// row (mobil/components/lod.h), and its progress in a global of the world. Both are state. With a given
-// `machine_factor`, or without a budget, decisions depend on that state and the scene alone, not on clocks or threads.
+// It costs nothing while it manages no person, and it changes managed people only. Decisions about a person are stored
+// on the person's row (mobil/components/lod.h). The progress of its updates is stored in a global of the world
+// (LodProgress). Both are state. With a given `machine_factor`, or without a budget, decisions depend only on that
+// state, the scene and the options, and not on clocks or threads.
 
 #include <array>
 #include <cstddef>
@@ -44,7 +46,7 @@ namespace mobil::inline v0_3 {
 struct Viewpoint {
   Vec3<float> position_m{};
   Vec3<float> forward{0, 0, 1};  // of any length above 0
-  float half_angle_rad = 0.7F;   // of the cone through the picture's corners, up to 1.6
+  float half_angle_rad = 0.7F;   // between `forward` and a corner of the picture, up to 1.6
   float radians_per_pixel = 0.001F;
   float near_m = 3;
   float reach_m = 200;
@@ -57,18 +59,21 @@ struct LodScene {
   std::optional<float> tolerance_m{};
   std::optional<Viewpoint> camera{};
   float tolerance_px = 1;
-  /// Distance, m, by which a managed person and the camera together must approach for the person to be seen. Beyond it
-  /// people sleep (PersonState::asleep), and within it they are awake but unseen. It needs a camera and must be at
-  /// least 2 m. It should cover one second of the walk plus the camera's motion, in which the initial vibration of a
-  /// muscle decays. If unset, no person is put to sleep and managed sleepers wake.
+  /// Sleep threshold, m. A person's distance from view is the distance that person and camera together must move until
+  /// the person is seen or near. Beyond the threshold managed people sleep (PersonState::asleep); within it they are
+  /// awake. The threshold needs a camera and must be at least 2 m. It should cover the motion of walker and camera in
+  /// one second, because the initial vibration of a muscle takes that long to decay. If unset, no person is put to
+  /// sleep and managed sleepers wake.
   std::optional<float> asleep_beyond_m{};
-  /// True if unseen managed walkers without pending changes become compact (PersonState::compact). They become full
-  /// when they are seen or another method is due. Compact people have no muscle handles, and full ones get new handles.
+  /// True if unseen managed walkers become compact (PersonState::compact) once no change of method is pending. They
+  /// become full when they are seen or a change of method is due. Compact people have no muscle handles, and full ones
+  /// get new handles.
   bool compact_unseen = false;
   bool looked_at = true;  // control points are placed; with a camera, those of seen people
-  /// Processor time a tick for the deformation of all people except compact ones, s. If the tolerances cost more, all
-  /// of them are exceeded by the smallest common factor that fits. With neither tolerance nor camera the tolerance is
-  /// 1 mm, and the factor can be below 1, so that the whole budget is used.
+  /// Processor time a tick for the deformation of all people except compact ones, s. If the methods that meet all
+  /// tolerances cost more, all tolerances are multiplied by the smallest common factor that keeps the budget. With
+  /// neither tolerance nor camera the tolerance is 1 mm. The factor can then be below 1, so that the whole budget is
+  /// used.
   std::optional<double> budget_s{};
 };
 
@@ -90,29 +95,33 @@ struct LodOptions {
   double switching_s = 0.001;
   /// Maximum numbers of people who wake and of people who fall asleep in one tick. The nearest wake first.
   std::uint32_t wakes = 3000, sleeps = 3000;
-  /// Maximum number of people in one tick who get the muscles that they woke without, and of those who lose them
-  /// because nothing of them is seen. People who exceed their tolerance most get them first.
+  /// Sleepers wake without muscles. Maximum number of woken people who get muscles in one tick, and of people who lose
+  /// muscles because none of them is seen. People who exceed their tolerance most get them first.
   std::uint32_t begins = 100;
-  /// Maximum numbers of people who become compact and full in one tick. Those over their tolerance most expand first.
+  /// Maximum numbers of people who become compact, and of people who become full again, in one tick. People who exceed
+  /// their tolerance most become full first.
   std::uint32_t compacts = 200, expands = 3000;
-  /// Number of updates in which all people are evaluated once (`every` is the interval of updates).
+  /// Number of updates after which all people have been evaluated once (`every` is the interval between updates).
   std::uint32_t stagger = 4;
-  /// Safety factor on predicted errors, for bodies and walks that differ from the measured ones. It was set by 13 other
-  /// bodies at 0.8 to 1.9 m/s, with and without inertia (lod_show_test). With 1.25, at least 99.7 % of ticks met the
-  /// promised tolerance. For bodies of the reference height at up to 2 m/s errors were at most 1.93 times the table's;
-  /// 2.5 times would still be within twice the tolerance. It holds for muscles simulated for at least two seconds: they
-  /// start at rest, and that vibration decays by a factor of e⁻⁴ a second.
+  /// Safety factor on predicted errors, for bodies and walks that differ from the measured ones. The default was chosen
+  /// with 13 other bodies at 0.8 to 1.9 m/s, with and without inertia (lod_show_test). At least 99.7 % of ticks met the
+  /// tolerance. For bodies of the reference height at up to 2 m/s errors were at most 1.93 times those of the table. An
+  /// error of 2.5 times the table's would be twice the tolerance. The margin holds for muscles simulated for at least
+  /// two seconds. Muscles start at rest, and the resulting vibration decays by a factor of e⁻⁴ a second.
   float margin = 1.25F;
-  /// Time of this machine over that of the table's machine. If unset, it is measured while the simulation runs.
+  /// Time that this machine takes, relative to the machine of the table. If unset, it is measured while the simulation
+  /// runs.
   std::optional<double> machine_factor{};
   /// Returns the time of the last tick's deformation, s. If unset, the schedule's timings of `is_deformation` are used.
   std::function<double(const Schedule&)> measured_s{};
-  /// Muscles of people who get them from `manage`, except which muscles and which method: those are chosen. Levels of
-  /// active muscles set finite shape and tension (active_levels). If `finite_shape` is false, linear bellies are used.
+  /// Options of the muscles that `manage` adds. Its fields `muscles`, `method` and `modal` are ignored, because the
+  /// scene and level of detail set them. For active muscles the level also sets `finite_shape` and `modal.tuned`
+  /// (active_levels), unless `finite_shape` is false; then bellies are linear.
   LegMuscles leg_muscles{};
-  /// Makes missing bases while ticks run. If unset, a basis is made in the tick that first uses it. With it, a method
-  /// is usable `making_ticks` after its first request, and the next coarser one is used until then. Choices therefore
-  /// depend on ticks alone, if the same bases were prepared or loaded before. A basis that is late is waited for.
+  /// Executor that makes missing bases while ticks run. If unset, a basis is made in the tick that first uses it. With
+  /// an executor, a method becomes usable `making_ticks` after its first request, and the next coarser one is used
+  /// until then. Choices therefore depend on ticks and not on the executor's speed, if the same bases were prepared or
+  /// loaded before. A tick waits for a basis that is not ready in time.
   Background background{};
   std::uint32_t making_ticks = 120;
   /// Number of ticks from one update to the next.
@@ -121,16 +130,16 @@ struct LodOptions {
   const AccuracyTable* table = nullptr;
 };
 
-/// Counts of all ticks of the last `advance` or `tick`. `waiting`, the queues and the figures below them are of the
-/// last tick.
+/// Counts of all ticks of the last `advance` or `tick`. `waiting`, the counts `to_…`, `factor`, `machine` and
+/// `predicted_s` are of the last tick.
 struct LodReport {
   // People evaluated, methods changed, methods left for later, and changes that Simulation refused.
   std::size_t evaluated = 0, switched = 0, waiting = 0, refused = 0;
   // People who woke, fell asleep, got the muscles that they woke without, and lost muscles that are not seen.
   std::size_t woken = 0, slept = 0, begun = 0, ended = 0;
   std::size_t compacted = 0, expanded = 0;               // people who became compact, and full
-  std::size_t to_wake = 0, to_begin = 0, to_expand = 0;  // people queued for the next ticks
-  float factor = 1;                                      // by which tolerances are exceeded under the budget
+  std::size_t to_wake = 0, to_begin = 0, to_expand = 0;  // people who wait for a later tick
+  float factor = 1;                                      // by which the budget multiplies all tolerances
   double machine = 1;                                    // measured over predicted time, as used for planning
   double predicted_s = 0;                                // time of a tick's deformation with the present methods
   std::string refusal{};                                 // message of the last refusal
@@ -153,8 +162,8 @@ inline constexpr std::array<std::string_view, 9> reason_name = {"tolerance",    
                                                                 "forced",       "refused",       "switch pending"};
 
 /// A muscle's method and the reason for it. `level` is an index into `active_levels` if `active`, or else into
-/// `levels`. The cost is of one leg's muscle a tick. `predicted_volume_off` is the relative error of an active muscle's
-/// volume.
+/// `levels`. `predicted_cost_us` is the cost of the muscle of one leg in a tick. `predicted_volume_off` is the relative
+/// error of an active muscle's volume.
 struct Choice {
   MuscleMethod method;
   bool active = false;
@@ -187,10 +196,10 @@ class Lod {
   /// Returns the needs that were last set.
   const LodScene& scene() const;
 
-  /// Makes the shared data of all methods that the scene, and people with these tolerances, can require of bodies of
-  /// usual build, in parallel. No tick then waits for it. With a camera or a budget these are all methods, some ten
-  /// seconds of one core. `progress` is called before each of them. Errors: `options.leg_muscles` out of range, a
-  /// tolerance that is not positive.
+  /// Makes the shared data of methods in parallel, for bodies of usual build, so that no tick waits for it. It covers
+  /// all methods that the scene, or people with these tolerances, can require. With a camera or a budget these are all
+  /// methods, which take about ten seconds of one core. `progress` is called before each method. Errors:
+  /// `options.leg_muscles` out of range, a tolerance that is not positive.
   Result<void> prepare(std::span<const float> own_tolerances_m = {},
                        const std::function<void(std::size_t done, std::size_t of)>& progress = {});
 
@@ -200,13 +209,13 @@ class Lod {
   Result<void> manage(Entity person, const LodOverrides& needs = {});
   /// Manages many people in parallel, all or none. Errors: those of one person, a person named twice.
   Result<void> manage(std::span<const Entity> people, const LodOverrides& needs = {});
-  /// Manages walkers without muscles and puts them to sleep at once. They get muscles when they wake, as
-  /// `options.leg_muscles` and the scene have them. A walker who cannot fall asleep is managed awake. Returns the
-  /// number of sleepers. Errors: a stale handle, a person named twice, a person with muscles, the errors of
+  /// Manages walkers without muscles and puts them to sleep at once. When they wake, they get the muscles of the scene
+  /// with the options of LodOptions::leg_muscles. A walker who cannot fall asleep is managed awake. Returns the number
+  /// of sleepers. Errors: a stale handle, a person named twice, a person with muscles, the errors of
   /// Simulation::set_muscles.
   Result<std::size_t> manage_asleep(std::span<const Entity> people);
-  /// Stops managing a person. Muscles keep their method, and those still to come begin. A sleeper wakes. Errors: a
-  /// stale handle, a person who is not managed (Status::missing), the errors of muscles that begin.
+  /// Stops managing a person. Muscles keep their method, and a person who woke without muscles gets them. A sleeper
+  /// wakes. Errors: a stale handle, a person who is not managed (Status::missing), the errors of muscles that begin.
   Result<void> release(Entity person);
   /// Stops managing many people, all or none. Errors: those of one person, a person named twice.
   Result<void> release(std::span<const Entity> people);
@@ -214,14 +223,14 @@ class Lod {
   /// Sets the method of one muscle until `unforce`. Errors: a person or muscle that is not managed, the errors of
   /// Simulation::set_method.
   Result<void> force(Entity person, Muscle muscle, const MuscleMethod& method);
-  /// Returns the choice of a forced method to level of detail. Errors: a stale handle; Status::missing if the person or
-  /// that muscle is not managed.
+  /// Lets level of detail choose the method of a forced muscle again. Errors: a stale handle; Status::missing if the
+  /// person or that muscle is not managed.
   Result<void> unforce(Entity person, Muscle muscle);
 
   /// Returns the counts of all ticks of the last `advance` or `tick`.
   const LodReport& report() const;
-  /// Returns the number of muscles at each level, both legs, of active muscles or of others. The last element counts
-  /// forced and refused methods.
+  /// Returns the number of muscles at each level, counted in both legs: of active muscles, or of all others. The last
+  /// element counts muscles with a forced or refused method.
   std::array<std::size_t, level_count + 1> muscles_by_level(bool active = false) const;
   /// Returns a muscle's method and the reason for it. Errors: a stale handle; Status::missing if the person is not
   /// managed or has no such muscle.

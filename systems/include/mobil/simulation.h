@@ -8,15 +8,16 @@
 //   simulation.get<Pose>(person)->position_m[index(Segment::head)];
 //
 // Data is stored in tables. `world()` gives read access to all components (mobil/engine/world.h; mobil/each.h reads
-// them in blocks), and `schedule()` lists all systems in the order in which they run. Nothing is global, so a program
-// can have any number of simulations.
+// them in blocks), and `schedule()` lists all systems in the order in which they run. All state belongs to a
+// simulation, so a program can have any number of them.
 //
 // Threads: one thread at a time can change a simulation. Between changes any number of threads can call its const
 // functions, except `save`, `snapshot_bytes`, `state_hash` and `state_sum`, which use the simulation's jobs or cache
 // results. Each reading thread needs its own PoseWriter and SurfaceWriter.
 //
-// Errors: a call that can fail returns a Result, which is the value or an Error with a status code for the program and
-// a one-line message for the user. A failed call changes nothing. (World and Schedule return the status code alone.)
+// Errors: a call that can fail returns a Result, which is the value or an Error. An Error has a status code for the
+// program and a one-line message for the user. A failed call changes nothing. (World and Schedule return the status
+// code alone.)
 //
 // Memory: if it runs out while people are spawned or changed, std::bad_alloc is thrown and the simulation is unchanged,
 // including future handles. Despawning never allocates.
@@ -48,21 +49,22 @@ class Simulation;
 /// Time, threads, memory and modules of a simulation.
 struct SimulationOptions {
   double tick_s = 1.0 / 60;    // 1e-5 to 1
-  double max_frame_s = 0.25;   // one tick to 60 s; time beyond it is dropped and reported
-  int threads = 1;             // of the built-in pool; 0: one for each hardware thread
+  double max_frame_s = 0.25;   // one tick to 60 s; the excess of a longer frame is dropped
+  int threads = 1;             // size of the built-in pool; 0: one for each hardware thread
   std::optional<Jobs> jobs{};  // the host's job system, used instead of the pool
   /// Allocates everything that scales with the number of people: tables, handles, scratch memory. The heap is used for
-  /// tables that bodies share, for temporaries of a call, and by level of detail, avoidance and terrain.
+  /// meshes and bases that bodies share, for temporaries of a call, and by level of detail, avoidance and terrain.
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   /// The host's own modules (mobil/engine/module.h). They follow the library's modules.
   std::vector<Module> modules{};
   /// Another simulation whose meshes, solvers and bases this one shares. Simulations that share a library must not add
-  /// to it concurrently: by `prepare` and `load`, by setting muscles or methods, by waking or restoring people, or by
-  /// ticks with level of detail.
+  /// to it concurrently. These calls add to it: `prepare`, `load`, setting muscles or methods, waking or restoring
+  /// people, and ticks with level of detail.
   const Simulation* library_of = nullptr;
 };
 
-/// Relation of a posed person's new pose to the last one. After `jumped` muscles and fat feel no motion in between.
+/// Motion from a posed person's last pose to the new one. `jumped` is a jump: muscles and fat feel no acceleration from
+/// it.
 enum class Arrival : std::uint8_t { moved, jumped };
 
 class Avoidance;      // mobil/avoidance.h
@@ -120,7 +122,7 @@ class Simulation {
   /// steps. A standing walker turns on the spot. Errors: a stale handle, a posed person, a heading not within ±10000.
   Result<void> turn_to(Entity person, float heading_rad);
   /// Changes gaits and headings of many walkers in parallel. Skips people who cannot walk as requested (a gait out of
-  /// range, a posed person) and returns their number. Errors: a stale handle, a person named twice.
+  /// range, a posed person), and returns the number of skipped people. Errors: a stale handle, a person named twice.
   Result<std::size_t> change_gait(std::span<const WalkChange> changes);
   /// Makes a standing walker step `left_m` to the left and `ahead_m` ahead; negative values are right and back. The
   /// limits for a leg of 0.85 m are ±0.25 m sideways and ±0.20 m ahead, in proportion to leg length. The motion begins
@@ -131,11 +133,12 @@ class Simulation {
   /// Changes people to a state where PersonState permits it, and returns how many of them are in that state now. A
   /// compact person who cannot fall asleep becomes full. Level of detail stops managing people whom this puts to sleep.
   ///
-  /// `full` wakes sleepers and expands compact people. Control points of muscles that begin are within `within_m` of
-  /// those of a person who was never asleep. For that the last 0.5 s (5 mm), 1 s (1 mm) or 2.1 s (4 µm) of the current
-  /// walk are simulated, at 0.6 µs a tick and person. Muscles start at rest, at the person's phase of the stride, if
-  /// `within_m` is 15 mm or more, if the person turns or changes speed, and if their excitation follows moments.
-  /// Errors: a stale handle, a person named twice, PersonState::posed.
+  /// `full` wakes sleepers and expands compact people. A sleeper's new muscles have control points within `within_m` of
+  /// those of a person who was never asleep. To achieve this, the call simulates the last 0.5 s (5 mm), 1 s (1 mm) or
+  /// 2.1 s (4 µm) of the walk. This costs 0.6 µs a tick and person. Muscles start at rest instead, at the person's
+  /// phase of the stride, in three cases: `within_m` is 15 mm or more; the person turns or changes speed; excitation
+  /// follows joint moments (ExcitationSource::moments). Errors: a stale handle, a person named twice,
+  /// PersonState::posed.
   Result<std::size_t> set_state(std::span<const Entity> people, PersonState state, float within_m = 0.005F);
   Result<std::size_t> set_state(Entity person, PersonState state, float within_m = 0.005F) {
     return set_state(std::span(&person, 1), state, within_m);
@@ -146,20 +149,20 @@ class Simulation {
   /// Reserves entity handles for this many more people. Their rows are allocated when they spawn.
   void reserve(std::size_t people);
 
-  /// Moves a walker at once. `x_m` and `z_m` are the point of the walking line next to the supporting foot, and
-  /// `heading_rad` is the line's heading there (rad about +Y). Pose and muscles move rigidly with it and feel no
-  /// inertia. Pending turns and steps continue, rotated by the same angle. Except for rounding of positions, the walker
-  /// has the same bits as one spawned there. Ground reaction follows in the next tick. Compact people stay compact and
-  /// sleepers asleep, but sleepers under level of detail wake. Errors: a stale handle, a posed person, a position not
-  /// within 1000 km, a heading not within ±10000.
+  /// Moves a walker at once. The walking line is the path between the footholds along which the walker advances. `x_m`
+  /// and `z_m` are its point next to the supporting foot, `heading_rad` its heading there (rad about +Y). Pose and
+  /// muscles move rigidly with it and feel no inertia. Pending turns and steps continue, rotated by the same angle.
+  /// Except for rounding of positions, the walker has the same bits as one spawned there. Ground reaction follows in
+  /// the next tick. Compact people stay compact and sleepers asleep, but sleepers under level of detail wake. Errors: a
+  /// stale handle, a posed person, a position not within 1000 km, a heading not within ±10000.
   Result<void> place(Entity person, float x_m, float z_m, float heading_rad);
   /// Moves many walkers, all or none. Errors: those of one walker, with the person's index; a person named twice.
   Result<void> place(std::span<const PlaceRequest> places);
 
   /// Moves the world's origin to (x, 0, z): subtracts it from every stored position, including motion history. Motion
   /// is unaffected, and no inertia is felt. Worlds of many kilometres need it, because floats are 0.5 mm apart at 8 km.
-  /// Shifts toward the people by multiples of 64 m are exact. Headings and steps aside that the host requested stay as
-  /// they are. Ground reaction follows in the next tick. Errors: a shift not within 1000 km.
+  /// Shifts by multiples of 64 m that bring the origin closer to the people are exact. Headings and steps aside that
+  /// the host requested do not change. Ground reaction follows in the next tick. Errors: a shift not within 1000 km.
   Result<void> shift_origin(float x_m, float z_m);
 
   /// Switches a feature of people on or off from the next tick on, all or none. People who have that setting already
@@ -169,37 +172,38 @@ class Simulation {
     return enable(std::span(&person, 1), feature, on);
   }
   /// Returns heel strikes, toe-offs, stops and starts of people with Feature::step_events in all ticks of the last
-  /// `advance` or `tick`, by time and then by handle, on any number of threads. Valid until the next of these calls.
-  /// Handles of people despawned since are stale. Events are not state, but the feature is: peers must enable it for
-  /// the same people.
+  /// `advance` or `tick`. They are sorted by time and then by handle. Valid until the next of these calls. Handles of
+  /// people despawned since are stale. Events are not state, but the feature is: peers must enable it for the same
+  /// people.
   std::span<const StepEvent> events() const;
 
-  /// Writes the positions of people on the ground and their headings `ahead_s` after the last tick (0 to 0.2 s; a
-  /// frame's alpha times the tick), smooth along the walking line. `root_motion` (mobil/systems/poses/roots.h) returns
-  /// the motion between two roots. Compact people and sleepers have roots as well. Errors: a stale handle, a time out
-  /// of range, spans of different lengths; nothing is written then.
+  /// Writes the roots of people: position on the plane y = 0 and heading, without the sway of a step. `ahead_s` is the
+  /// time after the last tick (0 to 0.2 s; a frame's alpha times the tick). `root_motion` (mobil/systems/poses/roots.h)
+  /// returns the motion between two roots. Compact people and sleepers have roots as well. Errors: a stale handle, a
+  /// time out of range, spans of different lengths; nothing is written then.
   Result<void> roots(std::span<const Entity> people, std::span<Root> out, double ahead_s = 0) const;
 
-  /// Sets the leg muscles of people from the next tick on: lines of action and finite-element bellies of the chosen
-  /// muscles of both legs. std::nullopt removes all muscles. New muscles start at rest, at the person's phase of the
-  /// stride (with inertia: under the load of that moment).
+  /// Sets the leg muscles of people from the next tick on: lines of action and finite-element bellies, in both legs.
+  /// std::nullopt removes all muscles. New muscles start at rest, at the person's phase of the stride (with inertia:
+  /// under the load of that moment).
   ///
-  /// Muscles that stay keep their handles. If their cells stay, they keep displacement and velocity (zero velocity
-  /// after Method::statics); if not, they start at rest. If activation begins or ends, the belly's end moves at once,
-  /// the belly follows statically, and the displayed points fade to it. Bellies sag if inertia begins during a walk.
-  /// Critical steps and substeps are computed again. Shared tables of a new choice are made and kept.
+  /// Muscles in both the old and the new choice keep their handles. If LegMuscles::cells are equal, they keep
+  /// displacement and velocity (zero velocity after Method::statics); if not, they start at rest. If activation is
+  /// switched on or off, the belly's end jumps and the belly takes its static shape. The displayed points fade to that
+  /// shape. If inertia is switched on during a walk, bellies first sag under gravity. Critical steps and substeps are
+  /// computed again. Meshes and bases for a new choice are made and kept.
   ///
   /// All or none, except changes made before memory ran out. Errors: a stale handle, a person named twice, a choice out
-  /// of range, a step above an individual's critical step, with the muscle and the limit.
+  /// of range, a LegMuscles::dt_s above a person's critical step (the message contains the muscle and the limit).
   Result<void> set_muscles(std::span<const Entity> people, const std::optional<LegMuscles>& choice);
   Result<void> set_muscles(Entity person, const LegMuscles& choice = {}) {
     return set_muscles(std::span(&person, 1), choice);
   }
   Result<void> set_muscles(Entity person, std::nullopt_t none) { return set_muscles(std::span(&person, 1), none); }
 
-  /// Changes the method of one muscle, both sides, from the next tick on. The person's other choices stay. The
-  /// displayed control points have no jump in displacement or velocity: their difference from the new method's start is
-  /// added to its results and fades within `fade_s`. All or none, except changes made before memory ran out. Errors: a
+  /// Changes the method of one muscle, both sides, from the next tick on. The person's other choices stay. Displacement
+  /// and velocity of displayed control points do not jump. Their difference from the new method's first state is added
+  /// to its results, and fades to zero in 0.25 s. All or none, except changes made before memory ran out. Errors: a
   /// stale handle, a muscle that is not there, a choice out of range.
   Result<void> set_method(std::span<const Entity> people, Muscle muscle, const MuscleMethod& method);
   Result<void> set_method(Entity person, Muscle muscle, const MuscleMethod& method) {
@@ -208,11 +212,11 @@ class Simulation {
   /// Returns the current method of a muscle; Method::none if the person has no such muscle.
   MuscleMethod method(Entity person, Muscle muscle) const;
 
-  /// Sets the excitation of a muscle from the next tick on, a fraction of the maximum: one value for each person,
-  /// clamped to 0.01 to 1. The muscle must have ExcitationSource::host. It begins at 0.01, or at the value that another
-  /// source left, and a value holds until it is set again. Activation follows with a time constant of 5 to 20 ms, or 20
-  /// to 78 ms when it falls. All or none. Errors: a stale handle, a muscle that is not there or has another source
-  /// (Status::missing), a value that is not finite.
+  /// Sets the excitation of a muscle from the next tick on, as a fraction of the maximum. `excitation` has one value
+  /// for each person, clamped to 0.01 to 1. The muscle must have ExcitationSource::host. It begins at 0.01, or at the
+  /// value that another source left, and a value holds until it is set again. Activation follows with a time constant
+  /// of 5 to 20 ms, or 20 to 78 ms when it falls. All or none. Errors: a stale handle, a muscle that is not there or
+  /// has another source (Status::missing), a value that is not finite.
   Result<void> set_excitation(std::span<const Entity> people, Muscle muscle, Side side,
                               std::span<const float> excitation);
   Result<void> set_excitation(Entity person, Muscle muscle, Side side, float excitation) {
@@ -238,13 +242,14 @@ class Simulation {
   double tick_s() const;
   /// Simulated time so far, s.
   double time_s() const { return ticks() * tick_s(); }
-  /// Returns the time of each system and phase in the last tick, and in all ticks.
+  /// Returns the time of each system and phase: in the last tick, and in all ticks since timings were last reset.
   StepReport report() const;
   /// Returns the size of a snapshot, bytes. It contains all rows and handles, the tick and the time accumulated since.
   /// It does not contain the scene, nor meshes and bases: `restore` makes those that are missing.
   std::size_t snapshot_bytes() const;
-  /// Writes a snapshot to the caller's memory and returns its size, bytes. Allocates only for resources that no earlier
-  /// snapshot contained. Errors: too little room, a shared resource that no module names.
+  /// Writes a snapshot to the caller's memory and returns its size, bytes. Allocates only for shared resources
+  /// (Shared<T>) that no earlier snapshot contained. Errors: `out` is too small, a shared resource that no module
+  /// names.
   Result<std::size_t> save(std::span<std::byte> out) const;
   /// Restores a snapshot bit for bit, handles included, in this or another simulation. Both must have the same tick
   /// length, and the same versions of the modules of all saved rows. Allocates nothing if the numbers of rows and
@@ -254,8 +259,8 @@ class Simulation {
   Result<void> restore(std::span<const std::byte> in, const RestoreLimits& limits = {});
   /// Returns a hash of the whole state, independent of spawn order, row order and handles (engine/state_hash.h).
   std::uint64_t state_hash() const;
-  /// Returns a hash without tick and globals, as a sum over all people. The sums of simulations that share a crowd can
-  /// be added (state_hash_of in engine/state_hash.h).
+  /// Returns a sum of hashes over all people, without tick and globals. The sums of several simulations, each with a
+  /// part of one crowd, can be added (state_hash_of in engine/state_hash.h).
   std::uint64_t state_sum() const;
 
   /// Returns an entity's row of a component, get<Pose>(person). Errors: a stale handle, no such component.

@@ -9,9 +9,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// A request for a walk. Any two of speed (m/s), step length (m) and step frequency (steps/s) determine the third. One
-/// alone is completed by the usual step of people with that leg length at that speed (assets/gait). None means 5 km/h.
-/// Three must agree within 1 %. A speed of 0 requests standing.
+/// A request for a walk. Any two of speed (m/s), step length (m) and step frequency (steps/s) determine the third. If
+/// only one is set, the others are those of people with that leg length (assets/gait). If none is set, the speed is 5
+/// km/h. Three must agree within 1 %. A speed of 0 requests standing.
 struct GaitRequest {
   std::optional<float> speed_m_s{}, step_length_m{}, step_frequency_hz{};
   GaitStyle style{};
@@ -24,26 +24,28 @@ struct GaitChange {
   std::optional<GaitStyle> style{};
 };
 
-/// A consistent walk within its ranges, as `resolve_gait` returns it (mobil/systems/gait/resolve_gait.h). All zero
-/// except the style: standing.
+/// A walk whose values agree and are in range, as `resolve_gait` returns it (mobil/systems/gait/resolve_gait.h). If all
+/// values except the style are zero, the walker stands.
 template <class F>
 struct Gait {
-  F speed_m_s, step_length_m, step_frequency_hz;  // means of right and left steps
+  F speed_m_s, step_length_m, step_frequency_hz;  // averages over right and left steps
   /// One double support as a fraction of the cycle of two steps.
   F double_support_cycle;
   F heading_rad;          // target heading
   F left_m, ahead_m;      // step of a standing walker to the left and ahead
-  UInt32<F> displacement;  // number of that step, which is taken once
-  UInt32<F> revision;      // number of the request
+  UInt32<F> displacement;  // counts requests of such steps; each is taken once
+  UInt32<F> revision;      // counts requests for a gait
   GaitStyleOf<F> style;
 };
 
-/// Timing of the pelvis' rotation, list, tilt and shift. φ is the phase of the step, 0 at heel strike of the stance leg
-/// and 1 at the next. First harmonics of Schwartz, Rozumalski & Trost 2008 (free speed). Seen from the stance leg:
+/// Timing of the pelvis' rotation, list and tilt. φ is the phase of the step, 0 at heel strike of the stance leg and 1
+/// at the next strike. The numbers are the first harmonics of curves by Schwartz, Rozumalski & Trost 2008 (free speed).
+/// "That side" is the side of the stance leg; A is the amplitude:
 ///   rotation (that side forward) = A cos π(φ − rotation);
 ///   list (that side up) = A (first cos π(φ − first phase) + third cos 3π(φ − third phase));
 ///   tilt (anterior) = mean + A cos 2π(φ − tilt).
-/// The odd harmonics change sign as the sides change, so all curves are smooth through heel strike.
+/// Rotation and list have odd harmonics only, which change sign when the stance side changes. All curves are therefore
+/// smooth through heel strike.
 namespace pelvis_phase {
 inline constexpr int rotation_1000 = 160, list_first_1000 = 272, list_third_1000 = 314, tilt_1000 = -166;
 inline constexpr float rotation = rotation_1000 / 1000.0F;
@@ -52,29 +54,30 @@ inline constexpr float list_third = 0.30F, list_third_phase = list_third_1000 / 
 inline constexpr float tilt = tilt_1000 / 1000.0F;
 }  // namespace pelvis_phase
 
-/// One double support, % of the cycle: `at_rest` − `per_cadence` · steps a minute at a height of 1.8 m. After Bruderlin
-/// & Calvert, through values of Schwartz (2008): 12, 10 and 8 % at slow, free and fast speed.
+/// Duration of one double support, % of the cycle: `at_rest` − `per_cadence` · steps a minute of a body of 1.8 m. The
+/// law is from Bruderlin & Calvert. Its numbers are fitted to Schwartz (2008): 12, 10 and 8 % at slow, free and fast
+/// speed.
 namespace double_support_law {
 inline constexpr double at_rest = 23.6, per_cadence = 0.131, least = 6.0, most = 18.0;
 }
 
-/// Toes are flat until the heel has risen by `from` (rad); then the foot rolls over their tips, which stay in place.
-/// With d = heel's rise − from, the toes are pitched by part · d³/(d² + within²).
+/// Toes are flat until the foot is pitched by `from` (rad, heel up). The foot then rolls over the tips of the toes,
+/// which stay in place. With d = pitch − from, the toes are pitched by part · d³/(d² + within²).
 namespace toe_rocker {
 inline constexpr float from = 0.35F, within = 0.40F, part = 0.7F;
 }
 
-/// Step length at which the style's values hold, relative to body height.
+/// Step length, relative to body height, to which the values of a style refer.
 inline constexpr double natural_step_h = 0.43;
 
-/// Amplitude of arm swing relative to the style's at a natural step: by_speed · speed/√(g · leg), at most 1. Arms
-/// follow the opposite leg's hip-to-ankle line, which ranges from −reach_back to 1, times half a step over the leg.
+/// Arm swing. For a step of natural length its amplitude is that of the style times by_speed · speed/√(g · leg), at
+/// most 1. An arm follows the direction of the opposite leg's line from hip to ankle. The range of that direction is
+/// −reach_back to 1, times half a step length over the leg length.
 namespace arm_swing {
 inline constexpr double by_speed = 1.5, reach_back = 1.15;
 }
 
-/// Fractions of the swing between which the toes straighten; they leave the ground bent upward against the foot's
-/// pitch.
+/// Fractions of the swing between which the toes straighten. At toe-off they are bent upward relative to the foot.
 namespace swing_toes {
 inline constexpr float from = 0.25F, to = 0.85F;
 }
@@ -92,13 +95,13 @@ struct PostureParameters {
 /// is a strike of length 0 and speed 0. m, s, rad.
 template <class F>
 struct HeelStrike {
-  F speed_m_s;                // of the gait that it belongs to; 0: standing
+  F speed_m_s;                // of the gait in which the foot strikes; 0: standing
   F length_m;                 // from the trailing foothold to the leading one
   F pace_hz;                  // steps a second
   F advance_m;                // advance of the hips in a step at that pace
   F half_width_m, toe_out;    // of the leading foot
-  F double_support;           // after it, of the cycle
-  F own_style;                // share of the gait's own style; the rest is the usual style
+  F double_support;           // that follows, as a fraction of the cycle
+  F own_style;                // share of the gait's style, 0 to 1; the rest is the usual style
   F shape[step_shape::size];  // of a steady walk (mobil/components/step_shape.h), lengths in m
   PostureParameters<F> posture;
 };
@@ -116,16 +119,17 @@ struct Quintic {
 /// foothold, the point of the ground under the ankle when the foot is flat. z is forward, y up, "out" away from the
 /// body's middle on the leg's own side. Angles rad, lengths m, times s from heel strike.
 ///
-/// The phase p rises from 0 to 1 over the step, at each end at that strike's pace. The shapes of both strikes are
-/// blended: that of `from` in double support, then with e(p) = 10 q³ − 15 q⁴ + 6 q⁵ toward that of `to`. Here q is the
-/// elapsed fraction of single support, or of the whole step if it starts at rest. All curves are twice continuously
+/// The phase p rises from 0 to 1 over the step; at each end its rate is the pace of that strike. The shapes of both
+/// strikes are blended. In double support the shape is that of `from`. After it, the share of `to` is e(p) = 10 q³ − 15
+/// q⁴ + 6 q⁵. The elapsed part of single support is q = (p − mixed_from)/(1 − mixed_from). In a step that starts at
+/// rest `mixed_from` is 0, so the shapes are blended over the whole step. All curves are twice continuously
 /// differentiable, also across steps.
 template <class F>
 struct StepPlan {
   F duration_s, double_support_s;    // of the step; of its first part on both feet
   F double_support, landing;         // phases of the other foot's toe-off and heel strike; both 0: stands
   F step_length_m, length_before_m;  // to the next foothold, from the one before
-  F stride_part;                     // swing length relative to that of the strikes' steady walks
+  F stride_part;                     // swing length relative to the steady walks of both strikes
   F mixed_from;                      // phase at which blending of the shapes begins
   F phase_rate_from, phase_rate_to;  // rate of the phase, per fraction of the step's time
   F trailing_half_width_m, trailing_toe_out;
@@ -133,27 +137,30 @@ struct StepPlan {
   UInt32<F> swaps;                  // 1: a standing walker's other foot becomes the stance foot at the start
   UInt32<F> displacement, revision;  // of the gait for which it was solved
   UInt32<F> settled;                 // 1: the next step mirrors this one while the gait is unchanged
-  UInt32<F> clamped;                 // 1: this step needs a centre of pressure outside the soles
+  UInt32<F> clamped;                 // 1: centre of pressure outside the soles by over 4 % of height
   HeelStrike<F> from, to;
-  Quintic<F> even_m;  // path of the hips by p, without its periodic part
+  Quintic<F> even_m;  // forward path of the hips by p, without its periodic part
   /// The swing foot from toe-off to heel strike, by the fraction of the swing: its pitch and its ankle's position
   /// relative to the stance foothold, without the bumps of its shape.
   Quintic<F> swing_pitch, swing_forward_m, swing_up_m, swing_out_m;
-  /// Correction of the swing ankle, added to those bumps if the swing is integrated forward (style: forward_swing). Its
-  /// terms are 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, with u the fraction of the swing.
+  /// Correction of the swing ankle, added to those bumps if the swing is computed from joint torques (style:
+  /// forward_swing). Its terms are 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, with u the fraction of the
+  /// swing.
   F swing_by_forward_m[other_way_count], swing_by_up_m[other_way_count];
   /// Correction of the hips' path if the strikes differ: forward, and toward the stance foot. Its terms are
   /// 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, with u the fraction of the step's time.
   F ahead_m[other_way_count], aside_m[other_way_count];
 };
 
-/// Position of a walker. `time_s`: time since heel strike of the stance foot (0 right, 1 left). `line_x_m`, `line_z_m`,
-/// `heading_rad`: point of the walking line next to the stance foothold, and the line's heading about +Y, 0 toward +Z,
-/// positive to the left. `anchor`: start of the straight line and its step. `turn`: turn of the line to the next
-/// foothold and from the last. `chord`: headings of the straight ways to and from them, relative to the line. In a turn
-/// all footholds are shifted to the left of the line by `shift`, so that the ground can push the body inward. The
-/// line's curvature is constant while one foot bears load (assets/gait/walking_line-inl.h). All zero: right heel
-/// strike, origin, +Z.
+/// Position of a walker. `time_s`: time since heel strike of the stance foot (0 right, 1 left). The walking line is the
+/// path between the footholds along which the walker advances. `line_x_m`, `line_z_m`, `heading_rad`: its point next to
+/// the stance foothold, and its heading there (about +Y, 0 toward +Z, positive to the left). `anchor`: point at which
+/// the present straight part of the line began, and the value of `steps` there. `turn`: change of the line's heading
+/// from the stance foothold to the next one, and from the one before to the stance foothold. `chord`: heading of the
+/// straight line between the same footholds, relative to the walking line at the stance foothold. In a turn each
+/// foothold is displaced to the left of the line by `shift` (negative: right). The ground can then push the body
+/// inward. The line's curvature is constant while one foot bears load (assets/gait/walking_line-inl.h). All zero: right
+/// heel strike, origin, +Z.
 template <class F>
 struct GaitState {
   F time_s;

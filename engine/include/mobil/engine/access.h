@@ -1,21 +1,21 @@
 #pragma once
-// Parameters of systems. The scheduler derives accesses from a system's signature:
+// Parameters of systems. The scheduler derives accesses from a system's signature.
 //
-//   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and can read it)
-//   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and can read it)
-//   Maybe<C>                 reads this block's component if the table has it; MaybeField<const Tag> a field,
-//                            MaybeField<Tag> writes it (and can read it)
-//   Ahead<C>                 the component of the next blocks, for prefetching what it refers to
-//   Later<Tag>               this block's field that a later system works on, for prefetching it
-//   Previous<C>              reads the component as it was before this tick's writers
-//   Lookup<C>                reads the component of other entities, this tick's
-//   Published<T>             writes what the block's rows publish; LookupPublished<T> reads it
-//   TagValue<Tag>, Shared<T> the table's tag or shared resource
-//   Scratch<Tag>             scratch memory, as many floats as the table's tag specifies
-//   Tally<Tag>               adds to a count of the tick, which is not state (Schedule::tally); one a system
-//   Tick, float              the tick; a plain float is its length in s
-//   Rows                     the entities of the block's lanes
-//   const Table&             the block's table: number of rows, parts; results must not depend on it
+//   const C<Lanes<float>>&   reads this block's component;          C<Lanes<float>>&   writes it (and can read it);
+//   Field<const Tag>         reads this block's field;              Field<Tag>         writes it (and can read it);
+//   Maybe<C>                 reads this block's component if the table has it; MaybeField<const Tag> a field;
+//                            MaybeField<Tag> writes it (and can read it);
+//   Ahead<C>                 the component of the next blocks, for prefetching what it refers to;
+//   Later<Tag>               this block's field that a later system works on, for prefetching it;
+//   Previous<C>              reads the component as it was before this tick's writers;
+//   Lookup<C>                reads the component of other entities, this tick's;
+//   Published<T>             writes what the block's rows publish; LookupPublished<T> reads it;
+//   TagValue<Tag>, Shared<T> the table's tag or shared resource;
+//   Scratch<Tag>             scratch memory, as many floats as the table's tag specifies;
+//   Tally<Tag>               adds to a count of the tick, which is not state (Schedule::tally); one a system;
+//   Tick, float              the tick; a plain float is its length in s;
+//   Rows                     the entities of the block's lanes;
+//   const Table&             the block's table: number of rows, parts; results must not depend on it.
 //
 // A system runs on every block of every table that has all named components, fields and tags (except Maybe, Later,
 // Scratch and Tally).

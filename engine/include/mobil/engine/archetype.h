@@ -1,9 +1,9 @@
 #pragma once
-// Parts of entities, and the archetype (key) that they form. There are four kinds:
-//   component  Pose<float>                  a row of 4-byte words, the same number in every table
-//   field      FieldWidth<NodalVelocity>    a row of floats, their number fixed by the table's key
-//   tag        TagValue<Substeps>, Shared<Mesh>   one value for the whole table, part of its key
-//   published  Publishes<PublishedLeg>  a struct for other rows within a tick; not state
+// Parts of entities, and the archetype (key) that they form. There are four kinds.
+//   component  Pose<float>                  a row of 4-byte words, the same number in every table;
+//   field      FieldWidth<NodalVelocity>    a row of floats, their number fixed by the table's key;
+//   tag        TagValue<Substeps>, Shared<Mesh>   one value for the whole table, part of its key;
+//   published  Publishes<PublishedLeg>  a struct for other rows within a tick; not state.
 // Parts are identified by a hash of their type's full name, which must be unique in a program. Nothing is registered
 // or global.
 

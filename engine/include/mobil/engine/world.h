@@ -202,7 +202,7 @@ class World {
   /// Returns the alive owner of a member, or a stale handle.
   Entity owner_of(Entity member) const { return alive(member) ? entities_.at(members_.owner(member.index)) : Entity{}; }
 
-  /// Shares ownership of an immutable resource until the world ends. The same resource always returns the same handle.
+  /// Shares ownership of an immutable resource until the world ends. A resource always has one handle.
   /// `content`: a hash of it, if it is part of the state of its rows.
   template <class T>
   Shared<T> share(std::shared_ptr<const T> resource, std::uint64_t content = 0) {

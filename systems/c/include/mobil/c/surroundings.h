@@ -8,8 +8,8 @@
 /* Distances that managed walkers keep. Values are clamped to their ranges. */
 typedef struct mobil_avoidance_options {
   size_t size;
-  float radius_h; /* half the breadth that two walkers keep clear, over height, 0.02 to 0.5; default 0.105: 0.18 m at
-                     1.72 m, for the trunk and turned shoulders */
+  float radius_h;    /* half the breadth that two walkers keep clear, over height, 0.02 to 0.5; default 0.105: 0.18 m at
+                        1.72 m, for the trunk and turned shoulders */
   float overlap_m;   /* maximum overlap of two walkers after waiting, 0 to 0.2; default 0.03 */
   float shoulders_h; /* half the breadth of the shoulders with the arms, over height, radius_h to 0.5; default 0.128.
                         Kept clear of walls, discs and unmanaged people; closer to others the shoulders turn */
@@ -50,8 +50,8 @@ MOBIL_API int mobil_avoidance_report(mobil_sim* sim, mobil_avoidance_counts* out
 /* Writes the ground at `count` positions, which are rows of three floats with height 0; `who` are the people. `ground`
  * has rows of four floats, initially zero: height, and a normal of any length (level if zero). Slopes are limited to 45
  * degrees. A result that is not finite, or has a normal that does not point up, is replaced: by the plane of another
- * query under the same sole, or by level ground at the last foothold's height. Must return 0; any other value ends the
- * call: the tick does not run, and mobil_advance or mobil_tick is refused. It must not use the simulation. */
+ * query under the same sole, or by level ground at the last height. Must return 0; any other value ends the call: the
+ * tick does not run, and mobil_advance or mobil_tick is refused. It must not use the simulation. */
 typedef int (*mobil_heights)(void* user, const float* places, const mobil_id* who, size_t count, float* ground);
 /* Counts of all ticks of the last mobil_advance or mobil_tick: managed people (of the last tick), queried steps,
  * queried positions, and results that could not be used. */

@@ -53,10 +53,10 @@ struct WalkExtremes {
 /// Parts and sampling of a check. Between samples at 60 a second a joint goes up to 1.5° further, and the pelvis'
 /// acceleration is up to 4 m/s² higher. A walk too slow for 0.6 of its speed slows down to the minimum speed.
 enum class Looking : std::uint8_t {
-  roughly,       // the steady walk at 60 samples a second
-  closely,       // the steady walk at 240
-  at_stops_too,  // `closely`, and stops from either foot at 120
-  at_changes,    // at 60: a first step, turns by 60° to either side, slowing down to 0.6 of the speed and back
+  roughly,         // the steady walk at 60 samples a second
+  closely,         // the steady walk at 240
+  at_stops_too,    // `closely`, and stops from either foot at 120
+  at_changes,      // at 60: a first step, turns by 60° to either side, slowing down to 0.6 of the speed and back
   at_changes_too,  // the last two together
 };
 /// Returns the additional margin in steady walks and stops of styles far from the usual one, because turns and changes

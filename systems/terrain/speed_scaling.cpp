@@ -34,7 +34,7 @@ void mark(World& world, Entity person, const Gait<float>& gait, const LevelWalk&
 
 }  // namespace
 
-void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people, Slowing& to,
+void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people, SpeedScaling& to,
                  std::optional<float> steepness) {
   constexpr float min_part = 0.04F;  // smaller changes are not worth solving a step again
   to.people.clear();
@@ -66,16 +66,16 @@ void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people,
   }
   keep_walk_limits(jobs, to.sizes, to.gaits, to.styles);
   auto kept = to.gaits.cbegin();
-  std::erase_if(to.people, [&](const Slowing::One& one) {
+  std::erase_if(to.people, [&](const SpeedScaling::One& one) {
     if (!one.has_style || same_style((kept++)->style, one.before.style)) return false;
     mark(world, one.change.person, one.before, {});
     return true;
   });
   to.changes.clear();
-  for (const Slowing::One& one : to.people) to.changes.push_back(one.change);
+  for (const SpeedScaling::One& one : to.people) to.changes.push_back(one.change);
 }
 
-void keep_slowed(World& world, const Slowing& to) {
+void keep_slowed(World& world, const SpeedScaling& to) {
   for (const auto& [change, level, before, has_style] : to.people) {
     const Gait<float> gait = asked_body(world, change.person)->gait;
     if (gait.revision == before.revision) continue;  // the request failed

@@ -14,7 +14,7 @@
 namespace mobil::inline v0_3 {
 
 /// Requests that result from walkers' slopes, and scratch memory to find them, kept between calls.
-struct Slowing {
+struct SpeedScaling {
   struct One {
     WalkChange change;
     LevelWalk level;
@@ -39,9 +39,9 @@ struct Slowing {
 /// of usual length become those of the slower speed, and longer ones shorten by as much. Shorter ones, as on stair
 /// treads, keep their length but become no longer than usual. Marks all who were checked (Footing::looked_at).
 /// `steepness` replaces each person's own; then no person is skipped.
-void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people, Slowing& to,
+void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people, SpeedScaling& to,
                  std::optional<float> steepness = {});
 /// Records, after `change_walks(frame, to.changes)`, the requests of these walkers for level ground.
-void keep_slowed(World& world, const Slowing& to);
+void keep_slowed(World& world, const SpeedScaling& to);
 
 }  // namespace mobil::inline v0_3

@@ -71,7 +71,7 @@ struct TerrainWork {
   std::vector<TerrainQuery> queries;
   std::vector<TerrainHeight> answers;
   std::vector<Entity> people;  // whose speed must be checked
-  Slowing slowing;
+  SpeedScaling scaling;
   TerrainReport report;
   bool told = false;  // `report` is of past ticks
 
@@ -229,7 +229,7 @@ void TerrainWork::stand_up(World& world, Entity person) {
 std::size_t TerrainWork::put_answers(const Frame& frame) {
   people.clear();
   people.reserve(asking.size());
-  slowing.reserve(asking.size());
+  scaling.reserve(asking.size());
   std::size_t unusable = 0;
   {
     const FlushDenormals flush;  // as in a tick
@@ -266,10 +266,10 @@ void TerrainWork::find_changed(World& world) {
 /// Changes the speed of these walkers to suit the steepness of their ground, or one steepness for all (find_slowed).
 Result<void> TerrainWork::scale_speed(const Frame& frame, std::span<const Entity> some,
                                       std::optional<float> steepness) {
-  find_slowed(frame.world, frame.jobs, some, slowing, steepness);
-  if (slowing.changes.empty()) return {};
-  const auto done = change_walks(frame, slowing.changes);
-  keep_slowed(frame.world, slowing);
+  find_slowed(frame.world, frame.jobs, some, scaling, steepness);
+  if (scaling.changes.empty()) return {};
+  const auto done = change_walks(frame, scaling.changes);
+  keep_slowed(frame.world, scaling);
   if (!done) return tl::unexpected(done.error());
   return {};
 }

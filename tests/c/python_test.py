@@ -237,11 +237,11 @@ class Worlds(unittest.TestCase):
         slope = 0.1
         terrain = world.terrain
         terrain.manage(people)
-        places, who = terrain.ask()
+        places, who = terrain.query()
         self.assertEqual(places.shape, (132, 3))
         self.assertEqual(set(who["index"]), set(people["index"]))
         with self.assertRaises(mobil.RefusedError):
-            terrain.answer([0.0])
+            terrain.resolve([0.0])
         terrain.set_heights(lambda at: (slope * at[:, 0], [-slope, 0, 1]))
         for _ in range(50):
             world.tick(4)

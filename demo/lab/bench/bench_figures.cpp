@@ -75,7 +75,8 @@ void add_cost(BenchRun& run, const std::string& name, const Cost& cost) {
 std::map<double, Cost> figure18(BenchRun& run, const FigureMesh& mesh, const MuscleTemplate& muscle) {
   std::map<double, Cost> explicit_costs;
   for (const Method method : {Method::explicit_central, Method::implicit_central, Method::newmark}) {
-    const std::string_view name = method_name[static_cast<std::size_t>(method)];
+    const std::string_view whole = method_name[static_cast<std::size_t>(method)];
+    const std::string_view name = whole.substr(0, whole.find('-'));  // explicit, implicit or newmark
     for (const double ms : steps_ms) {
       const auto cost = second(run, muscle, method, ms * 1e-3);
       add_cost(run, fmt::format("figure18.{}{}.{:.1f}ms", name, mesh.nodes, ms), cost);

@@ -76,6 +76,7 @@ class Cluster {
   /// cannot be written; the last snapshot stays.
   Result<void> save();
 
+  /// Returns the options given at construction.
   const ClusterOptions& options() const { return options_; }
   /// Returns a shard (`number` below the options' shards), or null if another rank has it. If shards can move, it is
   /// valid until the next `tick`.

@@ -4,6 +4,7 @@
 
 /* ---- Deprecated -------------------------------------------------------------------------------------------------- */
 
+/* The attribute of each name states its replacement. */
 enum {
   MOBIL_CHOOSING MOBIL_DEPRECATED("MOBIL_LOD_OPTIONS") = MOBIL_LOD_OPTIONS,
   MOBIL_CHOSEN MOBIL_DEPRECATED("MOBIL_LOD_COUNTS") = MOBIL_LOD_COUNTS,
@@ -20,7 +21,6 @@ typedef mobil_level mobil_way_figures MOBIL_DEPRECATED("mobil_level");
 typedef mobil_avoidance_options mobil_avoidance MOBIL_DEPRECATED("mobil_avoidance_options");
 typedef mobil_avoidance_counts mobil_steered MOBIL_DEPRECATED("mobil_avoidance_counts");
 typedef mobil_custom_skin mobil_own_skin MOBIL_DEPRECATED("mobil_custom_skin");
-
 MOBIL_API MOBIL_DEPRECATED("mobil_get_state and mobil_has") int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
 /* mobil_wake does not change compact people, and mobil_expand does not change sleepers. */
 MOBIL_API MOBIL_DEPRECATED("mobil_set_state") int mobil_sleep(mobil_sim* sim, const mobil_id* ids, size_t count,
@@ -35,7 +35,6 @@ MOBIL_API MOBIL_DEPRECATED("mobil_enable") int mobil_set_forces(mobil_sim* sim, 
 MOBIL_API MOBIL_DEPRECATED("mobil_enable") int mobil_set_fat_wobble(mobil_sim* sim, const mobil_id* ids, size_t count,
                                                                     int on);
 MOBIL_API MOBIL_DEPRECATED("mobil_enable") int mobil_watch(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
-
 MOBIL_API MOBIL_DEPRECATED("mobil_lod_set_options") int mobil_start_choosing(mobil_sim* sim,
                                                                              const mobil_lod_options* options,
                                                                              const mobil_muscles* muscles);
@@ -50,7 +49,6 @@ MOBIL_API MOBIL_DEPRECATED("mobil_lod_level") int mobil_way(int way, int muscle,
                                                             int inertia, int pulling, mobil_level* out);
 /* `out` can be null. */
 MOBIL_API MOBIL_DEPRECATED("mobil_lod_report") int mobil_choose(mobil_sim* sim, mobil_lod_counts* out);
-
 /* Also removes walls and discs. */
 MOBIL_API MOBIL_DEPRECATED("mobil_avoidance_set_options") int mobil_start_avoidance(
     mobil_sim* sim, const mobil_avoidance_options* options);
@@ -65,7 +63,6 @@ MOBIL_API MOBIL_DEPRECATED("mobil_avoidance_set_discs") int mobil_set_discs(mobi
                                                                             size_t stride, size_t count);
 /* `out` can be null. */
 MOBIL_API MOBIL_DEPRECATED("mobil_avoidance_report") int mobil_steer(mobil_sim* sim, mobil_avoidance_counts* out);
-
 MOBIL_API MOBIL_DEPRECATED("mobil_terrain_manage") int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids,
                                                                            size_t count, int on);
 MOBIL_API MOBIL_DEPRECATED("mobil_terrain_set_speed_scaling") int mobil_set_slowing(mobil_sim* sim, int on);
@@ -74,7 +71,6 @@ MOBIL_API MOBIL_DEPRECATED("mobil_terrain_query") int mobil_ask_ground(mobil_sim
 MOBIL_API MOBIL_DEPRECATED("mobil_terrain_resolve") int mobil_answer_ground(mobil_sim* sim, const float* ground,
                                                                             size_t stride, size_t count,
                                                                             size_t* unusable);
-
 MOBIL_API MOBIL_DEPRECATED("mobil_limit_violations") int mobil_broken_limits(mobil_sim* sim, mobil_id id, char* text,
                                                                              size_t room, size_t* length);
 MOBIL_API MOBIL_DEPRECATED("mobil_limit_violation_counts") int mobil_beyond_limits(mobil_sim* sim, size_t* people,

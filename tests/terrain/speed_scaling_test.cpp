@@ -75,7 +75,7 @@ TEST(SlopeSpeed, FallsWithSteepnessAndKeepsLowSpeeds) {
   EXPECT_NEAR(slope_speed(1.4F, -0.3F) / 1.4F, std::exp(-0.7), 1e-6);
 }
 
-TEST(Slowing, WalkersSlowDownOnASlopeAndThenResume) {
+TEST(SpeedScaling, WalkersSlowDownOnASlopeAndThenResume) {
   for (const float rise : {0.15F, -0.25F}) {
     Hike hike = hike_on(ramp(rise), {.speed_m_s = 1.3F});
     walk_to(hike, first_m - 2);
@@ -93,13 +93,13 @@ TEST(Slowing, WalkersSlowDownOnASlopeAndThenResume) {
   }
 }
 
-TEST(Slowing, IsOffByDefault) {
+TEST(SpeedScaling, IsOffByDefault) {
   Hike hike(ramp(0.15F), {.speed_m_s = 1.3F});
   walk_to(hike, last_m - 4);
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
 }
 
-TEST(Slowing, RequestsOnASlopeAreForLevelGround) {
+TEST(SpeedScaling, RequestsOnASlopeAreForLevelGround) {
   Slowed hike;
   ASSERT_TRUE(hike.simulation.turn_to(hike.person, 0.05F));  // does not set the speed
   walk_to(hike, first_m + 7);
@@ -112,7 +112,7 @@ TEST(Slowing, RequestsOnASlopeAreForLevelGround) {
 }
 
 /// The requested speed can equal the scaled one.
-TEST(Slowing, HostCanRequestTheScaledSpeed) {
+TEST(SpeedScaling, HostCanRequestTheScaledSpeed) {
   Hike hike = hike_on(stairs(0.16F, 0.3F, 20), {.speed_m_s = 1.3F});
   walk_to(hike, 4);
   ASSERT_EQ(hike.get<Gait>().speed_m_s, 0.6F);
@@ -121,7 +121,7 @@ TEST(Slowing, HostCanRequestTheScaledSpeed) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 0.6F);
 }
 
-TEST(Slowing, StylesRequestedOnASlopeAreForLevelGround) {
+TEST(SpeedScaling, StylesRequestedOnASlopeAreForLevelGround) {
   std::size_t drawn = 0;
   for (const float asymmetry : {0.05F, 0.15F, 0.25F}) {
     const GaitChange change{.style = GaitStyle{.time_asymmetry = asymmetry}};
@@ -143,7 +143,7 @@ TEST(Slowing, StylesRequestedOnASlopeAreForLevelGround) {
 }
 
 /// A style is requested for level ground. A walker whose style is impossible at the lower speed is not slowed.
-TEST(Slowing, StyleThatIsImpossibleOnTheSlopeIsKept) {
+TEST(SpeedScaling, StyleThatIsImpossibleOnTheSlopeIsKept) {
   Hike hike = hike_on(ramp(0.2F), {.speed_m_s = 1.3F});
   walk_to(hike, first_m + 4);
   ASSERT_LT(hike.get<Gait>().speed_m_s, 0.8F);
@@ -155,7 +155,7 @@ TEST(Slowing, StyleThatIsImpossibleOnTheSlopeIsKept) {
   }
 }
 
-TEST(Slowing, RefusalsKeepTheRequestedSpeed) {
+TEST(SpeedScaling, RefusalsKeepTheRequestedSpeed) {
   Slowed hike;
   ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 1.0F}));
   const WalkChange refused[] = {{hike.person, GaitChange{}, 1e9F}};
@@ -164,7 +164,7 @@ TEST(Slowing, RefusalsKeepTheRequestedSpeed) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.0F);
 }
 
-TEST(Slowing, LongStepsShortenAsUsualSteps) {
+TEST(SpeedScaling, LongStepsShortenAsUsualSteps) {
   const auto usual_m = [](float speed_m_s) { return resolve_gait(1.75F, {.speed_m_s = speed_m_s})->step_length_m; };
   for (const float part : {1.02F, 1.06F}) {
     Hike hike = hike_on(ramp(0.2F), {.speed_m_s = 1.3F, .step_length_m = part * usual_m(1.3F)});
@@ -175,14 +175,14 @@ TEST(Slowing, LongStepsShortenAsUsualSteps) {
   }
 }
 
-TEST(Slowing, StepsMatchingTreadsKeepTheirLength) {
+TEST(SpeedScaling, StepsMatchingTreadsKeepTheirLength) {
   Hike hike = hike_on(stairs(0.16F, 0.3F, 40), {.speed_m_s = 0.9F, .step_length_m = 0.30F});
   walk_to(hike, 8);
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, 0.6F, 0.03F);
   EXPECT_FLOAT_EQ(hike.get<Gait>().step_length_m, 0.30F);
 }
 
-TEST(Slowing, ReleasedWalkersHaveTheirRequestedGait) {
+TEST(SpeedScaling, ReleasedWalkersHaveTheirRequestedGait) {
   Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
   const Gait<float> level = hike.get<Gait>();
   walk_to(hike, first_m + 6);
@@ -192,7 +192,7 @@ TEST(Slowing, ReleasedWalkersHaveTheirRequestedGait) {
   EXPECT_EQ(hike.get<Gait>().step_length_m, level.step_length_m);
 }
 
-TEST(Slowing, AvoidingWalkersSlowDown) {
+TEST(SpeedScaling, AvoidingWalkersSlowDown) {
   Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
   const auto speed_at = [&](float z_m) {
     one.walk_to(z_m);
@@ -204,7 +204,7 @@ TEST(Slowing, AvoidingWalkersSlowDown) {
   EXPECT_NEAR(speed_at(last_m + 6), 1.3F, 0.01F);
 }
 
-TEST(Slowing, DesiredSpeedIsKeptWhenAvoidanceChangesOnASlope) {
+TEST(SpeedScaling, DesiredSpeedIsKeptWhenAvoidanceChangesOnASlope) {
   Slowed hike;
   Avoidance avoidance = hike.simulation.avoidance();
   ASSERT_TRUE(avoidance.manage(hike.person));
@@ -220,7 +220,7 @@ TEST(Slowing, DesiredSpeedIsKeptWhenAvoidanceChangesOnASlope) {
 }
 
 /// Avoidance chooses a step before the terrain of the next one is known.
-TEST(Slowing, DesiredSpeedIsKeptWhereverAvoidanceEnds) {
+TEST(SpeedScaling, DesiredSpeedIsKeptWhereverAvoidanceEnds) {
   for (int ticks = 0; ticks < 90; ticks += 3) {
     Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
     one.walk_to(last_m - 0.4F);
@@ -232,7 +232,7 @@ TEST(Slowing, DesiredSpeedIsKeptWhereverAvoidanceEnds) {
 }
 
 /// In any order: terrain or avoidance ends, speed scaling is turned off, or the desired velocity changes.
-TEST(Slowing, LeavingASlopeRestoresTheDesiredSpeed) {
+TEST(SpeedScaling, LeavingASlopeRestoresTheDesiredSpeed) {
   for (int way = 0; way < 4; ++way) {
     Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
     Hike& hike = one.hike;
@@ -252,7 +252,7 @@ TEST(Slowing, LeavingASlopeRestoresTheDesiredSpeed) {
 }
 
 /// On level ground, or downhill so gently that no walker slows down, behind a slow obstacle.
-TEST(Slowing, WalkersSlowedByOthersKeepTheirSpeed) {
+TEST(SpeedScaling, WalkersSlowedByOthersKeepTheirSpeed) {
   for (const float rise : {0.0F, -0.05F}) {
     Avoider one(plane(0, rise), {.speed_m_s = 1.3F});
     auto& [hike, avoidance] = one;
@@ -273,7 +273,7 @@ TEST(Slowing, WalkersSlowedByOthersKeepTheirSpeed) {
 }
 
 /// A walker who avoids others on a slope and wants to stand continues at the current speed after release.
-TEST(Slowing, ReleasedWalkersKeepWalkingDespiteAStandRequest) {
+TEST(SpeedScaling, ReleasedWalkersKeepWalkingDespiteAStandRequest) {
   Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
   one.walk_to(first_m + 4);
   Hike& hike = one.hike;
@@ -284,7 +284,7 @@ TEST(Slowing, ReleasedWalkersKeepWalkingDespiteAStandRequest) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, speed_m_s);
 }
 
-TEST(Slowing, EmptyRequestKeepsTheDesiredSpeed) {
+TEST(SpeedScaling, EmptyRequestKeepsTheDesiredSpeed) {
   Slowed hike;
   ASSERT_TRUE(hike.simulation.change_gait(hike.person, {}));
   walk_to(hike, last_m - 2);
@@ -293,7 +293,7 @@ TEST(Slowing, EmptyRequestKeepsTheDesiredSpeed) {
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 0.01F);
 }
 
-TEST(Slowing, HostCanRepeatItsRequest) {
+TEST(SpeedScaling, HostCanRepeatItsRequest) {
   Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
   for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < last_m - 4; ++i) {
     ASSERT_TRUE(hike.simulation.change_gait(hike.person, {.speed_m_s = 1.3F}));
@@ -302,7 +302,7 @@ TEST(Slowing, HostCanRepeatItsRequest) {
   EXPECT_NEAR(hike.get<StepPlan>().to.speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
 }
 
-TEST(Slowing, SleepersAreReleasedToTheirLevelGait) {
+TEST(SpeedScaling, SleepersAreReleasedToTheirLevelGait) {
   Hike hike = hike_on(plane(0, 0.15F), {.speed_m_s = 1.3F});
   walk_to(hike, 12);
   ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
@@ -313,7 +313,7 @@ TEST(Slowing, SleepersAreReleasedToTheirLevelGait) {
 }
 
 /// With level of detail, a person who wakes on a hill is displayed there, not below it.
-TEST(Slowing, SleepersKeepTheHeightOfTheirGround) {
+TEST(SpeedScaling, SleepersKeepTheHeightOfTheirGround) {
   Hike hike = hike_on([](float, float) { return TerrainHeight{50, 0, 0}; }, {.speed_m_s = 1.3F});
   walk_to(hike, 4);
   const auto high = [&](const char* when) {
@@ -332,7 +332,7 @@ TEST(Slowing, SleepersKeepTheHeightOfTheirGround) {
   }
 }
 
-TEST(Slowing, EndsWhenTheOptionIsTurnedOff) {
+TEST(SpeedScaling, EndsWhenTheOptionIsTurnedOff) {
   Slowed hike;
   hike.terrain.set_options({.slows_down = false});
   for (int i = 0; i < 120; ++i) hike.simulation.tick();
@@ -341,7 +341,7 @@ TEST(Slowing, EndsWhenTheOptionIsTurnedOff) {
 }
 
 /// A style that would be clamped toward the usual one at the lower speed is kept: such a walker is not slowed.
-TEST(Slowing, StylesStay) {
+TEST(SpeedScaling, StylesStay) {
   std::size_t slowed = 0, refused = 0;
   for (int draw = 0; draw < 16; ++draw) {
     GaitStyle style;
@@ -361,7 +361,7 @@ TEST(Slowing, StylesStay) {
   EXPECT_GT(refused, 0U);
 }
 
-TEST(Slowing, ContinuesFromASnapshot) {
+TEST(SpeedScaling, ContinuesFromASnapshot) {
   Slowed hike;
   std::vector<std::byte> bytes(hike.simulation.snapshot_bytes());
   ASSERT_TRUE(hike.simulation.save(bytes));

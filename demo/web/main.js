@@ -137,7 +137,7 @@ class Page {
       for (const people of everybody) world.terrain.release(people);
     }
     this.ground = scene.ground ? new Ground(groundNames[scene.ground], this.stage) : undefined;
-    world.terrain.setSlowing(!!scene.slow);
+    world.terrain.setSpeedScaling(!!scene.slow);
     world.terrain.setHeights(this.ground?.heights ?? null);
     if (this.ground) for (const people of everybody) world.terrain.manage(people);
   }
@@ -250,7 +250,7 @@ class Page {
       slider('style', { id: n.name, name, title: n.meaning, holder: scene.style, key: n.name, low: n.low, high: n.high, step, unit, usual: n.usual, act: walk });
     }
     choice('walk', { id: 'ground', name: 'ground', title: 'ground of all people', holder: scene, key: 'ground', options: groundNames, numbers: true, act: () => this.grounded() });
-    toggle('walk', { id: 'slow', name: 'slow down', title: 'on slopes and stairs', holder: scene, key: 'slow', act: () => this.world.terrain.setSlowing(!!scene.slow) });
+    toggle('walk', { id: 'slow', name: 'slow down', title: 'on slopes and stairs', holder: scene, key: 'slow', act: () => this.world.terrain.setSpeedScaling(!!scene.slow) });
     groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'method of deformation', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
     slider('muscles', { id: 'modes', name: 'modes', title: 'of modal muscles', holder: scene, key: 'modes', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'modal' && this.setMethod(i)); } });
     choice('muscles', { id: 'pull', name: 'pull', title: 'source of excitation; active muscles turn red', holder: scene, key: 'pull', options: ['none', 'by gait phase', 'by joint moments'], numbers: true, act: anew });

@@ -116,7 +116,7 @@ export class Terrain extends Subject {
   manage(people) { this.inside.call('terrain_manage', people.ids, people.count, 1); }
   release(people) { this.inside.call('terrain_manage', people.ids, people.count, 0); }
   /** Switches speed scaling on slopes and stairs. */
-  setSlowing(on = true) { this.inside.call('terrain_set_speed_scaling', on ? 1 : 0); }
+  setSpeedScaling(on = true) { this.inside.call('terrain_set_speed_scaling', on ? 1 : 0); }
   /** Counts: fields of mobil_terrain_counts. */
   get report() { return this.counts('terrain'); }
 }

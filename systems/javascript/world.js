@@ -382,7 +382,7 @@ const old = {
   setDiscs: (w, discs) => w.avoidance.setDiscs(discs),
   steer: (w) => w.avoidance.report,
   setOnGround: (w, people, on = true) => (on ? w.terrain.manage(people) : w.terrain.release(people)),
-  setSlowing: (w, on) => w.terrain.setSlowing(on),
+  setSlowing: (w, on) => w.terrain.setSpeedScaling(on),
   updateGround: (w, heights) => w.terrain.setHeights(heights),
 };
 for (const [name, call] of Object.entries(old)) World.prototype[name] = function deprecated(...all) { return call(this, ...all); };

@@ -64,15 +64,16 @@ void replace_former_words(std::vector<std::string>& arguments) {
       argument.replace(0, end, "--people");
     }
     for (const auto& [option, was, is] : former_words) {
-      const std::string_view word = argument;
-      std::string_view value = option.empty() ? word.substr(0, end) : word;
-      if (!option.empty() && word.substr(0, end) == option && end < word.size())
-        value = word.substr(end + 1);
-      else if (!option.empty() && arguments[i - 1] != option)
+      std::size_t from = 0, to = argument.size();
+      if (option.empty())
+        to = end;
+      else if (end < argument.size() && argument.substr(0, end) == option)
+        from = end + 1;
+      else if (arguments[i - 1] != option)
         continue;
-      if (value != was) continue;
+      if (argument.substr(from, to - from) != was) continue;
       fmt::print(stderr, "mobil: '{}' is deprecated; use '{}'\n", was, is);
-      argument.replace(static_cast<std::size_t>(value.data() - word.data()), value.size(), is);
+      argument.replace(from, to - from, is);
     }
   }
 }

@@ -33,8 +33,8 @@ constexpr auto type_name() {
 }  // namespace spelling
 using spelling::type_name;
 
-/// Returns the identity of a type in archetypes, snapshots and state hashes. This is `T::stable_id` if it exists, which
-/// change of name; else FNV-1a of its name, where our namespace is called `mobil::` in every version of the library.
+/// Returns the identity of a type in archetypes, snapshots and state hashes: `T::stable_id`, which survives a change of
+/// name; without one FNV-1a of the name, where the library's namespace is `mobil::` in every version.
 struct InOurNamespace;
 template <class T>
 consteval std::uint64_t type_id() {

@@ -22,6 +22,7 @@
 #include <mobil/systems/render/matrix.h>
 #include "demo/pictures/contact_sheet.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/json.h"
 
 namespace mobil {
@@ -164,7 +165,7 @@ Result<void> run_anatomy(const AnatomyText& text) {
   }
   const AnatomySurvey survey = survey_anatomy(text.folder[0], {.other_muscles = true, .skin = true});
   if (survey.mesh.empty() && survey.faults.size() == 1) return fail(survey.faults[0]);
-  fmt::print("{}", text.json ? anatomy_json(text.folder[0], survey) : anatomy_table(survey));
+  write_output(text.json ? anatomy_json(text.folder[0], survey) : anatomy_table(survey));
   if (!text.out.empty()) {
     const auto picture = anatomy_picture(survey);
     if (!picture) return fail(fmt::format("--out {}: {}", text.out, picture.error().message));

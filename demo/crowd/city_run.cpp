@@ -19,6 +19,7 @@
 #include "demo/crowd/city_shard.h"
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/progress.h"
 
 namespace mobil {
@@ -246,8 +247,7 @@ Result<void> run_city(const CrowdOptions& asked, Ranks& ranks) {
   Result<void> written;
   if (ranks.first()) {
     put_together(run);
-    fmt::print("{}", city_text(run, options));
-    std::fflush(stdout);
+    write_output(city_text(run, options));
     if (!options.report.empty()) written = write_result("--report", options.report, city_json(run, options));
   }
   return ranks.agree(written);

@@ -14,6 +14,7 @@
 #include "demo/anatomy/real_figure.h"
 #include "demo/crowd/city_shard.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/progress.h"
 #include "demo/walk/walk_command.h"
 
@@ -77,13 +78,12 @@ Result<void> run(const CrowdOptions& options) {
   if (options.raise) {
     const auto told = [](const CrowdLimit::Tried& tried) {
       show("");
-      fmt::print("{}\n", tried_line(tried));
-      std::fflush(stdout);
+      print_output("{}\n", tried_line(tried));
     };
     const auto limit = raise_crowd(scene, ticks, max_crowd, told, show_progress);
     show("");
     if (!limit) return tl::unexpected(limit.error());
-    fmt::print("{}", limit_text(*limit));
+    write_output(limit_text(*limit));
     return write_report(options, limit_json(*limit, options));
   }
   if (auto done = scene.settle(show_progress); !done) return done;
@@ -92,7 +92,7 @@ Result<void> run(const CrowdOptions& options) {
   const auto measured = run_crowd(scene, ticks, true, quiet ? CrowdLive{} : live);
   show("");
   if (!measured) return tl::unexpected(measured.error());
-  fmt::print("{}", crowd_text(*measured, memory, scene));
+  write_output(crowd_text(*measured, memory, scene));
   if (auto done = take_pictures(options, scene); !done) return done;
   if (auto done = export_crowd(options, scene); !done) return done;
   return write_report(options, crowd_json(*measured, memory, scene, options));

@@ -6,13 +6,14 @@
 #include <string>
 
 #include <mobil/assets/files/output_file.h>
+#include "demo/program/console.h"
 #include "demo/program/progress.h"
 
 namespace mobil {
 
 int complain(std::string_view command, std::string_view message, int status) {
   show("");
-  fmt::print(stderr, "mobil {}: {}\n", command, one_line(std::string(message)));
+  print_error("mobil {}: {}", command, message);
   return status;
 }
 
@@ -31,7 +32,7 @@ void say_written(const std::filesystem::path& file) {
 }
 
 void say_where(std::string_view line) {
-  if (!quiet) fmt::print("{}\n", line);
+  if (!quiet) print_note("{}\n", line);
 }
 
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text) {

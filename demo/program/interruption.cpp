@@ -8,10 +8,9 @@
 namespace mobil {
 
 void handle_interruption() {
-  std::signal(SIGPIPE, SIG_IGN);
   static sigset_t signals;
   sigemptyset(&signals);
-  for (const int s : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     struct sigaction now {};
     if (sigaction(s, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;  // ignored, as under nohup
     sigaddset(&signals, s);

@@ -5,12 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <system_error>
+#include <sstream>
 
 #include <mobil/engine/error.h>
+#include "demo/program/console.h"
 #include "demo/program/nearest_name.h"
 
 namespace mobil {
@@ -102,10 +102,6 @@ std::string explain_usage(const CLI::App& app, const CLI::ParseError& error, int
   return fmt::format("{}: {}; see '{} --help'", name, what, name);
 }
 
-void say(const std::string& line) {
-  fmt::print(stderr, "{}\n", one_line(line));
-}
-
 }  // namespace
 
 const Option help_option = {"-h,--help", static_cast<bool*>(nullptr), "Print this help message and exit"};
@@ -144,20 +140,19 @@ int run_program(const Program& program, int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool unknown_subcommand = app.get_subcommands().empty() && !app.remaining().empty();
-    if (error.get_exit_code() == 0 && !unknown_subcommand) return app.exit(error);  // --help, --version
-    say(explain_usage(app, error, argc, argv));
+    if (error.get_exit_code() == 0 && !unknown_subcommand) {  // --help, --version
+      std::ostringstream text;
+      const int status = app.exit(error, text, text);
+      write_output(text.str());
+      return status;
+    }
+    print_error("{}", explain_usage(app, error, argc, argv));
     return 2;
   } catch (const std::filesystem::filesystem_error& error) {
-    std::fputs(
-        (one_line(fmt::format("{}: {}; name another file or folder", program.name, error.what())) + "\n").c_str(),
-        stderr);
+    print_error("{}: {}; name another file or folder", program.name, error.what());
     return 2;
-  } catch (const std::system_error& error) {
-    if (error.code() == std::errc::broken_pipe) return exit_status;  // the reader of stdout has gone
-    say(fmt::format("{}: {}", program.name, error.what()));
-    return 1;
   } catch (const std::exception& error) {
-    say(fmt::format("{}: {}", program.name, error.what()));
+    print_error("{}: {}", program.name, error.what());
     return 1;
   }
   return exit_status;

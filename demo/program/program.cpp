@@ -11,6 +11,7 @@
 
 #include <mobil/version.h>
 
+#include "demo/program/console.h"
 #include "demo/program/interruption.h"
 #include "demo/program/progress.h"
 #include "demo/program/subcommands.h"
@@ -33,9 +34,8 @@ int run_beside(const SubcommandRow& row, std::string_view program, char** argv) 
   execv((folder / program).c_str(), argv);
   std::string target(program == "mobil" ? "mobil_program" : program);
   std::ranges::replace(target, '-', '_');
-  fmt::print(stderr,
-             "mobil: '{}' is a subcommand of {}, which is not in the folder of this program; build it: cmake --build "
-             "build/release --target {}\n",
+  print_error("mobil: '{}' is a subcommand of {}, which is not in the folder of this program; build it: cmake --build "
+             "build/release --target {}",
              row.name, program, target);
   return 2;
 }
@@ -72,7 +72,7 @@ void replace_former_words(std::vector<std::string>& arguments) {
       else if (arguments[i - 1] != option)
         continue;
       if (argument.substr(from, to - from) != was) continue;
-      fmt::print(stderr, "mobil: '{}' is deprecated; use '{}'\n", was, is);
+      print_error("mobil: '{}' is deprecated; use '{}'", was, is);
       argument.replace(from, to - from, is);
     }
   }
@@ -118,7 +118,7 @@ int run_own(std::string_view name, std::vector<Subcommand> commands, int argc, c
   handle_interruption();  // after run_beside, because another program would inherit blocked signals
   const auto program = make_program(name, std::move(commands));
   if (!program) {
-    fmt::print(stderr, "{}: subcommands differ from demo/program/subcommands.cpp: {}\n", name, program.error().message);
+    print_error("{}: subcommands differ from demo/program/subcommands.cpp: {}", name, program.error().message);
     return 2;
   }
   std::vector<const char*> texts;

@@ -4,9 +4,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <mutex>
 #include <string>
+
+#include "demo/program/console.h"
 
 namespace mobil {
 namespace {
@@ -37,10 +38,9 @@ void show(std::string_view line) {
   if (quiet) return;
   const std::lock_guard lock(one_at_a_time);
   if (on_terminal()) {
-    fmt::print(stderr, "\r\033[K{}", line);
-    std::fflush(stderr);
+    write_error(fmt::format("\r\033[K{}", line));
   } else if (!line.empty() && pace.due(now_s())) {
-    fmt::print(stderr, "{}\n", line);
+    print_error("{}", line);
   }
 }
 

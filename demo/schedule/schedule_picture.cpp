@@ -1,3 +1,4 @@
+#include "demo/program/console.h"
 #include "demo/schedule/schedule_picture.h"
 
 #include <fmt/format.h>
@@ -180,7 +181,7 @@ Result<void> show_schedule(const std::optional<std::string>& svg) {
     if (auto place = check_result_place("--svg", *svg); !place) return place;
     return write_result("--svg", *svg, schedule_picture(simulation.schedule()));
   }
-  fmt::print("{}", simulation.schedule().describe());
+  write_output(simulation.schedule().describe());
   return {};
 }
 

@@ -16,6 +16,7 @@
 #include <mobil/video.h>
 #include "demo/crowd/crowd_picture.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/json.h"
 #include "demo/program/progress.h"
 #include "demo/program/units.h"
@@ -201,7 +202,7 @@ Result<void> run_town(const TownText& text) {
   auto scene = TownScene::make(run->town);
   if (!scene) return tl::unexpected(scene.error());
   if (auto done = go(*run, *scene); !done) return done;
-  fmt::print("{}", report_text(*scene));
+  write_output(report_text(*scene));
   if (run->report.empty()) return {};
   return write_result("--report", run->report, report_json(*scene, *run));
 }

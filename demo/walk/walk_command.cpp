@@ -1,3 +1,4 @@
+#include "demo/program/console.h"
 #include "demo/walk/walk_command.h"
 
 #include <fmt/format.h>
@@ -96,7 +97,7 @@ void add_muscle_rows(const Simulation& simulation, const Person& person, std::st
 void tell_style_changes(const BodyRequest& body, const GaitRequest& asked, std::vector<StyleChange>& all) {
   const auto changes = style_changes(body, asked);
   if (!changes) return;
-  for (const StyleChange& change : *changes) fmt::print(stderr, "note: {}\n", described(change));
+  for (const StyleChange& change : *changes) print_error("note: {}", described(change));
   all.insert(all.end(), changes->begin(), changes->end());
 }
 
@@ -112,7 +113,7 @@ void note_limits(const Simulation& simulation, Entity person, std::vector<LimitP
 }
 void tell_limits(const std::vector<LimitPassed>& passed) {
   for (const LimitPassed& limit : passed)
-    fmt::print(stderr, "note: in {} ticks from {:.2f} s to {:.2f} s {}\n", limit.ticks, limit.first_s, limit.last_s,
+    print_error("note: in {} ticks from {:.2f} s to {:.2f} s {}", limit.ticks, limit.first_s, limit.last_s,
                described(limit.furthest));
 }
 
@@ -234,9 +235,9 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
 /// Prints the first lines about an anatomy folder.
 void print_said(const std::vector<std::string>& said, const WalkOptions& options) {
   constexpr std::size_t most = 3;
-  for (std::size_t i = 0; i < std::min(said.size(), most); ++i) fmt::print("anatomy: {}\n", said[i]);
+  for (std::size_t i = 0; i < std::min(said.size(), most); ++i) print_note("anatomy: {}\n", said[i]);
   if (said.size() <= most) return;
-  fmt::print("anatomy: {} more lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
+  print_note("anatomy: {} more lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
 }
 
 Result<void> write_results(const Walked& walked, const Simulation& simulation, const Person& person,
@@ -270,11 +271,11 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   if (auto done = write_file(folder / "summary.json", summary); !done) return done;
   if (auto done = results.put("frame_"); !done) return done;
 
-  for (const std::string& note : body_notes(person.body)) fmt::print("note: {}\n", note);
+  for (const std::string& note : body_notes(person.body)) print_note("note: {}\n", note);
   print_said(outcome.anatomy_said, options);
-  fmt::print("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", outcome.simulated_s,
+  print_note("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", outcome.simulated_s,
              outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
-  fmt::print("simulation: {:.1f} us per tick, {:.0f} times faster than real time; total: {:.1f} s\n",
+  print_note("simulation: {:.1f} us per tick, {:.0f} times faster than real time; total: {:.1f} s\n",
              1e6 * outcome.simulation_s / outcome.ticks, outcome.simulated_s / outcome.simulation_s, outcome.wall_s);
   say_where(fmt::format("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}{}",
                         one_line(options.out.string()), others, options.frames ? " frame_*.png" : "",
@@ -319,7 +320,7 @@ Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
                      : Result<void>(tl::unexpected(walked.error()));
   if (!done) show("");
   if (done && changes.size() > walked->outcome.changes) {
-    fmt::print("script: {} of {} changes are after the end; increase --seconds to include them\n",
+    print_note("script: {} of {} changes are after the end; increase --seconds to include them\n",
                changes.size() - walked->outcome.changes, changes.size());
   }
   return done;
@@ -342,7 +343,7 @@ Subcommand walk_command(FigureReader read_figure) {
   command.empty_refused = true;
   command.run = [text, read_figure] {
     if (text->list_parameters) {
-      fmt::print("{}", gait_parameter_table());
+      write_output(gait_parameter_table());
       return 0;
     }
     const auto options = read_walk_options(*text);

@@ -352,6 +352,19 @@ TEST(House, ComponentsDependOnlyOnTheStandardLibrary) {
   }
 }
 
+/// Other ways to print throw if a stream is full or closed.
+TEST(House, ProgramsPrintThroughTheConsole) {
+  static const std::regex other("\\bstd(out|err)\\b|std::c(out|err|log)\\b|fmt::print|\\b(f?printf|f?puts)\\(");
+  for (const auto& file : sources("demo")) {
+    const std::string name = fs::relative(file, root / "demo").generic_string();
+    if (name == "hello.cpp" || name.starts_with("examples/") || name.starts_with("lab/rivals/")) continue;
+    for (const auto& line : lines(file)) {
+      if (line.find("//") != std::string::npos) continue;
+      EXPECT_FALSE(std::regex_search(line, other)) << name << ": " << line;
+    }
+  }
+}
+
 /// Comments name files by their path from the root.
 TEST(House, NamedFilesExist) {
   static const std::regex named(

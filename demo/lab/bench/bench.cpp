@@ -9,6 +9,7 @@
 #include <mobil/mpi_transport.h>
 #include "demo/lab/bench/bench_crowd.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/json.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/progress.h"
@@ -77,15 +78,15 @@ std::string number(const std::optional<double>& value) {
 
 void print_table(const BenchRun& run) {
   const Machine& m = run.machine;
-  fmt::print("{}, {} cores; caches {} kB, {} kB, {} MB; {} by {} ({})\n\n", m.cpu, m.cores, m.l1_bytes >> 10,
+  print_output("{}, {} cores; caches {} kB, {} kB, {} MB; {} by {} ({})\n\n", m.cpu, m.cores, m.l1_bytes >> 10,
              m.l2_bytes >> 10, m.l3_bytes >> 20, m.target, m.compiler, m.flags);
   constexpr auto row = "{:<45} {:>8} {:>8} {:>8}  {:<8} {:>7} {:>9}  {}\n";
-  fmt::print(row, "", "best", "median", "CPU", "unit", "of peak", "of memory", "bound by");
+  print_output(row, "", "best", "median", "CPU", "unit", "of peak", "of memory", "bound by");
   for (const BenchResult& r : run.results) {
-    fmt::print(row, r.name, number(r.value), number(r.median), number(r.cpu), r.unit, percent(r.of_peak),
+    print_output(row, r.name, number(r.value), number(r.median), number(r.cpu), r.unit, percent(r.of_peak),
                percent(r.of_bandwidth), r.bound);
   }
-  for (const std::string& note : run.notes) fmt::print("{}\n", note);
+  for (const std::string& note : run.notes) print_output("{}\n", note);
 }
 
 /// Returns one entry of the results. Further keys can be added; these stay.

@@ -32,6 +32,7 @@
 #include "demo/pictures/contact_sheet.h"
 #include "demo/program/body_options.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/json.h"
 #include "demo/program/must.h"
 
@@ -362,16 +363,16 @@ void write_body(const Body& body, const std::filesystem::path& out) {
   must(results.put());
   std::error_code ignored;
   if (!picture) std::filesystem::remove(out / "body.png", ignored);  // of another body
-  fmt::print("{}", body_table(body));
+  write_note(body_table(body));
   say_where(fmt::format("\nlook at {}: body.json{}", out.string(), picture ? " body.png" : ""));
-  if (!picture) fmt::print(stderr, "mobil body: no picture: {}\n", picture.error().message);
+  if (!picture) print_error("mobil body: no picture: {}", picture.error().message);
 }
 
 void run_body(const BodyCommand& text) {
   const auto request = must(read_body_options(text.body));
   const auto body = must(make_body(request));
   if (!text.json) return write_body(body, text.out);
-  fmt::print("{}", body_json(body));
+  write_output(body_json(body));
 }
 
 }  // namespace

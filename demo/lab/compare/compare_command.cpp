@@ -14,6 +14,7 @@
 #include "demo/pictures/cycle_plot.h"
 #include "demo/pictures/svg_plot.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/must.h"
 #include "demo/walk/walk_options.h"
 
@@ -291,7 +292,7 @@ bool run_compare(const CompareText& text) {
   comparison.balance = walk_balance_scenes(options.body, options.gait.style);
   const auto verdicts = judge(comparison);
   write_all(text.out, comparison, verdicts);
-  fmt::print("{}", comparison_text(comparison, verdicts));
+  write_note(comparison_text(comparison, verdicts));
   say_where(fmt::format(
       "look at {}: compare.json angles.svg ground_reaction.svg moments.svg steps.svg centre_of_mass.svg", text.out));
   return std::ranges::all_of(verdicts, [](const Verdict& verdict) { return verdict.held.value_or(false); });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/program.h"
 #include "demo/program/units.h"
@@ -132,7 +133,7 @@ Result<void> run_completion(const std::vector<std::string>& names) {
   const auto chosen = choose_named(shells, names, "shell");
   if (!chosen) return tl::unexpected(chosen.error());
   if (names.size() != 1) return fail("name one shell: mobil completion bash, zsh or fish");
-  fmt::print("{}", chosen->front().script(mobil_program()));
+  write_output(chosen->front().script(mobil_program()));
   return {};
 }
 

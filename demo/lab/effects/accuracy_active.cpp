@@ -17,6 +17,7 @@
 #include "assets/finite/control_points.h"
 #include "assets/finite/shape_tables.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
 #include "systems/bellies/belly_library.h"
@@ -254,7 +255,7 @@ void print_accuracy() {
     }
   }
   show("");
-  fmt::print("{}\n{}", rows, costs);
+  print_output("{}\n{}", rows, costs);
 }
 
 }  // namespace

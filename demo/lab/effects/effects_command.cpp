@@ -13,6 +13,7 @@
 #include "demo/lab/effects/accuracy_measure.h"
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/json.h"
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
@@ -279,7 +280,7 @@ void run_effects(const EffectsCommand& text) {
   if (!text.json.empty()) must(check_result_place("--json", text.json));
   const auto account = measure_effects(text.people, show);
   show("");
-  fmt::print("{}", effects_table(account));
+  write_output(effects_table(account));
   if (!text.json.empty()) must(write_result("--json", text.json, effects_json(account)));
 }
 

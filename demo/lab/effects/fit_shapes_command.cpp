@@ -12,6 +12,7 @@
 #include "assets/finite/packed_shapes.h"
 #include "assets/finite/shape_tables.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
 
@@ -39,7 +40,7 @@ void write_table(Muscle muscle, const std::string& folder) {
                         1e3 * errors.farthest_m, 100 * errors.volume);
   }
   show("");
-  fmt::print("{}\n", line);
+  print_note("{}\n", line);
 }
 
 /// Also prints the errors for shapes from which the tables were not made.
@@ -47,7 +48,7 @@ void write_finite_tables(const std::string& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed) throw Stopped(fmt::format("--out {}: {}; give a folder that can be made", folder, failed.message()));
-  fmt::print(
+  print_note(
       "shapes that tables were not made from: displacement across off, rms and worst, %; farthest point off, mm; "
       "volume "
       "off, %\n{:<27}{:>26}{:>26}{:>26}\n",

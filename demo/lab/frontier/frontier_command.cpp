@@ -9,6 +9,7 @@
 #include "demo/lab/frontier/frontier.h"
 #include "demo/lab/frontier/frontier_active.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
 
@@ -30,7 +31,7 @@ void run_finite(const std::string& out) {
   must(write_file(folder / "active.csv", active_csv(active)));
   must(write_file(folder / "active.svg", svg(active_figure(active))));
   must(results.put());
-  fmt::print("{}", active_text(active));
+  write_note(active_text(active));
   say_where(fmt::format("\nwritten {}: active.csv active.svg", out));
 }
 
@@ -47,7 +48,7 @@ void run_frontier(const FrontierText& text) {
   must(write_file(out / "frontier.csv", frontier_csv(frontier)));
   must(write_file(out / "frontier.svg", svg(frontier_figure(frontier))));
   must(results.put());
-  fmt::print("{}", frontier_text(frontier));
+  write_note(frontier_text(frontier));
   say_where(fmt::format("\nwritten {}: frontier.csv frontier.svg", text.out));
 }
 

@@ -17,6 +17,7 @@
 #include "demo/lab/compare/reference_tables.h"
 #include "demo/lab/gait_fit/step_grid.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
 #include "engine/eigen.h"
@@ -191,22 +192,22 @@ std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
 }
 
 void print(const std::vector<StepNode>& nodes) {
-  fmt::print("\n{:>5} {:>6} {:>7}  {:<14} {:<11} {:<17} {:<14} {:>5} {:>5} {:>5} {:>5} {:>5} {:>5}\n", "speed",
+  print_note("\n{:>5} {:>6} {:>7}  {:<14} {:<11} {:<17} {:<14} {:>5} {:>5} {:>5} {:>5} {:>5} {:>5}\n", "speed",
              "length", "cost", "angles, deg", "forces, r", "moments, r", "rates", "CoP", "aside", "slack", "clear",
              "pad", "rise");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const StepNode& node = nodes[i];
     const StepQuality q = step_quality(node.task, node.targets, fitted(tabled(node.shape)));
-    fmt::print(
+    print_note(
         "{:>5.2f} {:>6.2f} {:>7.2f}  {:.1f} {:.1f} {:.1f}    {:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.2f} {:.2f} {:.2f} ",
         speed[i / length_count], length[i % length_count], node.cost, q.rms[0], q.rms[1], q.rms[2], q.correlation[3],
         q.correlation[4], q.correlation[5], q.correlation[6], q.correlation[7], q.rate[0], q.rate[1], q.rate[2]);
     for (const double m : {q.lacking_m, q.aside_m, q.slack_m, q.clearance_m, q.pad_m, q.rise_m})
-      fmt::print("{:>5.1f} ", 1000 * m);
-    fmt::print("\n");
+      print_note("{:>5.1f} ", 1000 * m);
+    print_note("\n");
   }
-  fmt::print("rates: the fastest change of hip, knee and ankle over the measured one's\n");
-  fmt::print("CoP: most that the centre of pressure is moved for exact balance, and the like, mm\n");
+  print_note("rates: the fastest change of hip, knee and ankle over the measured one's\n");
+  print_note("CoP: most that the centre of pressure is moved for exact balance, and the like, mm\n");
 }
 
 void run_fit(const FitText& text) {
@@ -217,7 +218,7 @@ void run_fit(const FitText& text) {
   if (text.excitation) {
     const auto fit = fit_excitation();
     must(write_file(text.out, fit.source));
-    fmt::print("correlation with what was measured\n{}", fit.quality);
+    print_note("correlation with what was measured\n{}", fit.quality);
     say_where(fmt::format("look at {}", text.out));
     return;
   }

@@ -14,6 +14,7 @@
 
 #include <mobil/assets/files/output_file.h>
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/must.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/program.h"
@@ -160,10 +161,10 @@ void run_man(const ManText& text) {
   const Program program = mobil_program();
   const auto chosen = must(choose_named(program.commands, text.pages, "page of"));
   if (!text.out.empty()) return write_pages(program, chosen, text.pages.empty(), text.out);
-  if (text.pages.empty()) fmt::print("{}", manual(program));
+  if (text.pages.empty()) write_output(manual(program));
   for (const std::string& name : text.pages) {
     const auto command = std::ranges::find(chosen, name, &Subcommand::name);
-    fmt::print("{}", manual(program, *command));
+    write_output(manual(program, *command));
   }
 }
 

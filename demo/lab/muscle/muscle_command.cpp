@@ -22,6 +22,7 @@
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "demo/lab/muscle/muscle_run.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/units.h"
 
 namespace mobil {
@@ -188,7 +189,7 @@ int contraction(const MuscleText& text) {
   if (!made) return complain("muscle", made.error().message);
   if (auto ok = write_file(request->out, made->csv); !ok)
     return complain("muscle", fmt::format("--out {}", ok.error().message));
-  fmt::print("{}", made->summary);
+  write_note(made->summary);
   say_where(fmt::format("written        {}", request->out.string()));
   return 0;
 }
@@ -215,7 +216,7 @@ int muscle(const MuscleText& text) {
     }
   }
   if (!request->warning.empty()) complain("muscle", request->warning);
-  fmt::print("{}", summary(*request, *result, wall_s));
+  write_note(summary(*request, *result, wall_s));
   say_where(fmt::format("written        {}", request->out.string()));
   return 0;
 }

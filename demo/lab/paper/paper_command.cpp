@@ -13,6 +13,7 @@
 #include <mobil/schedule.h>
 #include "demo/lab/paper/paper.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/progress.h"
 
@@ -85,9 +86,9 @@ Result<void> make(const Entry& entry, const std::string& folder, PaperRun& run) 
   const auto done = attempt([&] { entry.make(run); }).and_then([&] { return results->put(); });
   show("");
   if (!done) return fail(fmt::format("{}: {}", entry.name, done.error().message));
-  fmt::print("{}: {}\n\n{}", entry.name, entry.about.substr(0, entry.about.rfind(" (")), run.text);
+  print_note("{}: {}\n\n{}", entry.name, entry.about.substr(0, entry.about.rfind(" (")), run.text);
   if (!run.written.empty()) say_where(fmt::format("written: {}", fmt::join(run.written, " ")));
-  fmt::print("\n");
+  print_note("\n");
   return {};
 }
 

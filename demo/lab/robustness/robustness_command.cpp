@@ -13,6 +13,7 @@
 
 #include "demo/lab/robustness/robustness.h"
 #include "demo/program/commands.h"
+#include "demo/program/console.h"
 #include "demo/program/json.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/progress.h"
@@ -83,9 +84,8 @@ std::string happened(const RobustnessRow& row) {
 }
 
 void print_row(const RobustnessRow& row) {
-  fmt::print("{:<5} {:<13} {}: {} ({}): {}\n", row.held() ? "held" : "BROKE", row.entry, row.tried, promised(row),
+  print_output("{:<5} {:<13} {}: {} ({}): {}\n", row.held() ? "held" : "BROKE", row.entry, row.tried, promised(row),
              row.reason, happened(row));
-  std::fflush(stdout);
 }
 
 Json number_or_name(double value) {
@@ -130,7 +130,7 @@ std::string to_csv(const RobustnessRun& run) {
 }
 
 void print_list() {
-  for (const RobustnessCase& one : robustness_cases) fmt::print("{:<13} {}\n", one.name, one.about);
+  for (const RobustnessCase& one : robustness_cases) print_output("{:<13} {}\n", one.name, one.about);
 }
 
 void try_one(const RobustnessCase& one, RobustnessRun& run) {
@@ -165,7 +165,7 @@ int robustness(const RobustnessText& text) {
   for (const RobustnessCase& one : *chosen) try_one(one, run);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto broken = std::ranges::count_if(run.rows, [](const RobustnessRow& row) { return !row.held(); });
-  fmt::print("{} of {} hold, in {:.0f} s\n", static_cast<std::ptrdiff_t>(run.rows.size()) - broken, run.rows.size(),
+  print_output("{} of {} hold, in {:.0f} s\n", static_cast<std::ptrdiff_t>(run.rows.size()) - broken, run.rows.size(),
              seconds);
   for (const auto& [option, file] : files) {
     if (!file) continue;

@@ -1,11 +1,16 @@
 #include <mobil/engine/error.h>
 
 #include <algorithm>
+#include <array>
+#include <clocale>
 #include <cstddef>
+#include <cstdio>
 #include <new>
 #include <string_view>
 
 namespace mobil::inline v0_3 {
+
+const char MOBIL_CONTAINERS = 0;
 
 namespace {
 
@@ -70,6 +75,15 @@ std::string one_line(std::string text) {
   }
   if (line.size() > longest_line) line = std::string(start_of(line, longest_line)) + "...";
   return line;
+}
+
+std::string decimal(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.7g", value);
+  std::string number = text.data();
+  const std::string_view point = std::localeconv()->decimal_point;
+  if (const auto at = number.find(point); at != std::string::npos) number.replace(at, point.size(), ".");
+  return number;
 }
 
 tl::unexpected<Error> fail(Status status) noexcept {

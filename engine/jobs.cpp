@@ -12,7 +12,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 #if defined(__SSE2__)
-constexpr unsigned long flush_bits = _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON;
+constexpr unsigned long flush_bits = _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON, rounding_bits = _MM_ROUND_MASK;
 unsigned long control() {
   return _mm_getcsr();
 }
@@ -20,7 +20,7 @@ void set_control(unsigned long word) {
   _mm_setcsr(static_cast<unsigned>(word));
 }
 #elif defined(__aarch64__)
-constexpr unsigned long flush_bits = 1UL << 24;
+constexpr unsigned long flush_bits = 1UL << 24, rounding_bits = 3UL << 22;
 unsigned long control() {
   unsigned long word;
   asm volatile("mrs %0, fpcr" : "=r"(word));
@@ -30,7 +30,7 @@ void set_control(unsigned long word) {
   asm volatile("msr fpcr, %0" ::"r"(word));
 }
 #else
-constexpr unsigned long flush_bits = 0;
+constexpr unsigned long flush_bits = 0, rounding_bits = 0;
 unsigned long control() {
   return 0;
 }
@@ -48,6 +48,7 @@ struct Guarded {
 #endif
 };
 void run_guarded(void* context, std::size_t begin, std::size_t end) noexcept {
+  const FloatMode mode;
   Guarded& of = *static_cast<Guarded*>(context);
   assert(begin < end && end <= of.count && "a host's parallel_for gave a range outside of what was asked");
   try {
@@ -69,13 +70,14 @@ void run_in_parallel(const Jobs& jobs, std::size_t count, Jobs::Body body, void*
   if (guarded.thrown) std::rethrow_exception(guarded.first);
 }
 
-FlushDenormals::FlushDenormals() : before_(control()) {
-  set_control(before_ | flush_bits);
+FloatMode::FloatMode() : before_(control()) {
+  set_control((before_ | flush_bits) & ~rounding_bits);  // zero is to nearest
 }
 
-// Only the two bits are restored; exception flags raised meanwhile stay raised.
-FlushDenormals::~FlushDenormals() {
-  set_control((control() & ~flush_bits) | (before_ & flush_bits));
+// Only these bits are restored; exception flags raised meanwhile stay raised.
+FloatMode::~FloatMode() {
+  constexpr unsigned long ours = flush_bits | rounding_bits;
+  set_control((control() & ~ours) | (before_ & ours));
 }
 
 }  // namespace mobil::inline v0_3

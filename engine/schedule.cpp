@@ -151,7 +151,6 @@ void Schedule::for_tiles(const Pass& pass, std::size_t begin, std::size_t end, c
 }
 
 void Schedule::run_tiles(void* context, std::size_t begin, std::size_t end) {
-  const FlushDenormals flush;
   const Pass& pass = *static_cast<const Pass*>(context);
   const ScratchLease scratch(pass.scratch);
   double before = pass.clock();
@@ -170,7 +169,6 @@ void Schedule::run_tiles(void* context, std::size_t begin, std::size_t end) {
 }
 
 void Schedule::choose_lanes(void* context, std::size_t begin, std::size_t end) {
-  const FlushDenormals flush;
   const Pass& pass = *static_cast<const Pass*>(context);
   const System& system = pass.systems[pass.packed];
   const double before = pass.clock();
@@ -185,7 +183,6 @@ void Schedule::choose_lanes(void* context, std::size_t begin, std::size_t end) {
 }
 
 void Schedule::run_chosen(void* context, std::size_t begin, std::size_t end) {
-  const FlushDenormals flush;
   const Pass& pass = *static_cast<const Pass*>(context);
   const double before = pass.clock();
   for (std::size_t b = begin; b < end; ++b) {

@@ -141,6 +141,7 @@ HostParts Simulation::parts() {
 }
 
 Result<void> Simulation::spawn(std::span<const SpawnRequest> people, std::span<Entity> entities) {
+  const FloatMode mode;
   if (people.size() != entities.size()) {
     return fail(
         fmt::format("spawn: {} people, and room for the handles of {}; give as many", people.size(), entities.size()));
@@ -153,6 +154,7 @@ Result<void> Simulation::spawn(std::span<const SpawnRequest> people, std::span<E
 }
 
 Result<Entity> Simulation::spawn(const BodyRequest& body, const GaitRequest& gait) {
+  const FloatMode mode;
   const SpawnRequest request{.body = body, .gait = gait};
   Entity entity;
   auto made = spawn_people(scene_of(core_->frame), {&request, 1}, {&entity, 1});
@@ -161,10 +163,12 @@ Result<Entity> Simulation::spawn(const BodyRequest& body, const GaitRequest& gai
 }
 
 Result<Entity> Simulation::spawn_posed(const BodyRequest& body) {
+  const FloatMode mode;
   return mobil::spawn_posed(core_->world, body);
 }
 
 Result<void> Simulation::set_pose(Entity person, const Pose<float>& pose, Arrival arrival) {
+  const FloatMode mode;
   auto done = mobil::set_pose(core_->world, person, pose);
   if (done && arrival == Arrival::jumped) {
     forget_motion(core_->world, person);
@@ -198,12 +202,14 @@ Result<void> Simulation::ask(Entity person, const Result<Gait<float>>& gait) {
 }
 
 Result<void> Simulation::change_gait(Entity person, const GaitChange& change) {
+  const FloatMode mode;
   auto gait = changed_gait(core_->world, person, change);
   if (gait) keep_walk_limits(core_->world, core_->jobs, person, *gait, core_->workspace.get<SleepWork>().styles);
   return ask(person, gait);
 }
 
 Result<void> Simulation::set_gait(Entity person, const GaitRequest& asked) {
+  const FloatMode mode;
   auto gait = new_gait(core_->world, person, asked);
   if (gait) keep_walk_limits(core_->world, core_->jobs, person, *gait, core_->workspace.get<SleepWork>().styles);
   return ask(person, gait);
@@ -214,14 +220,17 @@ std::optional<GaitRequest> Simulation::gait_request(Entity person) const {
 }
 
 Result<void> Simulation::turn_to(Entity person, float heading_rad) {
+  const FloatMode mode;
   return ask(person, turned_gait(core_->world, person, heading_rad));
 }
 
 Result<std::size_t> Simulation::change_gait(std::span<const WalkChange> changes) {
+  const FloatMode mode;
   return mobil::change_walks(core_->frame, changes);
 }
 
 Result<void> Simulation::step_aside(Entity person, float left_m, float ahead_m) {
+  const FloatMode mode;
   World::Transaction transaction(core_->world, core_->jobs);
   if (auto done = make_full(core_->frame, {&person, 1}); !done) return done;
   auto done = mobil::step_aside(core_->world, person, left_m, ahead_m);
@@ -230,6 +239,7 @@ Result<void> Simulation::step_aside(Entity person, float left_m, float ahead_m) 
 }
 
 Result<std::size_t> Simulation::set_state(std::span<const Entity> people, PersonState state, float within_m) {
+  const FloatMode mode;
   if (!core_->world.alive_once(people)) return not_there("set_state");
   return named("set_state", mobil::set_state(core_->frame, people, state, within_m));
 }
@@ -266,6 +276,7 @@ Result<void> Simulation::place(Entity person, float x_m, float z_m, float headin
 }
 
 Result<void> Simulation::place(std::span<const PlaceRequest> places) {
+  const FloatMode mode;
   std::vector<Entity>& people = core_->workspace.get<SleepWork>().rows;
   people.clear();
   for (const PlaceRequest& to : places) people.push_back(to.person);
@@ -285,6 +296,7 @@ Result<void> Simulation::place(std::span<const PlaceRequest> places) {
 }
 
 Result<void> Simulation::shift_origin(float x_m, float z_m) {
+  const FloatMode mode;
   if (!(std::fabs(x_m) <= farthest_m && std::fabs(z_m) <= farthest_m))
     return fail(fmt::format("shift_origin: ({}, {}) m is not within ±1000000 m", x_m, z_m));
   shift_people(core_->world, x_m, z_m);
@@ -295,21 +307,25 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
 }
 
 Result<void> Simulation::enable(std::span<const Entity> people, Feature feature, bool on) {
+  const FloatMode mode;
   if (!core_->world.alive_once(people)) return not_there("enable");
   return named("enable", mobil::enable(core_->frame, people, feature, on));
 }
 
 Result<void> Simulation::roots(std::span<const Entity> people, std::span<Root> out, double ahead_s) const {
+  const FloatMode mode;
   return read_roots(core_->world, people, time_of(core_->frame), ahead_s, out);
 }
 
 Result<void> Simulation::set_muscles(std::span<const Entity> people, const std::optional<LegMuscles>& choice) {
+  const FloatMode mode;
   if (!core_->world.alive_once(people)) return not_there("set_muscles");
   return named("set_muscles", mobil::set_muscles(core_->frame, people, choice));
 }
 
 Result<void> Simulation::set_excitation(std::span<const Entity> people, Muscle muscle, Side side,
                                         std::span<const float> excitation) {
+  const FloatMode mode;
   if (people.size() != excitation.size())
     return fail(
         fmt::format("set_excitation: {} people, and {} numbers; give as many", people.size(), excitation.size()));
@@ -317,6 +333,7 @@ Result<void> Simulation::set_excitation(std::span<const Entity> people, Muscle m
 }
 
 Result<void> Simulation::set_method(std::span<const Entity> people, Muscle muscle, const MuscleMethod& method) {
+  const FloatMode mode;
   if (!core_->world.alive_once(people)) return not_there("set_method");
   return named("set_method", mobil::set_method(core_->frame, people, muscle, method));
 }
@@ -338,6 +355,7 @@ Ticks Simulation::advance(double seconds) {
 }
 
 void Simulation::tick(std::uint32_t count) {
+  const FloatMode mode;
   core_->workspace.get<StepLog>().clear();
   if (count == 0) return;
   for (const auto begin : {&begin_lod_report, &begin_avoidance_report, &begin_terrain_report}) begin(core_->frame);
@@ -366,6 +384,7 @@ Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
 }
 
 Result<void> Simulation::restore(std::span<const std::byte> in, const RestoreLimits& limits) {
+  const FloatMode mode;
   const auto done =
       restore_snapshot({core_->world, *core_->library, core_->modules, core_->jobs}, {core_->clock.tick_units(), 0, 0},
                        core_->workspace.get<SnapshotWork>(), limits, in);

@@ -43,6 +43,31 @@ if grep ' [A-U] .*mobil::' "$scratch/of_plugin"; then
   exit 1
 fi
 
+# A host whose standard containers differ fails to link, and the linker says why.
+printf '#include <mobil/simulation.h>\nint main() { return mobil::Simulation().ticks(); }\n' >"$scratch/containers.cpp"
+if "${compile[@]}" -D_GLIBCXX_DEBUG -I"$scratch/prefix/include" "$scratch/containers.cpp" "${archives[@]}" "${others[@]}" \
+  -o "$scratch/containers" 2>"$scratch/refused"; then
+  echo "a host with _GLIBCXX_DEBUG links" >&2
+  exit 1
+fi
+grep -q "library_is_built_with_GLIBCXX_DEBUG" "$scratch/refused"
+"${compile[@]}" -I"$scratch/prefix/include" "$scratch/containers.cpp" "${archives[@]}" "${others[@]}" -o "$scratch/containers"
+"$scratch/containers"
+
+# A host with -ffast-math, whose own arithmetic cannot find NaN, has invalid times refused.
+cat >"$scratch/fast.cpp" <<'CPP'
+#include <cstdlib>
+#include <mobil/simulation.h>
+int main() {
+  mobil::Simulation simulation;
+  for (const char* text : {"nan", "-1", "inf"})
+    if (simulation.advance(std::strtod(text, nullptr)).valid) return 1;
+  return simulation.advance(0.1).count == 6 ? 0 : 2;
+}
+CPP
+"${compile[@]}" -ffast-math -I"$scratch/prefix/include" "$scratch/fast.cpp" "${archives[@]}" "${others[@]}" -o "$scratch/fast"
+"$scratch/fast"
+
 # Another version: the same archives and headers under another name.
 mkdir "$scratch/other"
 cp -r "$scratch/prefix/include" "$scratch/other/include"

@@ -29,8 +29,8 @@ BvhSkeleton bvh_skeleton(const WalkRecording& recording, const SkeletonKeys& key
   const auto standing = standing_places(keys, recording.bones);
   for (std::size_t s = 0; s < segment_count; ++s) {
     const std::size_t parent = index(segment_parent[s]);
-    made.offset_m[s] = parent == s ? Eigen::Vector3d::Zero() : Eigen::Vector3d(standing[s] - standing[parent]);
     made.slides[s] = parent == s || keys.segment[s].translation_m.size() > 1;
+    made.offset_m[s] = made.slides[s] ? Eigen::Vector3d::Zero() : Eigen::Vector3d(standing[s] - standing[parent]);
     if (parent != s) made.children[parent].push_back(s);
   }
   return made;

@@ -1,6 +1,7 @@
 #include <mobil/assets/files/output_file.h>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -61,6 +62,16 @@ bool copied(const fs::path& from, const fs::path& to) {
   return in.eof() && out.flush().good();
 }
 
+/// Gives a new file the permissions, the owner and the group of the file that it will replace, as overwriting would. A
+/// group that cannot be given gets no permissions.
+void inherit_permissions(const fs::path& file, const fs::path& replaced) {
+  struct stat was {};
+  if (::stat(replaced.c_str(), &was) != 0) return;
+  const bool same_group = ::chown(file.c_str(), was.st_uid, was.st_gid) == 0 ||
+                          ::chown(file.c_str(), static_cast<uid_t>(-1), was.st_gid) == 0;
+  ::chmod(file.c_str(), was.st_mode & (same_group ? 0777U : 0707U));
+}
+
 /// Moves a complete file to its place, following links and replacing an existing file.
 Result<void> move_file(const fs::path& from, OutputFile& place) {
   std::error_code error;
@@ -84,8 +95,8 @@ Result<OutputFile> OutputFile::at(const fs::path& path) {
     return fail(
         fmt::format("{}: cannot be written, there is no folder {}; {}", path.string(), folder.string(), advice));
   }
-  const bool in_place = fs::exists(there) && !fs::is_regular_file(there);
-  if (::access((in_place ? *target : folder).c_str(), W_OK) != 0) {
+  const bool replaces = fs::exists(there), in_place = replaces && !fs::is_regular_file(there);
+  if ((!in_place && ::access(folder.c_str(), W_OK) != 0) || (replaces && ::access(target->c_str(), W_OK) != 0)) {
     return fail(fmt::format("{}: cannot be written ({}); {}", path.string(), std::strerror(errno), advice));
   }
   OutputFile file;
@@ -99,6 +110,7 @@ Result<OutputFile> OutputFile::at(const fs::path& path) {
 
 Result<void> OutputFile::put() {
   if (!open_) return {};
+  inherit_permissions(temporary_, target_);
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) {

@@ -51,6 +51,7 @@ AvoidanceWork& Avoidance::work() const {
 }
 
 Result<void> Avoidance::set_options(const AvoidanceOptions& options) {
+  const FloatMode mode;
   for (const float number : {options.radius_h, options.overlap_m, options.shoulders_h})
     if (!std::isfinite(number))
       return fail("set_options: radius_h, overlap_m or shoulders_h is not a number; give one, or AvoidanceOptions{}");
@@ -91,6 +92,7 @@ Result<void> Avoidance::manage(Entity person) {
 }
 
 Result<void> Avoidance::manage(std::span<const Entity> people) {
+  const FloatMode mode;
   World& world = frame_.world;
   const Jobs& jobs = frame_.jobs;
   if (!world.alive_once(people) ||
@@ -158,6 +160,7 @@ Result<void> Avoidance::release(Entity person) {
 }
 
 Result<void> Avoidance::release(std::span<const Entity> people) {
+  const FloatMode mode;
   World& world = frame_.world;
   const Jobs& jobs = frame_.jobs;
   if (!world.alive_once(people))
@@ -177,6 +180,7 @@ Result<void> Avoidance::release(std::span<const Entity> people) {
 }
 
 Result<void> Avoidance::set_desired_velocity(std::span<const DesiredVelocity> wishes) {
+  const FloatMode mode;
   World& world = frame_.world;
   for (const auto& [person, speed, heading] : wishes) {
     if (!world.alive(person)) return fail("Avoidance: a person is not there (a stale handle)", Status::stale_entity);
@@ -197,12 +201,20 @@ Result<void> Avoidance::set_desired_velocity(std::span<const DesiredVelocity> wi
   return {};
 }
 
+static Result<void> check_height(const HeightRange& height) {
+  if (height.low_m < height.high_m) return {};
+  return fail(fmt::format("Avoidance: an obstacle from {} to {} m; its top must be above its bottom", height.low_m,
+                          height.high_m));
+}
+
 Result<void> Avoidance::set_walls(std::span<const Wall> walls) {
+  const FloatMode mode;
   for (const Wall& wall : walls) {
     for (const GroundPoint& at : {wall.from, wall.to}) {
       if (!(std::fabs(at.x_m) < 1e6F && std::fabs(at.z_m) < 1e6F))
         return fail(fmt::format("Avoidance: a wall's end at ({}, {}) m is not within 1000 km", at.x_m, at.z_m));
     }
+    if (auto good = check_height(wall.height); !good) return good;
   }
   std::vector<BoxedWall>& to = work().walls;
   to.clear();
@@ -211,12 +223,14 @@ Result<void> Avoidance::set_walls(std::span<const Wall> walls) {
 }
 
 Result<void> Avoidance::set_discs(std::span<const Disc> discs) {
+  const FloatMode mode;
   for (const Disc& disc : discs) {
     if (!(std::fabs(disc.at.x_m) < 1e6F && std::fabs(disc.at.z_m) < 1e6F && disc.radius_m >= 0 &&
           disc.radius_m < 1e6F && std::fabs(disc.x_m_s) < 1e3F && std::fabs(disc.z_m_s) < 1e3F))
       return fail(
           fmt::format("Avoidance: a disc at ({}, {}) m, radius {} m, is not finite, positive and within 1000 km",
                       disc.at.x_m, disc.at.z_m, disc.radius_m));
+    if (auto good = check_height(disc.height); !good) return good;
   }
   work().discs.assign(discs.begin(), discs.end());
   return {};
@@ -270,7 +284,6 @@ void AvoidanceWork::choose(const Frame& frame) {
   const Surroundings around = {book, walls, discs, options.overlap_m};
   chosen.resize(strikers.size());
   in_parallel(frame.jobs, strikers.size(), [&](std::size_t begin, std::size_t end) {
-    const FlushDenormals flush;  // as in a tick
     for (std::size_t i = begin; i < end; ++i) choose_step(around, strikers[i], chosen[i]);
   });
   give_way(frame.jobs, tick);

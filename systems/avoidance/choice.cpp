@@ -174,7 +174,7 @@ class WayChoice {
 
   void look_at_walls() {
     for (const auto& [wall, box] : around_.walls) {
-      if (!box.meets(box_, mine_.shoulders_m)) continue;
+      if (!box.meets(box_, mine_.shoulders_m) || !mine_.meets(wall.height)) continue;
       nearest_to_wall(ways_, wall.from.x_m, wall.from.z_m, wall.to.x_m, wall.to.z_m, min_m2_);
       keep_clear(min_m2_, mine_.shoulders_m - brushes_m);
     }
@@ -184,6 +184,7 @@ class WayChoice {
     const WayInstants instants = around_.book.instants();
     std::array<float, way_samples> x, z;
     for (const Disc& disc : around_.discs) {
+      if (!mine_.meets(disc.height)) continue;
       for (std::size_t s = 0; s < way_samples; ++s) {
         const float then = instants.first_s + static_cast<float>(s) * instants.every_s;
         x[s] = disc.at.x_m + then * disc.x_m_s;
@@ -205,15 +206,17 @@ class WayChoice {
       add_foresight(ways, one, cost);
     }
     for (const Disc& disc : around_.discs)
-      if (square(disc.at.x_m - at_.x_m) + square(disc.at.z_m - at_.z_m) < square(sees_m + disc.radius_m))
+      if (mine_.meets(disc.height) &&
+          square(disc.at.x_m - at_.x_m) + square(disc.at.z_m - at_.z_m) < square(sees_m + disc.radius_m))
         add_foresight(ways,
                       {disc.at.x_m, disc.at.z_m, disc.x_m_s, disc.z_m_s,
                        disc.radius_m + mine_.shoulders_m + all_of_the_way_m - narrower_m},
                       cost);
     constexpr float wall_within_m = 2;
     for (std::size_t i = 0; walls && i < around_.walls.size(); ++i) {
-      if (!around_.walls[i].box.meets({at_.x_m, at_.x_m, at_.z_m, at_.z_m}, wall_within_m)) continue;
-      const GroundPoint at = nearest_of(around_.walls[i].wall, at_);
+      const auto& [wall, box] = around_.walls[i];
+      if (!box.meets({at_.x_m, at_.x_m, at_.z_m, at_.z_m}, wall_within_m) || !mine_.meets(wall.height)) continue;
+      const GroundPoint at = nearest_of(wall, at_);
       if (square(at.x_m - at_.x_m) + square(at.z_m - at_.z_m) < square(wall_within_m))
         add_foresight(ways, {at.x_m, at.z_m, 0, 0, mine_.shoulders_m - narrower_m}, cost);
     }

@@ -86,7 +86,7 @@ float lane_heading(const ReservationBook& book, std::span<const BoxedWall> walls
   }
   for (const auto& [wall, box] : walls) {
     constexpr float reach = tried_ahead_m + lanes_aside * lane_apart_m + wall_clear_m;
-    if (!box.meets({at.x_m, at.x_m, at.z_m, at.z_m}, reach)) continue;
+    if (!box.meets({at.x_m, at.x_m, at.z_m, at.z_m}, reach) || !mine.meets(wall.height)) continue;
     const GroundPoint here = nearest_of(wall, at);
     if (distance2(here, at) > reach * reach) continue;
     for (int i = 0; i < lanes_across; ++i) {

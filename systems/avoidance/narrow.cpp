@@ -138,7 +138,6 @@ class Narrowing {
 void narrow_shoulders(const ReservationBook& book, const Jobs& jobs, std::uint32_t tick) {
   const std::span<const BlockOfReservations> blocks = book.blocks();
   in_parallel(jobs, blocks.size(), [&](std::size_t begin, std::size_t end) {
-    const FlushDenormals flush;  // as in a tick
     for (const BlockOfReservations& at : blocks.subspan(begin, end - begin)) {
       const TableColumn<AvoidanceState> courses(*at.table);
       if (!courses) continue;

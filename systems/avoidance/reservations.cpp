@@ -50,7 +50,6 @@ void ReservationBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick
   tick_s_ = tick_s;
   list(world);
   in_parallel(jobs, blocks_.size(), [&](std::size_t begin, std::size_t end) {
-    const FlushDenormals flush;  // as in a tick
     for (std::size_t b = begin; b < end; ++b) remake(blocks_[b], shoulders_h);
   });
   strikers_.clear();

@@ -60,6 +60,12 @@ struct Reservation {
   bool yields;                // avoids others
   std::array<float, kept> x_m, z_m;
 
+  /// Returns true if an obstacle at these heights is on this person's floor: not below the ground, and not above a
+  /// person's head.
+  bool meets(const HeightRange& height) const {
+    constexpr float head_m = 2;
+    return height.high_m > ground_m && height.low_m < ground_m + head_m;
+  }
   std::size_t at(std::uint32_t instant) const {
     const std::uint32_t since = instant - first;
     return since < way_samples ? since : way_samples;

@@ -46,6 +46,16 @@ GroundPoint ground_point(const HostAxes& axes, const float* theirs) {
   return {at.x, at.z};
 }
 
+/// Determines the stride of rows of bottom and top, which can be null.
+int height_stride(Line& line, const float* heights, std::size_t count, std::size_t& stride) {
+  return heights == nullptr ? int{MOBIL_OK} : row_stride(line, heights, count, 2, "heights", stride);
+}
+HeightRange height_of(const HostAxes& axes, const float* heights, std::size_t i, std::size_t stride) {
+  if (heights == nullptr) return {};
+  const float* const row = row_at(heights, i, stride, 0);
+  return {row[0] / axes.units_per_m, row[1] / axes.units_per_m};
+}
+
 /// Converts a row of height along the host's up axis and normal. A normal that does not point up gives NaN.
 TerrainHeight height_from(const HostAxes& axes, const float* theirs) {
   const Vec3<float> n = axes.direction_from(theirs + 1);
@@ -111,25 +121,38 @@ int mobil_avoidance_set_desired_velocity(mobil_sim* sim, const mobil_id* ids, si
 }
 
 int mobil_avoidance_set_walls(mobil_sim* sim, const float* walls, size_t stride, size_t count) {
-  return call(sim, "mobil_avoidance_set_walls", [&](mobil_sim& s) {
+  return mobil_avoidance_set_walls_between(sim, walls, stride, nullptr, 0, count);
+}
+
+int mobil_avoidance_set_discs(mobil_sim* sim, const float* discs, size_t stride, size_t count) {
+  return mobil_avoidance_set_discs_between(sim, discs, stride, nullptr, 0, count);
+}
+
+int mobil_avoidance_set_walls_between(mobil_sim* sim, const float* walls, size_t stride, const float* heights,
+                                      size_t heights_stride, size_t count) {
+  return call(sim, "mobil_avoidance_set_walls_between", [&](mobil_sim& s) {
     if (const int code = row_stride(s.line, walls, count, 6, "walls", stride)) return code;
+    if (const int code = height_stride(s.line, heights, count, heights_stride)) return code;
     std::vector<Wall> to(count);
     for (std::size_t i = 0; i < count; ++i) {
       const float* const row = row_at(walls, i, stride, 0);
-      to[i] = {ground_point(s.axes, row), ground_point(s.axes, row + 3)};
+      to[i] = {ground_point(s.axes, row), ground_point(s.axes, row + 3), height_of(s.axes, heights, i, heights_stride)};
     }
     return code_of(s.line, s.world().avoidance().set_walls(to));
   });
 }
 
-int mobil_avoidance_set_discs(mobil_sim* sim, const float* discs, size_t stride, size_t count) {
-  return call(sim, "mobil_avoidance_set_discs", [&](mobil_sim& s) {
+int mobil_avoidance_set_discs_between(mobil_sim* sim, const float* discs, size_t stride, const float* heights,
+                                      size_t heights_stride, size_t count) {
+  return call(sim, "mobil_avoidance_set_discs_between", [&](mobil_sim& s) {
     if (const int code = row_stride(s.line, discs, count, 7, "discs", stride)) return code;
+    if (const int code = height_stride(s.line, heights, count, heights_stride)) return code;
     std::vector<Disc> to(count);
     for (std::size_t i = 0; i < count; ++i) {
       const float* const row = row_at(discs, i, stride, 0);
       const Vec3<float> velocity = s.axes.place_from(row + 3);
-      to[i] = {ground_point(s.axes, row), row[6] / s.axes.units_per_m, velocity.x, velocity.z};
+      to[i] = {ground_point(s.axes, row), row[6] / s.axes.units_per_m, velocity.x, velocity.z,
+               height_of(s.axes, heights, i, heights_stride)};
     }
     return code_of(s.line, s.world().avoidance().set_discs(to));
   });

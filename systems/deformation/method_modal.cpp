@@ -295,7 +295,6 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
 void place_now(World& world, Entity muscle) {
   const auto* const at = world.locate(muscle);
   if (at == nullptr || of_modal::placed_part(world.tables()[at->table].key()) == 0) return;
-  const FlushDenormals flush;  // as in a tick
   const std::size_t block = at->row / lane_count;
   of_modal::place_blocks(world.tables()[at->table], world, block, block + 1);
 }

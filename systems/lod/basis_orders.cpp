@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include <mobil/engine/jobs.h>
 #include "systems/bellies/leg_muscles_io.h"
 
 namespace mobil::inline v0_3 {
@@ -55,6 +56,7 @@ bool BasisOrders::ready(BellyLibrary& library, Muscle muscle, const LegMuscles& 
       background_.user,
       [](void* argument) {
         const std::unique_ptr<std::shared_ptr<Work>> held(static_cast<std::shared_ptr<Work>*>(argument));
+        const FloatMode mode;
         (*held)->make();
       },
       new std::shared_ptr<Work>(work));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -87,15 +88,17 @@ const LodReport& Lod::report() const {
 }
 
 Result<void> Lod::set_options(const LodOptions& options) {
+  const FloatMode mode;
   if (auto ok = check(options); !ok) return ok;
   LodWork& to = work();
   to.options = options;
-  to.lod_table = LodTable(options.table != nullptr ? *options.table : accuracy_table());
+  std::construct_at(&to.lod_table, options.table != nullptr ? *options.table : accuracy_table());  // 150 kB
   to.orders.make_by(options.background, options.making_ticks);
   return {};
 }
 
 Result<void> Lod::set_scene(const LodScene& needs) {
+  const FloatMode mode;
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("set_scene: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
   if (!positive(static_cast<double>(needs.tolerance_px)))
@@ -147,6 +150,7 @@ static std::array<bool, level_count> called_for(const LodWork& work, std::span<c
 
 Result<void> Lod::prepare(std::span<const float> own_tolerances_m,
                           const std::function<void(std::size_t done, std::size_t of)>& progress) {
+  const FloatMode mode;
   std::vector<float> tolerances(own_tolerances_m.begin(), own_tolerances_m.end());
   for (const float tolerance_m : tolerances)
     if (!positive(double{tolerance_m}))
@@ -188,6 +192,7 @@ Result<void> Lod::manage(Entity person, const LodOverrides& needs) {
 }
 
 Result<void> Lod::manage(std::span<const Entity> people, const LodOverrides& needs) {
+  const FloatMode mode;
   if (!frame_.world.alive_once(people) ||
       !std::ranges::all_of(people, [&](Entity person) { return is_person(frame_.world, person); }))
     return fail("manage: somebody is not there (a stale handle), or named twice; spawn people first, name each once",
@@ -237,6 +242,7 @@ Result<void> Lod::manage(std::span<const Entity> people, const LodOverrides& nee
 }
 
 Result<std::size_t> Lod::manage_asleep(std::span<const Entity> people) {
+  const FloatMode mode;
   if (!frame_.world.alive_once(people))
     return fail("manage_asleep: somebody is not there (a stale handle), or named twice; name each once",
                 Status::stale_entity);
@@ -268,6 +274,7 @@ Result<void> Lod::release(Entity person) {
 }
 
 Result<void> Lod::release(std::span<const Entity> people) {
+  const FloatMode mode;
   if (!frame_.world.alive_once(people))
     return fail("release: somebody is not there (a stale handle), or named twice", Status::stale_entity);
   std::vector<Entity> whole;
@@ -289,6 +296,7 @@ Result<void> Lod::release(std::span<const Entity> people) {
 }
 
 Result<void> Lod::force(Entity person, Muscle muscle, const MuscleMethod& method) {
+  const FloatMode mode;
   auto lod_state = frame_.world.get<LodState>(person);
   const auto m = static_cast<std::uint32_t>(muscle);
   if (!lod_state || m >= max_muscles || !bit_at(lod_state->muscles, m))
@@ -322,6 +330,7 @@ Result<void> Lod::force(Entity person, Muscle muscle, const MuscleMethod& method
 }
 
 Result<void> Lod::unforce(Entity person, Muscle muscle) {
+  const FloatMode mode;
   auto lod_state = frame_.world.get<LodState>(person);
   if (!lod_state) return fail(lod_state.error());
   const auto m = static_cast<std::uint32_t>(muscle);

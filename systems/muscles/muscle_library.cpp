@@ -10,6 +10,7 @@ const MuscleMeans& means_of(const Frame& frame) {
 }  // namespace
 
 Result<void> MuscleLibrary::prepare(const LegMuscles& choice) {
+  const FloatMode mode;
   return named("prepare", means_of(frame_).library->prepare(choice, means_of(frame_).tick_s, frame_.jobs));
 }
 
@@ -18,6 +19,7 @@ std::vector<std::byte> MuscleLibrary::bake() const {
 }
 
 Result<void> MuscleLibrary::load(std::span<const std::byte> baked) {
+  const FloatMode mode;
   return named("load", means_of(frame_).library->load(baked));
 }
 

@@ -38,7 +38,7 @@ struct PosedBlock {
     shoulders_rad[lane] = course ? course->turn_rad : 0;
   }
   void make() {
-    const FlushDenormals flush;  // as in a tick
+    const FloatMode mode;  // as in a tick
     pose_skeleton(size, plan, state, nullptr, pose, angles, feet);
     turn_shoulders(shoulders_rad, pose);
     centre_of_mass(size, pose, centre);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include <mobil/components/activation.h>
@@ -28,23 +29,29 @@ struct Beginning {
     BodySize<Lanes<float>> size;
     read(size);
     if (posed) {
-      PoseHistory<Lanes<float>> past{};
-      Pose<Lanes<float>> pose;
-      Feet<Lanes<float>> feet;
-      read(pose);
-      read(feet);
+      struct Posed {
+        PoseHistory<Lanes<float>> past{};
+        Pose<Lanes<float>> pose;
+        Feet<Lanes<float>> feet;
+      };
+      const auto at = std::make_unique<Posed>();  // too large for small stacks
+      read(at->pose);
+      read(at->feet);
       constexpr float no_matter_s = 1;
-      return press_posed(size, pose, feet, past, no_matter_s, ground[block], moments[block]);
+      return press_posed(size, at->pose, at->feet, at->past, no_matter_s, ground[block], moments[block]);
     }
-    StepPlan<Lanes<float>> plan;
-    GaitState<Lanes<float>> state;
-    Footing<Lanes<float>> under;
-    read(plan);
-    read(state);
-    const bool has_ground = world.has<Footing>(some.front());
-    if (has_ground) read(under);
-    walker_motion(size, plan, state, has_ground ? &under : nullptr, motion[block]);
-    joint_forces(size, motion[block], plan, state, has_ground ? &under : nullptr, ground[block], moments[block]);
+    struct Walking {
+      StepPlan<Lanes<float>> plan;
+      GaitState<Lanes<float>> state;
+      Footing<Lanes<float>> footing;
+    };
+    const auto at = std::make_unique<Walking>();
+    read(at->plan);
+    read(at->state);
+    const Footing<Lanes<float>>* const under = world.has<Footing>(some.front()) ? &at->footing : nullptr;
+    if (under != nullptr) read(at->footing);
+    walker_motion(size, at->plan, at->state, under, motion[block]);
+    joint_forces(size, motion[block], at->plan, at->state, under, ground[block], moments[block]);
   }
 };
 

@@ -230,13 +230,10 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   CentreOfMass<Lanes<float>> centre;
-  {
-    const FlushDenormals flush;  // as in a tick
-    const auto under = broadcast(footing.value_or(Footing<float>{}));
-    pose_skeleton(size, broadcast(*world.get<StepPlan>(person)), broadcast(state), footing ? &under : nullptr, pose,
-                  angles, feet);
-    centre_of_mass(size, pose, centre);
-  }
+  const auto under = broadcast(footing.value_or(Footing<float>{}));
+  pose_skeleton(size, broadcast(*world.get<StepPlan>(person)), broadcast(state), footing ? &under : nullptr, pose,
+                angles, feet);
+  centre_of_mass(size, pose, centre);
   world.set(person, first_lane(pose));
   world.set(person, first_lane(feet));
   world.set(person, first_lane(centre));

@@ -180,7 +180,7 @@ void PoseWriter::Work::write_block(std::size_t b) const {
   const auto* pose = own ? &own.at(table, block) : nullptr;
   Pose<Lanes<float>> then;
   if (TableColumn<GaitState>(table) && (ahead_s > 0 || pose == nullptr)) {
-    const FlushDenormals flush;
+    const FloatMode mode;
     if (ahead_s > 0) {
       walk_on(table, block, ahead_s, then);
     } else {

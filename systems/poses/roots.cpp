@@ -28,7 +28,6 @@ struct RootBlock {
 
   void make(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, const StepPlan<Lanes<float>>& plan,
             const GaitState<Lanes<float>>& state, float ahead_s) {
-    const FlushDenormals flush;  // as in a tick
     if (ahead_s > 0) {
       const WalkAhead then(size, gait, plan, state, nullptr, ahead_s);
       make(then.plan(), then.state());

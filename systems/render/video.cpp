@@ -25,10 +25,15 @@ extern char** environ;
 namespace mobil::inline v0_3 {
 namespace {
 
-/// A file descriptor that closes itself.
+/// A file descriptor that closes itself. In a host that has closed standard descriptors the system gives their numbers
+/// to new ones. Those are replaced, because ffmpeg's standard descriptors are set one after the other.
 class Descriptor {
  public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  explicit Descriptor(int fd = -1) : fd_(fd) {
+    if (fd < 0 || fd > STDERR_FILENO) return;
+    fd_ = ::fcntl(fd, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    ::close(fd);
+  }
   Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
   Descriptor& operator=(Descriptor&& other) noexcept {
     std::swap(fd_, other.fd_);

@@ -116,7 +116,6 @@ void make_left_out(const RestoreScene& scene) {
     for (const Module& module : scene.modules) {
       if (!module.follows || module.follows(table.key()) == 0) continue;
       const auto make = [&](std::size_t begin, std::size_t end) {
-        const FlushDenormals flush;  // as in a tick
         module.make(table, scene.world, begin, end);
       };
       try {

@@ -53,7 +53,6 @@ struct WakingBlock {
     tick[lane] = time.tick;
   }
   void make(float tick_s, Woken as) {
-    const FlushDenormals flush;  // as in a tick
     walk_on(gait_before, before, asked, tick, tick_s, walkers, work);
     if (as == Woken::compact) return;
     pose_skeleton(walkers.size, walkers.plan, walkers.state, nullptr, pose, angles, feet);

@@ -63,7 +63,6 @@ struct SkinWriter::Work {
 SkinWriter::SkinWriter(std::pmr::memory_resource* memory) : scratch_(memory) {}
 
 void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end) {
-  const FlushDenormals flush;
   const auto& work = *static_cast<const Work*>(context);
   const ScratchLease scratch(&work.scratch);
   for (std::size_t i = begin; i < end; ++i) {

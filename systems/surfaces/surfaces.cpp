@@ -190,7 +190,6 @@ Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& re
 
 void SurfaceWriter::write_pieces(void* context, std::size_t begin, std::size_t end) {
   const auto& work = *static_cast<const Work*>(context);
-  const FlushDenormals flush;
   const ScratchLease scratch(&work.writer.scratch_);
   // piece by piece for all people: those who share their surfaces find them in the cache
   for (std::size_t i = begin; i < end; ++i) {

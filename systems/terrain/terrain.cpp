@@ -231,10 +231,7 @@ std::size_t TerrainWork::put_answers(const Frame& frame) {
   people.reserve(asking.size());
   scaling.reserve(asking.size());
   std::size_t unusable = 0;
-  {
-    const FlushDenormals flush;  // as in a tick
-    for (const Asking& one : asking) unusable += put_answers(frame.world, one, options.slows_down);
-  }
+  for (const Asking& one : asking) unusable += put_answers(frame.world, one, options.slows_down);
   report.asked += asking.size();
   report.places += queries.size();
   report.unusable += unusable;
@@ -362,6 +359,7 @@ std::vector<Entity> those(const World& world, std::span<const Entity> people, bo
 }  // namespace
 
 Result<void> Terrain::manage(std::span<const Entity> people) {
+  const FloatMode mode;
   World& world = frame_.world;
   const Jobs& jobs = frame_.jobs;
   for (const Entity person : people) {
@@ -380,6 +378,7 @@ Result<void> Terrain::manage(std::span<const Entity> people) {
 }
 
 Result<void> Terrain::release(std::span<const Entity> people) {
+  const FloatMode mode;
   World& world = frame_.world;
   const Jobs& jobs = frame_.jobs;
   for (const Entity person : people) {
@@ -411,11 +410,13 @@ const TerrainReport& Terrain::report() const {
 }
 
 std::span<const TerrainQuery> Terrain::query() {
+  const FloatMode mode;
   work().collect(frame_.world);
   return work().queries;
 }
 
 Result<std::size_t> Terrain::resolve(std::span<const TerrainHeight> heights) {
+  const FloatMode mode;
   TerrainWork& of = work();
   if (heights.size() != of.queries.size())
     return fail(

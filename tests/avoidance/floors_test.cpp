@@ -1,6 +1,7 @@
 // Avoidance between people at different heights: on and below a bridge, on slopes and stairs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -59,6 +60,43 @@ TEST(Floors, CrowdBelowDoesNotBlockTheBridge) {
     const Root end = all.root(crosses);
     const bool straight = std::fabs(end.x_m) < 0.02 && end.z_m > 5;
     EXPECT_EQ(straight, height_m > 0) << end.x_m << ' ' << end.z_m;
+  }
+}
+
+/// Walls and discs upstairs do not stop people below, and those of the ground floor do not stop people upstairs.
+TEST(Floors, ObstaclesOfOtherFloorsAreIgnored) {
+  struct Case {
+    float ground_m;
+    HeightRange height;
+    bool seen;
+  };
+  const Case cases[] = {{0, {}, true},          {0, {0, 3}, true},     {0, {3, 6}, false},  {0, {1.9F, 3}, true},
+                        {0, {2.1F, 3}, false},  {0, {-3, 0}, false},   {3, {0, 3}, false},  {3, {3, 6}, true},
+                        {3, {0, 3.1F}, true},   {3, {5.1F, 9}, false}, {50, {0, 3}, false}, {-4, {0, 3}, false},
+                        {-4, {-4, -1}, true}};
+  for (const auto& [ground_m, height, seen] : cases) {
+    for (const bool disc : {false, true}) {
+      Avoiders all;
+      const Entity one = all.come(1.3F, 0.0F, -4.0F);
+      all.simulation.terrain().set_heights([=](std::span<const TerrainQuery>, std::span<TerrainHeight> out) {
+        for (TerrainHeight& at : out) at.height_m = ground_m;
+      });
+      EXPECT_TRUE(all.simulation.terrain().manage({&one, 1}));
+      all.run(60);
+      const Wall across = {{-9, 0}, {9, 0}, height};
+      const Disc pillar = {{0, 0}, 0.6F, 0, 0, height};
+      if (disc)
+        EXPECT_TRUE(all.avoidance.set_discs({&pillar, 1}));
+      else
+        EXPECT_TRUE(all.avoidance.set_walls({&across, 1}));
+      double aside_m = 0;
+      for (int tick = 0; tick < 480; ++tick) {
+        all.run();
+        aside_m = std::max(aside_m, std::fabs(all.root(one).x_m));
+      }
+      const bool straight = aside_m < 0.02 && all.root(one).z_m > 4;
+      EXPECT_EQ(straight, !seen) << ground_m << " m, " << height.low_m << " to " << height.high_m << " m";
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <mobil/avoidance.h>
 #include <mobil/lod.h>
@@ -53,6 +54,29 @@ TEST(CSurroundings, AvoidancePathsMatchCpp) {
   ASSERT_EQ(mobil_avoidance_manage(twins.sim, twins.ids.data(), 5, 0), MOBIL_OK) << twins.sim.message();
   EXPECT_EQ(mobil_avoidance_manage(twins.sim, twins.ids.data(), 5, 0), MOBIL_MISSING);
   EXPECT_NE(twins.sim.message().find("person 0"), std::string::npos);
+}
+
+TEST(CSurroundings, ObstaclesHaveHeights) {
+  Twins twins;
+  ASSERT_EQ(mobil_avoidance_manage(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK);
+  Avoidance avoidance = twins.simulation.avoidance();
+  ASSERT_TRUE(avoidance.manage(twins.entities));
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  const float walls[2][6] = {{300, 100, 0, 300, -600, 0}, {400, 100, 0, 400, -600, 0}};
+  const float discs[1][7] = {{250, -200, 0, 0, 0, 0, 25}};
+  const float heights[2][2] = {{250, 400}, {-infinite, 100}}, upside_down[2][2] = {{0, 1}, {3, 2}};
+  ASSERT_EQ(mobil_avoidance_set_walls_between(twins.sim, walls[0], 0, heights[0], 0, 2), MOBIL_OK)
+      << twins.sim.message();
+  ASSERT_EQ(mobil_avoidance_set_discs_between(twins.sim, discs[0], 0, heights[0], 0, 1), MOBIL_OK);
+  ASSERT_TRUE(avoidance.set_walls({{{{-1, 3}, {6, 3}, {2.5F, 4}}, {{-1, 4}, {6, 4}, {-infinite, 1}}}}));
+  ASSERT_TRUE(avoidance.set_discs({{{{2, 2.5F}, 0.25F, 0, 0, {2.5F, 4}}}}));
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_EQ(mobil_tick(twins.sim, 60), MOBIL_OK);
+    twins.simulation.tick(60);
+    EXPECT_EQ(twins.sim.hash(), twins.simulation.state_hash());
+  }
+  EXPECT_EQ(mobil_avoidance_set_walls_between(twins.sim, walls[0], 0, upside_down[0], 0, 2), MOBIL_REFUSED);
+  EXPECT_NE(twins.sim.message().find("top must be above"), std::string::npos) << twins.sim.message();
 }
 
 /// An irregular hill, in the library's coordinates.

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <clocale>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace mobil::engine_clock_test {
@@ -84,5 +86,15 @@ TEST(EngineClock, SettingsOutOfRangeAreErrors) {
   for (const double tick : {0.0, -1.0, 2.0, std::nan("")}) EXPECT_FALSE(Clock::make(tick));
   for (const double frame : {0.0, 0.01, 61.0, std::nan("")}) EXPECT_FALSE(Clock::make(0.02, frame));
   EXPECT_TRUE(Clock::make(0.02, 0.02));
+}
+
+TEST(EngineClock, MessagesDoNotDependOnTheLocale) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"C", "de_DE.UTF-8", "fr_FR.UTF-8", "ps_AF.UTF-8"}) {  // the last point has two bytes
+    if (std::setlocale(LC_ALL, name) == nullptr) continue;
+    EXPECT_NE(Clock::make(1.5).error().message.find("a tick of 1.5 s"), std::string::npos) << name;
+    EXPECT_NE(Clock::make(0.02, 0.0125).error().message.find("frame of 0.0125 s"), std::string::npos) << name;
+  }
+  std::setlocale(LC_ALL, before.c_str());
 }
 }  // namespace mobil::engine_clock_test

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <cfenv>
 #include <limits>
 #include <new>
 #include <thread>
@@ -35,17 +36,39 @@ float twice_a_denormal() {
 TEST(EngineJobs, DenormalsAreZeroInsideAndBackOutside) {
   ASSERT_GT(half_of_smallest(), 0.0F);
   {
-    const FlushDenormals flush;
+    const FloatMode mode;
     EXPECT_EQ(half_of_smallest(), 0.0F);
     EXPECT_EQ(twice_a_denormal(), 0.0F);
     {
-      const FlushDenormals again;
+      const FloatMode again;
       EXPECT_EQ(half_of_smallest(), 0.0F);
     }
     EXPECT_EQ(half_of_smallest(), 0.0F);
   }
   EXPECT_GT(half_of_smallest(), 0.0F);
   EXPECT_GT(twice_a_denormal(), 0.0F);
+}
+
+/// Returns how this thread's arithmetic rounds. (std::fegetround reads another unit's mode on x86.)
+int rounding() {
+  volatile float one = 1, tiny = 1e-10F;
+  const bool up = one + tiny > 1, down = one - tiny < 1, toward_zero = -one + tiny > -1;
+  return up ? FE_UPWARD : !down ? FE_TONEAREST : toward_zero ? FE_TOWARDZERO : FE_DOWNWARD;
+}
+
+TEST(EngineJobs, RoundingIsToNearestInsideAndBackOutside) {
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+    ASSERT_EQ(std::fesetround(mode), 0);
+    int inside = -1;
+    {
+      const FloatMode ours;
+      inside = rounding();
+    }
+    const int after = rounding();
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(inside, FE_TONEAREST);
+    EXPECT_EQ(after, mode);
+  }
 }
 
 TEST(EngineJobs, SystemsRunWithoutDenormalsOnEveryThreadAndCallersKeepTheirs) {

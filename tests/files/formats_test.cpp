@@ -66,7 +66,13 @@ TEST(Formats, BvhContainsTipsFramesAndSlidingJoints) {
   EXPECT_NE(text.find("Frames: 45\nFrame Time: 0.0333333"), std::string::npos);
   std::size_t six = 0, three = 0;
   for (std::size_t at = 0; (at = text.find("CHANNELS ", at)) != std::string::npos; ++at) {
-    ++(text[at + 9] == '6' ? six : three);
+    const bool slides = text[at + 9] == '6';
+    ++(slides ? six : three);
+    const std::size_t offset = text.rfind("OFFSET ", at);
+    // A program that adds position channels to the offset reads the same place as one that replaces it.
+    if (slides) {
+      EXPECT_TRUE(text.substr(offset).starts_with("OFFSET 0.000000 0.000000 0.000000\n"));
+    }
   }
   EXPECT_EQ(six, 2U);  // the pelvis and the sliding kneecap
   EXPECT_EQ(three, segment_count - 2);

@@ -47,6 +47,35 @@ TEST_F(Output, FileIsCreatedAndOverwritten) {
   }
 }
 
+TEST_F(Output, PermissionsOfAnOverwrittenFileStay) {
+  const auto mode_of = [](const fs::path& file) {
+    struct stat about {};
+    EXPECT_EQ(::stat(file.c_str(), &about), 0);
+    return about.st_mode & 0777U;
+  };
+  for (const mode_t mode : {0664U, 0600U, 0755U, 0644U}) {
+    ASSERT_TRUE(write_file(folder / "a.txt", "first").has_value());
+    ASSERT_EQ(::chmod((folder / "a.txt").c_str(), mode), 0);
+    ASSERT_TRUE(write_file(folder / "a.txt", "second").has_value());
+    EXPECT_EQ(mode_of(folder / "a.txt"), mode);
+
+    auto results = OutputFolder::make(folder);
+    ASSERT_TRUE(results.has_value());
+    ASSERT_TRUE(write_file(results->inside() / "a.txt", "third").has_value());
+    ASSERT_TRUE(results->put().has_value());
+    EXPECT_EQ(mode_of(folder / "a.txt"), mode);
+    EXPECT_EQ(text_of(folder / "a.txt"), "third");
+  }
+}
+
+TEST_F(Output, AWriteProtectedFileIsRefused) {
+  ASSERT_TRUE(write_file(folder / "a.txt", "first").has_value());
+  ASSERT_EQ(::chmod((folder / "a.txt").c_str(), 0444), 0);
+  if (::access((folder / "a.txt").c_str(), W_OK) == 0) GTEST_SKIP() << "this user can write everything";
+  expect_refused(write_file(folder / "a.txt", "second"), "Permission denied");
+  EXPECT_EQ(text_of(folder / "a.txt"), "first");
+}
+
 TEST_F(Output, ALinkIsFollowedAndStays) {
   fs::create_directories(folder / "far");
   fs::create_symlink("far/b.txt", folder / "a.txt");  // no target yet

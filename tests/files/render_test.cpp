@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 #include <rapidcheck/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <vector>
 
 #include <mobil/png.h>
 #include <mobil/renderer.h>
@@ -411,6 +413,25 @@ TEST_F(CaptureVideo, TenPicturesMakeAFilmWithItsIndexInFront) {
   EXPECT_EQ(bytes[sizes + 15], 10);
   EXPECT_FALSE(video->close().has_value());
   EXPECT_FALSE(video->add(image).has_value());
+}
+
+TEST_F(CaptureVideo, AHostWithoutStandardDescriptorsMakesAFilm) {
+  for (const std::vector<int>& closed : std::vector<std::vector<int>>{{0}, {0, 1}, {0, 2}, {1, 2}, {0, 1, 2}}) {
+    const std::string path = folder.file("daemon.mp4");
+    const pid_t host = fork();
+    if (host == 0) {
+      for (const int descriptor : closed) close(descriptor);
+      auto video = VideoWriter::create(path, 64, 48, 30);
+      bool done = video.has_value();
+      for (int i = 0; i < 3 && done; ++i) done = video->add(image).has_value();
+      _exit(done && video->close().has_value() ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(host, &status, 0), host);
+    EXPECT_EQ(status, 0) << closed.size() << " closed, the first is " << closed.front();
+    EXPECT_EQ(folder.files(), 1U);
+    fs::remove(path);
+  }
 }
 
 TEST_F(CaptureVideo, AnAbandonedEmptyOrImpossibleFilmLeavesNothing) {

@@ -221,7 +221,7 @@ void bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
       by.parallel_for(
           by.user, bellies.blocks(),
           [](void* context, std::size_t begin, std::size_t end) {
-            const FlushDenormals flushed;
+            const FloatMode mode;
             const Work& given = *static_cast<const Work*>(context);
             for (std::size_t block = begin; block < end; ++block) {
               for (int n = 0; n < given.ticks; ++n) given.bellies.tick_block(block, steps_a_tick, paper_tick_s);
@@ -267,7 +267,7 @@ void add_step_time(BenchRun& run, const std::string& stem, const Measured& time,
 }  // namespace
 
 void bench_fem(BenchRun& run) {
-  const FlushDenormals flushed;
+  const FloatMode mode;
   const auto muscle = paper_block({2, 2, 8});
   const Cells& cells = muscle.mesh.cells;
   const bool with_rivals = rivals_found();

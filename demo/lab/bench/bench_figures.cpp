@@ -248,7 +248,7 @@ void bench_implicit_and_static(BenchRun& run, const MuscleTemplate& muscle) {
 }  // namespace
 
 void bench_paper_figures(BenchRun& run) {
-  const FlushDenormals flushed;
+  const FloatMode mode;
   std::map<double, Cost> explicit_costs;
   for (const FigureMesh& mesh : {fine, coarse}) {
     const auto muscle = paper_block(mesh.cells);

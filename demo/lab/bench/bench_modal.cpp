@@ -192,7 +192,7 @@ BenchResult measure_crowd(BenchRun& run, const Shape& shape, std::size_t blocks,
 }  // namespace
 
 void bench_modal(BenchRun& run) {
-  const FlushDenormals flushed;
+  const FloatMode mode;
   const std::size_t blocks = std::max<std::size_t>(1, run.people * muscles_a_person / lane_count);
   std::map<std::string, double> us;
   for (const Shape& shape : {Shape{12, false, What::tick}, Shape{12, false, What::placed}, Shape{16, true, What::tick},

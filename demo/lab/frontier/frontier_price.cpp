@@ -99,7 +99,7 @@ class FrontierCrowd {
   /// Advances all by a tick or, with a fixed step, by the integer number of steps nearest to a tick. `control_points`
   /// also places those of a modal method.
   void tick(bool control_points) {
-    const FlushDenormals flush;
+    const FloatMode mode;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       if (method_.modal()) {
         tick_modes(b, control_points);

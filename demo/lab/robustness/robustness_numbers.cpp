@@ -197,7 +197,7 @@ void robustness_denormals(RobustnessRun& run) {
     constexpr int ticks = 720;  // twelve seconds: the slowest part of the ring is divided by e^100 or more
     for (int tick = 0; tick < ticks; ++tick) {
       {
-        const FlushDenormals flush;
+        const FloatMode mode;
         flushed.tick();
       }
       plain.tick();

@@ -1,7 +1,6 @@
 #pragma once
 // Fixed-length ticks from frames of any length.
 
-#include <cmath>
 #include <cstdint>
 
 #include <mobil/engine/error.h>
@@ -30,37 +29,10 @@ class Clock {
   Clock() = default;
 
   /// Ranges: tick 1e-5–1 s, longest frame from one tick to 60 s.
-  static Result<Clock> make(double tick_s, double max_frame_s = 0.25) {
-    if (!(tick_s >= 1e-5 && tick_s <= 1)) {
-      return fail("clock: a tick of " + std::to_string(tick_s) + " s is out of range; choose 0.00001 to 1 s");
-    }
-    if (!(max_frame_s >= tick_s && max_frame_s <= 60)) {
-      return fail("clock: a longest frame of " + std::to_string(max_frame_s) +
-                  " s is out of range; choose from one tick to 60 s");
-    }
-    Clock clock;
-    clock.tick_ = to_units(tick_s);
-    clock.max_frame_ = to_units(max_frame_s);
-    return clock;
-  }
+  static Result<Clock> make(double tick_s, double max_frame_s = 0.25);
 
   /// Adds a frame's time, s, and returns the ticks to run now. A negative or non-finite time is discarded.
-  Ticks advance(double seconds) {
-    Ticks ticks;
-    if (!(seconds >= 0) || !std::isfinite(seconds)) {
-      ticks.valid = false;
-      ticks.dropped_s = seconds;
-    } else if (seconds > to_seconds(max_frame_)) {
-      ticks.dropped_s = seconds - to_seconds(max_frame_);
-      remainder_ += max_frame_;
-    } else {
-      remainder_ += to_units(seconds);
-    }
-    ticks.count = static_cast<std::uint32_t>(remainder_ / tick_);
-    remainder_ %= tick_;
-    ticks.alpha = static_cast<double>(remainder_) / static_cast<double>(tick_);
-    return ticks;
-  }
+  Ticks advance(double seconds);
 
   /// Adds ticks of `advance` that did not run to the next frame.
   void give_back(std::uint32_t ticks) { remainder_ += ticks * tick_; }
@@ -78,11 +50,10 @@ class Clock {
   void set_remainder_units(std::int64_t units) { remainder_ = units; }
 
  private:
-  static std::int64_t to_units(double seconds) { return std::llround(std::ldexp(seconds, 50)); }
-  static double to_seconds(std::int64_t units) { return std::ldexp(static_cast<double>(units), -50); }
+  static double to_seconds(std::int64_t units) { return static_cast<double>(units) * 0x1p-50; }
 
-  std::int64_t tick_ = to_units(1.0 / 60);
-  std::int64_t max_frame_ = to_units(0.25);
+  std::int64_t tick_ = (1LL << 50U) / 60;  // 1/60 s to the nearest unit
+  std::int64_t max_frame_ = 1LL << 48U;    // 0.25 s
   std::int64_t remainder_ = 0;
 };
 

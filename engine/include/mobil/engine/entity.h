@@ -34,7 +34,7 @@ class EntityRegister {
   /// Makes room for `more` entities, for which `create` does not allocate.
   void reserve(std::size_t more) {
     const std::size_t slots = slots_.size() + more;
-    if (slots > slots_.capacity()) slots_.reserve(std::max(slots, 2 * slots_.capacity()));
+    if (slots > slots_.capacity()) slots_.reserve((std::max)(slots, 2 * slots_.capacity()));
   }
 
   /// Returns the number of indices used so far, including those of destroyed entities.
@@ -91,7 +91,7 @@ class EntityRegister {
  private:
   friend class WorldSnapshot;  // engine/snapshot.h
 
-  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t nobody = (std::numeric_limits<std::uint32_t>::max)();
   struct Slot {
     std::uint32_t generation;
     Location location;  // `{nobody, next free slot}` if the slot is free

@@ -7,7 +7,22 @@
 
 #include <mobil/engine/status.h>
 
+/// The layout of standard containers, which host and library share. A host that differs fails to link, and the linker
+/// names this symbol.
+#if defined(_LIBCPP_VERSION)
+#define MOBIL_CONTAINERS library_is_built_with_libcxx
+#elif defined(_GLIBCXX_DEBUG)
+#define MOBIL_CONTAINERS library_is_built_with_GLIBCXX_DEBUG
+#elif defined(_GLIBCXX_USE_CXX11_ABI) && !_GLIBCXX_USE_CXX11_ABI
+#define MOBIL_CONTAINERS library_is_built_with_GLIBCXX_USE_CXX11_ABI_0
+#else
+#define MOBIL_CONTAINERS library_is_built_without_GLIBCXX_DEBUG
+#endif
+
 namespace mobil::inline v0_3 {
+
+extern const char MOBIL_CONTAINERS;
+[[gnu::used]] static const char* const containers = &MOBIL_CONTAINERS;
 
 /// Reason of a failed call: one line of text and a status code.
 struct Error {
@@ -25,6 +40,9 @@ using Result = tl::expected<T, Error>;
 /// Returns the text on one line that terminals show unchanged. Control characters become \n or \x1b. Words of more than
 /// 255 characters are cut to their first 60, and the text to 2000 characters. Other texts are unchanged.
 std::string one_line(std::string text);
+
+/// Returns a number with up to seven digits, and with a point in any locale.
+std::string decimal(double value);
 
 /// Returns an error; the message is put on one line.
 inline tl::unexpected<Error> fail(std::string message, Status status = Status::not_valid) {

@@ -53,14 +53,15 @@ class Threads {
   std::unique_ptr<Arena> arena_;
 };
 
-/// Flushes denormals to zero in this thread's arithmetic while it lives (on x86 and 64-bit ARM), and then restores the
-/// previous mode.
-class FlushDenormals {
+/// The arithmetic of this thread while it lives: denormals are flushed to zero and results rounded to nearest (on x86
+/// and 64-bit ARM). It then restores the previous mode. `run_in_parallel` and the calls that change state use it, so
+/// that a host's mode does not change their results.
+class FloatMode {
  public:
-  FlushDenormals();
-  ~FlushDenormals();
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
+  FloatMode();
+  ~FloatMode();
+  FloatMode(const FloatMode&) = delete;
+  FloatMode& operator=(const FloatMode&) = delete;
 
  private:
   unsigned long before_;

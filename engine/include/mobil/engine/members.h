@@ -15,13 +15,13 @@ namespace mobil::inline v0_3 {
 class Members {
  public:
   /// An index that no entity has.
-  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t nobody = (std::numeric_limits<std::uint32_t>::max)();
 
   explicit Members(std::pmr::memory_resource* memory) : links_(memory) {}
 
   /// Makes room for indices below `end`.
   void reserve(std::size_t end) {
-    if (end > links_.capacity()) links_.reserve(std::max(end, 2 * links_.capacity()));
+    if (end > links_.capacity()) links_.reserve((std::max)(end, 2 * links_.capacity()));
   }
   /// Makes indices below `end` valid; there must be room.
   void grow(std::size_t end) {

@@ -4,6 +4,10 @@
 #include <cstdint>
 #include <string_view>
 
+#if defined(Status)
+#error "X11 has made Status a macro: write #undef Status between its headers and those of mobil"
+#endif
+
 namespace mobil::inline v0_3 {
 
 /// Result of a request. Nothing was changed unless it is `ok`.

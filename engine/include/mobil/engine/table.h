@@ -25,7 +25,7 @@ struct RowMove {
 class Table {
  public:
   /// Result of `column` if the table has no such part.
-  static constexpr std::uint32_t no_column = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t no_column = (std::numeric_limits<std::uint32_t>::max)();
 
   Table(const Archetype& key, std::pmr::memory_resource* memory);
   ~Table();

@@ -17,8 +17,8 @@ using namespace geometry;  // Vec and its operators
 
 /// Returns the smaller of two distances, rounded where they differ by less than `k` (quadratic, C¹).
 inline double smooth_union(double a, double b, double k) {
-  const double h = std::max(k - std::abs(a - b), 0.0) / k;
-  return std::min(a, b) - 0.25 * h * h * k;
+  const double h = (std::max)(k - std::abs(a - b), 0.0) / k;
+  return (std::min)(a, b) - 0.25 * h * h * k;
 }
 /// Returns the distance to `a` without `b`, with rounded edges.
 inline double smooth_difference(double a, double b, double k) {
@@ -31,7 +31,7 @@ inline double ellipsoid(const Vec& p, const Vec& centre, const Vec& semi) {
   const Vec unit{d.x / semi.x, d.y / semi.y, d.z / semi.z};
   const Vec slope{unit.x / semi.x, unit.y / semi.y, unit.z / semi.z};
   const double size = length(unit), steep = length(slope);
-  if (steep < 1e-9) return -std::min({semi.x, semi.y, semi.z});
+  if (steep < 1e-9) return -(std::min)({semi.x, semi.y, semi.z});
   return size * (size - 1) / steep;
 }
 
@@ -45,7 +45,7 @@ inline double capsule(const Vec& p, const Vec& a, const Vec& b, double at_a, dou
 /// Returns a curve through values at 0, 1, 2… (Catmull–Rom), between the k-th and the next.
 template <class Value>
 double curve(std::size_t count, std::size_t k, double t, const Value& value) {
-  const double a = value(k == 0 ? 0 : k - 1), b = value(k), c = value(k + 1), d = value(std::min(k + 2, count - 1));
+  const double a = value(k == 0 ? 0 : k - 1), b = value(k), c = value(k + 1), d = value((std::min)(k + 2, count - 1));
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
@@ -61,9 +61,9 @@ inline double tube(std::span<const Ring> rings, double along, double x, double z
   };
   const double across = at(&Ring::across), deep = at(&Ring::deep);
   const double u = (x - at(&Ring::x)) / across, v = (z - at(&Ring::z)) / deep;
-  const double side = (std::sqrt(u * u + v * v) - 1) * std::min(across, deep);
-  const double beyond = std::max(rings.front().along - along, along - rings.back().along);
-  return beyond > 0 ? std::hypot(std::max(side, 0.0), beyond) : std::max(side, beyond);
+  const double side = (std::sqrt(u * u + v * v) - 1) * (std::min)(across, deep);
+  const double beyond = (std::max)(rings.front().along - along, along - rings.back().along);
+  return beyond > 0 ? std::hypot((std::max)(side, 0.0), beyond) : (std::max)(side, beyond);
 }
 
 }  // namespace mobil::inline v0_3::form

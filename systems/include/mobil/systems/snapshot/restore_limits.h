@@ -23,7 +23,7 @@ struct RestoreLimits {
 
   /// Returns limits for bytes that this program has made itself.
   static constexpr RestoreLimits none() {
-    constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
+    constexpr std::size_t any = (std::numeric_limits<std::size_t>::max)();
     return {any, any, std::numeric_limits<double>::infinity(), false, any, any};
   }
 };

@@ -34,6 +34,7 @@ Result<LoadedMesh> load_mesh(ManifestRow& row, const LandmarkTable& table, const
   auto file = read_mesh(row.file);
   if (!file) return fail(fmt::format("{} ({})", file.error().message, row.where));
   report.triangles = file->triangles_in_file;
+  report.said = file->said;
   if (row.triangles && *row.triangles != file->triangles_in_file) {
     return fail(
         fmt::format("{}: {} triangles, {} says {}; the file may be cut short: copy it again, or mend the manifest",

@@ -6,10 +6,13 @@
 #include <array>
 #include <compare>
 
+#include "assets/import/polygon_cut.h"
+
 namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint32_t no_vertex = ~0U;
+constexpr std::size_t max_corner_comparisons = 1'000'000'000;  // some seconds
 
 struct PlacedVertex {
   float x, y, z;
@@ -34,10 +37,52 @@ std::vector<std::uint32_t> first_equal(const std::vector<Vec3<float>>& position)
   return first;
 }
 
+/// Cuts the polygons in place of their fans.
+Result<void> cut_polygons(RawMesh& raw, std::string_view path, std::string_view faces, std::vector<std::string>& said) {
+  std::size_t work = max_corner_comparisons, crossed = 0, first_crossed = 0;
+  std::vector<std::uint32_t> corner;
+  for (const RawPolygon& polygon : raw.polygon) {
+    std::uint32_t* const fan = &raw.triangle[3 * polygon.triangle];
+    corner.assign(fan, fan + 3);
+    for (std::size_t t = 1; t < polygon.triangles; ++t) corner.push_back(fan[3 * t + 2]);
+    const PolygonCut cut = cut_polygon(raw.position, corner, fan, work);
+    if (cut == PolygonCut::endless) {
+      return fail(fmt::format("{}: {} {} is a face of {} corners, too many to cut into triangles; export triangles",
+                              path, faces, polygon.place, corner.size()));
+    }
+    if (cut == PolygonCut::crossed && crossed++ == 0) first_crossed = polygon.place;
+  }
+  if (crossed > 0) {
+    const std::string more = crossed == 1 ? "" : fmt::format(", and {} more do", crossed - 1);
+    said.push_back(
+        fmt::format("the face of {} {} crosses itself{}; cut from its first corner", faces, first_crossed, more));
+  }
+  return {};
+}
+
 }  // namespace
 
-Result<MeshFile> join_mesh(const RawMesh& raw, std::string_view path) {
+void add_face(RawMesh& raw, std::span<const std::uint32_t> corner, std::size_t place) {
+  if (corner.size() > 3) raw.polygon.push_back({raw.triangle.size() / 3, corner.size() - 2, place});
+  for (std::size_t c = 2; c < corner.size(); ++c) {
+    raw.triangle.insert(raw.triangle.end(), {corner[0], corner[c - 1], corner[c]});
+  }
+}
+
+void add_strip(RawMesh& raw, std::span<const std::uint32_t> corner) {
+  for (std::size_t c = 2; c < corner.size(); ++c) {
+    const std::size_t turned = c % 2;
+    raw.triangle.insert(raw.triangle.end(), {corner[c - 2], corner[c - 1 + turned], corner[c - turned]});
+  }
+}
+
+bool has_room(const RawMesh& raw, std::size_t triangles) {
+  return triangles <= max_mesh_triangles && raw.triangle.size() / 3 <= max_mesh_triangles - triangles;
+}
+
+Result<MeshFile> join_mesh(RawMesh raw, std::string_view path, std::string_view faces) {
   MeshFile file;
+  if (auto done = cut_polygons(raw, path, faces, file.said); !done) return tl::unexpected(done.error());
   file.triangles_in_file = raw.triangle.size() / 3;
   const auto first = first_equal(raw.position);
   std::vector<std::uint32_t> number(raw.position.size(), no_vertex);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "assets/import/mesh_join.h"
 #include "assets/import/mesh_text.h"
@@ -14,20 +16,38 @@ namespace {
 
 constexpr std::size_t max_obj_vertices = 3 * max_mesh_triangles;
 
-/// Statements of the format other than vertices and faces.
-constexpr std::array<std::string_view, 44> passed_over = {
-    "vt",       "vn",       "vp",     "g",   "o",    "s",     "mg",    "usemtl", "mtllib", "usemap",     "maplib",
-    "l",        "p",        "cstype", "deg", "bmat", "step",  "curv",  "curv2",  "surf",   "parm",       "trim",
-    "hole",     "scrv",     "sp",     "end", "con",  "bevel", "ctech", "stech",  "lod",    "shadow_obj", "trace_obj",
-    "c_interp", "d_interp", "call",   "csh", "bsp",  "bzp",   "cdc",   "cdp",    "res",    "vt2",        "refine"};
+/// Statements of the format; those other than vertices and faces are passed over.
+constexpr std::array<std::string_view, 47> statements = {
+    "v",      "f",      "fo",     "vt",     "vn",         "vp",        "g",        "o",        "s",    "mg",
+    "usemtl", "mtllib", "usemap", "maplib", "l",          "p",         "cstype",   "deg",      "bmat", "step",
+    "curv",   "curv2",  "surf",   "parm",   "trim",       "hole",      "scrv",     "sp",       "end",  "con",
+    "bevel",  "ctech",  "stech",  "lod",    "shadow_obj", "trace_obj", "c_interp", "d_interp", "call", "csh",
+    "bsp",    "bzp",    "cdc",    "cdp",    "res",        "vt2",       "refine"};
 
 struct ObjReader {
   MeshText text;
   std::string_view path;
   RawMesh raw;
-  std::int64_t largest = 0;  // vertex that a face names, counted from 1
+  std::vector<std::uint32_t> corner;  // of the face that is read
+  std::int64_t largest = 0;           // vertex that a face names, counted from 1
   std::size_t largest_line = 0;
 };
+
+/// Moves to the next statement. A line that ends in a backslash goes on in the next, unless that begins a statement or
+/// comment: names and comments can end so, too.
+bool pass_over(MeshText& text) {
+  for (bool continues = true; continues;) {
+    const std::size_t before = text.at;
+    if (!next_line(text)) return false;
+    auto line = text.bytes.substr(before, text.at - before);
+    line = line.substr(0, line.find_last_not_of("\r\n") + 1);
+    MeshText ahead = text;
+    const auto word = next_word(ahead);
+    continues = line.ends_with('\\') && !word.empty() && word.front() != '#' &&
+                std::ranges::find(statements, word) == statements.end();
+  }
+  return true;
+}
 
 /// Returns the next word; one that begins a comment ends the statement.
 std::string_view next_of_statement(MeshText& text) {
@@ -79,9 +99,9 @@ std::optional<std::int64_t> corner_vertex(std::string_view word) {
 
 Result<void> read_obj_face(ObjReader& reader) {
   const auto vertices = static_cast<std::int64_t>(reader.raw.position.size());
-  std::uint32_t first = 0, before = 0;
-  std::size_t corners = 0;
-  for (auto word = next_of_statement(reader.text); !word.empty(); word = next_of_statement(reader.text), ++corners) {
+  const std::size_t line = reader.text.line;
+  reader.corner.clear();
+  for (auto word = next_of_statement(reader.text); !word.empty(); word = next_of_statement(reader.text)) {
     auto named = corner_vertex(word);
     if (!named) {
       return fault_in_line(reader.path, reader.text.line,
@@ -99,49 +119,49 @@ Result<void> read_obj_face(ObjReader& reader) {
       reader.largest = *named;
       reader.largest_line = reader.text.line;
     }
-    const auto corner = static_cast<std::uint32_t>(*named - 1);
-    if (corners == 0) first = corner;
-    if (corners >= 2) {
-      if (reader.raw.triangle.size() == 3 * max_mesh_triangles) return too_many_triangles(reader.path);
-      reader.raw.triangle.insert(reader.raw.triangle.end(), {first, before, corner});
+    reader.corner.push_back(static_cast<std::uint32_t>(*named - 1));
+    if (reader.corner.size() >= 3 && !has_room(reader.raw, reader.corner.size() - 2)) {
+      return too_many_triangles(reader.path);
     }
-    before = corner;
   }
-  if (corners < 3) {
+  if (reader.corner.size() < 3) {
     return fault_in_line(reader.path, reader.text.line,
                          fmt::format("a face of {} corners, it needs three or more; the file may be cut short: copy or "
                                      "export it again",
-                                     corners));
+                                     reader.corner.size()));
   }
+  add_face(reader.raw, reader.corner, line);
   return {};
 }
 
 }  // namespace
 
 Result<MeshFile> read_obj(std::string_view bytes, std::string_view path) {
-  ObjReader reader{.text = mesh_text(bytes, true), .path = path, .raw = {}};
-  do {
+  ObjReader reader{.text = mesh_text(bytes, true), .path = path, .raw = {}, .corner = {}};
+  for (bool more = true; more;) {
     const auto word = next_word(reader.text);
     Result<void> done;
     if (word == "v") {
       done = read_obj_vertex(reader);
     } else if (word == "f" || word == "fo") {
       done = read_obj_face(reader);
-    } else if (!word.empty() && word.front() != '#' && std::ranges::find(passed_over, word) == passed_over.end()) {
+    } else if (!word.empty() && word.front() != '#' && std::ranges::find(statements, word) == statements.end()) {
       done = fault_in_line(path, reader.text.line,
                            fmt::format("{} is no statement of OBJ; the file may be damaged or of another format: copy "
                                        "or export it again",
                                        shown(word)));
     }
     if (!done) return tl::unexpected(done.error());
-  } while (next_line(reader.text));
+    const bool unread = !word.empty() && word != "v" && word != "f" && word != "fo" && word.front() != '#';
+    more = unread ? pass_over(reader.text) : next_line(reader.text);
+  }
   if (reader.largest > static_cast<std::int64_t>(reader.raw.position.size())) {
     return fault_in_line(path, reader.largest_line,
                          fmt::format("vertex {} is out of range, the file has {}; it may be cut short: copy or export "
                                      "it again",
                                      reader.largest, reader.raw.position.size()));
   }
-  return join_mesh(reader.raw, path);
+  return join_mesh(std::move(reader.raw), path, "line");
 }
 
 }  // namespace mobil::inline v0_3

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "assets/import/mesh_join.h"
 #include "assets/import/mesh_text.h"
@@ -26,6 +27,7 @@ struct PlyReader {
   std::size_t vertices = 0;  // as the header promises
   RawMesh raw;
   std::vector<double> value;  // of one property
+  std::vector<std::uint32_t> corner;
 };
 
 /// Returns a fault with its place in the file: a line of a text, an item of a binary file.
@@ -138,27 +140,38 @@ Result<void> add_vertex(PlyReader& reader, const PlyElement& element, std::size_
   return {};
 }
 
-Result<void> add_face(PlyReader& reader, const PlyElement& element, std::size_t item) {
-  const auto& corner = reader.value;
-  if (corner.size() < 3) {
+/// Adds the list of a face, or of strips, which -1 separates.
+Result<void> add_corners(PlyReader& reader, const PlyElement& element, std::size_t item, bool strips) {
+  const auto& named = reader.value;
+  if (!strips && named.size() < 3) {
     return ply_fault(reader, element, item,
-                     fmt::format("a face of {} corners, it needs three or more; export the mesh again", corner.size()));
+                     fmt::format("a face of {} corners, it needs three or more; export the mesh again", named.size()));
   }
-  for (const double c : corner) {
-    if (c >= 0 && c < static_cast<double>(reader.vertices)) continue;
-    return ply_fault(reader, element, item,
-                     fmt::format("vertex {} is out of range; valid: 0 to {}: export the mesh again", c,
-                                 static_cast<std::int64_t>(reader.vertices) - 1));
-  }
-  if (reader.raw.triangle.size() + 3 * (corner.size() - 2) > 3 * max_mesh_triangles) {
-    return too_many_triangles(reader.path);
-  }
-  for (std::size_t c = 2; c < corner.size(); ++c) {
-    for (const double v : {corner[0], corner[c - 1], corner[c]}) {
-      reader.raw.triangle.push_back(static_cast<std::uint32_t>(v));
+  if (named.size() > 2 && !has_room(reader.raw, named.size() - 2)) return too_many_triangles(reader.path);
+  reader.corner.clear();
+  for (const double c : named) {
+    if (c >= 0 && c < static_cast<double>(reader.vertices)) {
+      reader.corner.push_back(static_cast<std::uint32_t>(c));
+    } else if (strips && c == -1) {
+      add_strip(reader.raw, reader.corner);
+      reader.corner.clear();
+    } else {
+      return ply_fault(reader, element, item,
+                       fmt::format("vertex {} is out of range; valid: 0 to {}: export the mesh again", c,
+                                   static_cast<std::int64_t>(reader.vertices) - 1));
     }
   }
+  if (strips) {
+    add_strip(reader.raw, reader.corner);
+  } else {
+    add_face(reader.raw, reader.corner, reader.format == PlyFormat::ascii ? reader.text.line : item + 1);
+  }
   return {};
+}
+
+bool names_corners(const PlyProperty& property) {
+  return (property.name == "vertex_indices" || property.name == "vertex_index") && property.count &&
+         property.type != PlyType::float32 && property.type != PlyType::float64;
 }
 
 /// Moves to the line of a text's item, past empty ones. Returns false at the end of the text.
@@ -172,7 +185,7 @@ bool find_item(PlyReader& reader, bool first) {
 }
 
 Result<void> read_items(PlyReader& reader, const PlyElement& element, bool first_of_all) {
-  const bool vertex = element.name == "vertex", face = element.name == "face";
+  const bool vertex = element.name == "vertex", strips = element.name == "tristrips";
   std::array<double, 3> place{};
   for (std::size_t item = 0; item < element.count; ++item) {
     if (reader.format == PlyFormat::ascii && !find_item(reader, first_of_all && item == 0)) {
@@ -180,11 +193,11 @@ Result<void> read_items(PlyReader& reader, const PlyElement& element, bool first
     }
     for (const auto& property : element.property) {
       const bool axis = vertex && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
-      const bool corners = face && (property.name == "vertex_indices" || property.name == "vertex_index");
+      const bool corners = (strips || element.name == "face") && names_corners(property);
       if (auto done = read_property(reader, element, item, property, axis || corners); !done) return done;
       if (axis) place[static_cast<std::size_t>(property.name[0] - 'x')] = reader.value.front();
       if (!corners) continue;
-      if (auto done = add_face(reader, element, item); !done) return done;
+      if (auto done = add_corners(reader, element, item, strips); !done) return done;
     }
     if (vertex) {
       if (auto done = add_vertex(reader, element, item, place); !done) return done;
@@ -202,40 +215,43 @@ Result<void> read_items(PlyReader& reader, const PlyElement& element, bool first
 /// Fails unless the elements are those of a surface.
 Result<void> check_elements(const PlyHeader& header, PlyReader& reader) {
   const auto find = [&](std::string_view name) { return std::ranges::find(header.element, name, &PlyElement::name); };
-  const auto vertex = find("vertex"), face = find("face");
-  bool axes = vertex != header.element.end(), corners = false;
+  const auto vertex = find("vertex");
+  bool axes = vertex != header.element.end();
   for (const auto* axis : {"x", "y", "z"}) {
     axes = axes && std::ranges::any_of(vertex->property, [&](const auto& p) { return p.name == axis && !p.count; });
   }
-  if (face != header.element.end()) {
-    corners = 1 == std::ranges::count_if(face->property, [](const auto& p) {
-                return (p.name == "vertex_indices" || p.name == "vertex_index") && p.count &&
-                       p.type != PlyType::float32 && p.type != PlyType::float64;
-              });
+  std::size_t faces = 0;
+  bool corners = false;
+  for (const auto* name : {"face", "tristrips"}) {
+    const auto element = find(name);
+    if (element == header.element.end() || element->count == 0) continue;
+    corners = 1 == std::ranges::count_if(element->property, names_corners);
+    if (!corners) break;
+    faces += element->count;
   }
+  if (faces == 0 && find("face") != header.element.end() && find("face")->count == 0)
+    return fail(fmt::format("{}: its header promises no face; export it as triangles", reader.path));
   if (!axes || !corners) {
     return fail(
         fmt::format("{}: its header lacks vertices with x, y, z or faces with a list of vertex_indices; export "
                     "it as triangles",
                     reader.path));
   }
-  if (face->count == 0)
-    return fail(fmt::format("{}: its header promises no face; export it as triangles", reader.path));
-  if (face->count > max_mesh_triangles) return too_many_triangles(reader.path);
+  if (faces > max_mesh_triangles) return too_many_triangles(reader.path);
   if (vertex->count > max_ply_vertices) {
     return fail(fmt::format("{}: more than {} vertices; make the mesh coarser in a mesh editor", reader.path,
                             max_ply_vertices));
   }
   reader.vertices = vertex->count;
   reader.raw.position.reserve(vertex->count);
-  reader.raw.triangle.reserve(3 * face->count);
+  reader.raw.triangle.reserve(3 * faces);
   return {};
 }
 
 }  // namespace
 
 Result<MeshFile> read_ply(std::string_view bytes, std::string_view path) {
-  PlyReader reader{.text = {bytes}, .path = path, .raw = {}, .value = {}};
+  PlyReader reader{.text = {bytes}, .path = path, .raw = {}, .value = {}, .corner = {}};
   const auto header = read_ply_header(reader.text, path);
   if (!header) return tl::unexpected(header.error());
   reader.format = header->format;
@@ -252,7 +268,7 @@ Result<MeshFile> read_ply(std::string_view bytes, std::string_view path) {
                     "export it again",
                     path));
   }
-  return join_mesh(reader.raw, path);
+  return join_mesh(std::move(reader.raw), path, text ? "line" : "face");
 }
 
 }  // namespace mobil::inline v0_3

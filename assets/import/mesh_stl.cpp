@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "assets/import/mesh_join.h"
 #include "assets/import/mesh_text.h"
@@ -30,7 +31,42 @@ void add_facet(RawMesh& raw, const std::array<Vec3<float>, 3>& corner) {
   }
 }
 
-Result<MeshFile> read_binary_stl(std::string_view bytes, std::string_view path, std::size_t facets) {
+/// Returns the facets that a binary file's head counts; 0 without a head.
+std::size_t counted_facets(std::string_view bytes) {
+  return bytes.size() < stl_head ? 0 : little_endian(bytes, stl_head - 4);
+}
+
+/// Binary files can begin with "solid", too. Their count of facets fits their size, while four characters of a text
+/// count more facets than a file can have. A damaged count does not fit; bytes that no text has then decide.
+bool is_text_stl(std::string_view bytes) {
+  const std::size_t facets = counted_facets(bytes);
+  if (facets > 0 && stl_head + stl_facet * facets <= bytes.size()) return false;
+  MeshText text = mesh_text(bytes);
+  const bool solid = same_word(next_word_of_any_line(text), "solid");
+  return solid && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
+}
+
+Result<MeshFile> read_binary_stl(std::string_view bytes, std::string_view path) {
+  const std::size_t facets = counted_facets(bytes), whole = stl_head + stl_facet * facets;
+  if (bytes.size() < stl_head) {
+    return fail(
+        fmt::format("{}: {} bytes, and no 'solid' at the beginning; a binary STL has more than {}: copy or "
+                    "export it again",
+                    path, bytes.size(), stl_head));
+  }
+  if (facets == 0) {
+    return fail(
+        fmt::format("{}: neither a text that begins with 'solid' nor a binary STL, its count of facets is 0; "
+                    "export the mesh again",
+                    path));
+  }
+  // Some programs append a line end or fill a block.
+  if (bytes.size() < whole ||
+      (bytes.size() - whole >= stl_facet && bytes.find_first_not_of('\0', whole) != std::string_view::npos)) {
+    return fail(fmt::format(
+        "{}: {} bytes where its count of {} facets makes {}; the file is {}: copy or export it again", path,
+        bytes.size(), facets, whole, bytes.size() < whole ? "cut short or damaged" : "damaged, or several in one"));
+  }
   if (facets > max_mesh_triangles) return too_many_triangles(path);
   RawMesh raw;
   raw.position.reserve(3 * facets);
@@ -50,7 +86,7 @@ Result<MeshFile> read_binary_stl(std::string_view bytes, std::string_view path, 
     }
     add_facet(raw, corner);
   }
-  return join_mesh(raw, path);
+  return join_mesh(std::move(raw), path);
 }
 
 struct StlReader {
@@ -128,33 +164,16 @@ Result<void> read_solid(StlReader& reader) {
 }  // namespace
 
 Result<MeshFile> read_stl(std::string_view bytes, std::string_view path) {
-  if (bytes.size() >= stl_head) {
-    const std::size_t facets = little_endian(bytes, stl_head - 4);
-    if (facets > 0 && bytes.size() == stl_head + stl_facet * facets) return read_binary_stl(bytes, path, facets);
-  }
+  if (!is_text_stl(bytes)) return read_binary_stl(bytes, path);
   StlReader reader{.text = mesh_text(bytes), .path = path, .raw = {}};
-  auto word = next_word_of_any_line(reader.text);
-  if (!same_word(word, "solid")) {
-    if (bytes.size() < stl_head) {
-      return fail(
-          fmt::format("{}: {} bytes, and no 'solid' at the beginning; a binary STL has more than {}: copy or "
-                      "export it again",
-                      path, bytes.size(), stl_head));
-    }
-    const std::size_t facets = little_endian(bytes, stl_head - 4);
-    return fail(
-        fmt::format("{}: {} bytes where its count of {} facets makes {}; the file is cut short or damaged: copy "
-                    "or export it again",
-                    path, bytes.size(), facets, stl_head + stl_facet * facets));
-  }
-  for (; !word.empty(); word = next_word_of_any_line(reader.text)) {
+  for (auto word = next_word_of_any_line(reader.text); !word.empty(); word = next_word_of_any_line(reader.text)) {
     if (!same_word(word, "solid")) {
       return fault_in_line(path, reader.text.line,
                            fmt::format("{} after 'endsolid'; take it away, or export the mesh again", shown(word)));
     }
     if (auto done = read_solid(reader); !done) return tl::unexpected(done.error());
   }
-  return join_mesh(reader.raw, path);
+  return join_mesh(std::move(reader.raw), path);
 }
 
 }  // namespace mobil::inline v0_3

@@ -66,7 +66,6 @@ std::string_view next_word_of_any_line(MeshText& text) {
 bool next_line(MeshText& text) {
   const auto& bytes = text.bytes;
   while (text.at < bytes.size()) {
-    if (skip_continuation(text)) continue;
     const std::size_t end = end_length(bytes, text.at);
     text.at += end == 0 ? 1 : end;
     if (end == 0) continue;
@@ -92,6 +91,10 @@ std::optional<float> coordinate(std::string_view word) {
 
 bool is_number(std::string_view word) {
   word = without_plus(word);
+  if (const auto mark = word.find(".#"); mark != std::string_view::npos) {  // as Microsoft's printf wrote them
+    const auto kind = word.substr(mark + 2);
+    return kind.starts_with("IND") || kind.starts_with("INF") || kind.starts_with("QNAN") || kind.starts_with("SNAN");
+  }
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return !word.empty() && error != std::errc::invalid_argument && end == word.data() + word.size();
@@ -114,8 +117,11 @@ bool same_word(std::string_view word, std::string_view small) {
   return true;
 }
 
-std::string shown(std::string_view word) {
-  constexpr std::size_t most = 40;
+bool begins_with(std::string_view word, std::string_view small) {
+  return same_word(word.substr(0, small.size()), small);
+}
+
+std::string shown(std::string_view word, std::size_t most) {
   std::string text = "'";
   for (const char c : word.substr(0, most)) text += c >= ' ' && c <= '~' ? c : '?';
   return text + (word.size() > most ? "…'" : "'");

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <unistd.h>
 
 #include <assimp/scene.h>
 
@@ -12,22 +11,20 @@
 #include <assimp/Importer.hpp>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <mobil/mesh_file.h>
 #include "assets/import/mesh_text.h"
+#include "assets/surfaces/surface_mesh.h"
 #include "engine/eigen.h"
 #include "tests/files/capsule.h"
-#include "tests/files/temporary_folder.h"
 #include "tests/labels.h"
 
 MOBIL_TEST_LABELS("long");
 
 namespace mobil::mesh_reader_test {
-namespace fs = std::filesystem;
 using Eigen::Vector3f;
 using test::TestMesh;
 
@@ -222,10 +219,91 @@ TEST(MeshReaderRefuses, InvalidStl) {
   expect_refused("a.stl", text + "more", "'more'");
   text.replace(text.find("outer"), 5, "inner");
   expect_refused("a.stl", text, "a.stl line 3: 'inner' where 'outer'");
-  expect_refused("a.stl", binary_stl(mesh, "binary") + "x", "facets makes");
-  expect_refused("a.stl", binary_stl(mesh, "binary").substr(0, 300), "facets makes");
-  expect_refused("a.stl", binary_stl(mesh, "solid binary").substr(0, 300), "a.stl line");
+  for (const std::string head : {"binary", "solid binary", "solid\nfacet normal"}) {
+    expect_refused("a.stl", binary_stl(mesh, head).substr(0, 300), "facets makes");
+    expect_refused("a.stl", binary_stl(mesh, head) + std::string(50, 'x'), "several in one");
+  }
+  expect_refused("a.stl", std::string(84, '\0'), "count of facets is 0");
   EXPECT_TRUE(read_mesh_bytes(test::stl_text(mesh) + test::stl_text(mesh), "a.stl").has_value());  // two solids
+}
+
+TEST(MeshReader, BinaryStlIsKnownByItsSizeAndTextByItsWords) {
+  const TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 3, 5);
+  const Corners wanted = corners(mesh);
+  const std::string text = test::stl_text(mesh);
+  for (const std::string head : {"binary", "solid", "solid a\nfacet normal 0 0 1\n", "\n\n"}) {
+    for (const std::string& spare :
+         {std::string(), std::string("x"), std::string("\r\n"), std::string(49, 'x'), std::string(500, '\0')}) {
+      const auto read = read_mesh_bytes(test::binary_stl(mesh, head) + spare, "a.stl");
+      ASSERT_TRUE(read.has_value()) << read.error().message;
+      EXPECT_EQ(largest_difference(corners(*read), wanted), 0.0);
+    }
+  }
+  for (const std::string normal :
+       {"nan nan nan", "-1.#IND -1.#IND 1.#QNAN", "-nan(ind) inf -inf", "1.#INF 1.#SNAN 0"}) {
+    std::string other = text;
+    for (std::size_t at = 0; (at = other.find("0 0 1\n", at)) != std::string::npos;) other.replace(at, 5, normal);
+    const auto read = read_mesh_bytes(other, "a.stl");
+    ASSERT_TRUE(read.has_value()) << read.error().message;
+    EXPECT_EQ(read->triangles_in_file, mesh.triangle.size());
+  }
+  std::string bad = text;
+  expect_refused("a.stl", bad.replace(bad.find("vertex ") + 7, 1, "-1.#IND"), "a.stl line 4");
+  expect_refused("a.stl", "\xFF\xFEs\0", "UTF-16");
+}
+
+/// Two boxes of 672 cm³; the first corner of the second follows a line that ends in a backslash.
+std::string two_boxes(const std::string& line) {
+  std::string text;
+  for (const double x : {-0.11, -0.17}) {
+    if (!text.empty()) text += line;
+    for (const double y : {0.5, 0.92})
+      for (const double z : {-0.02, 0.02}) text += fmt::format("v {} {} {}\nv {} {} {}\n", x, y, z, x + 0.04, y, z);
+    text += "f -8 -7 -5 -6\nf -4 -2 -1 -3\nf -8 -4 -3 -7\nf -6 -5 -1 -2\nf -8 -6 -2 -4\nf -7 -3 -1 -5\n";
+  }
+  return text;
+}
+
+TEST(MeshReader, ObjLinesThatArePassedOverEndWithTheirLine) {
+  for (const std::string line :
+       {"# from C:\\bones\\\n", "#\\\n", "g C:\\bones\\\n", "o a \\\n", "mtllib C:\\bones\\\r\n", "usemtl \\\n",
+        "s \\\n", "g a \\\n b c \\\n d\n", "parm u 0 1 \\\n 2 3\n", "vt 0 \\\n 0\n", "vn 0 \\\n0 1 \\\n", "l 1 2 \\\n",
+        "p 1\n", "v 0 0 0 # 1 2 3 \\\n", "f 1 1 2 # \\\n", "curv2 1 \\\n# \\\n", "cstype bezier\ndeg 3\n"}) {
+    const auto read = read_mesh_bytes(two_boxes(line), "a.obj");
+    ASSERT_TRUE(read.has_value()) << read.error().message << line;
+    EXPECT_NEAR(enclosed_volume(read->mesh), 0.001344, 2e-9) << line;
+  }
+  expect_refused("a.obj", two_boxes("g a\nb\n"), "'b'");
+}
+
+TEST(MeshReader, PlyIsReadInEverySpellingOfItsGrammar) {
+  const std::string head = "ply\nformat ascii 1.0\nobj_info a \\\ncomment element face 9 \\\n";
+  const std::string vertices =
+      "element vertex 4\nproperty list uchar int near\nproperty double z\nproperty short x\nproperty uchar y\n";
+  const std::string points = "0 0 0 0\n1 7 0 1 0\n2 8 9 0 0 1\n0 1 0 0\n";
+  const std::string faces =
+      "element face 4\nproperty float q\nproperty list ushort uint vertex_index\nproperty list int float t\n";
+  const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+  const std::string others = "element edge 2\nproperty int vertex1\nproperty int vertex2\nproperty float nan\n";
+  const std::string corners = "nan 3 0 2 1 0\n-1.#IND 3 0 1 3 1 .5\ninf 3 1 2 3 0\n0 3 2 0 3 2 1 nan\n",
+                    edges = "0 1 nan\n1 2 0\n";
+  const std::string strip = "12 2 1 0 3 -1 3 1 2 -1 2 0 3\n";
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    for (std::string text :
+         {head + vertices + faces + "end_header\n" + points + corners,
+          head + others + faces + vertices + "end_header\n" + edges + corners + points,
+          head + vertices + others + strips + "end_header\n" + points + edges + strip,
+          head + strips + "element face 0\n" + vertices + others + "end_header\n" + strip + points + edges}) {
+      for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += end.size())
+        text.replace(at, 1, end);
+      const auto read = read_mesh_bytes(text, "a.ply");
+      ASSERT_TRUE(read.has_value()) << read.error().message;
+      EXPECT_EQ(read->mesh.position.size(), 4U);
+      EXPECT_EQ(read->mesh.triangle.size(), 12U);
+      EXPECT_EQ(count_edges(read->mesh).border, 0U);
+      EXPECT_NEAR(enclosed_volume(read->mesh), 1 / 6.0, 1e-7) << text;
+    }
+  }
 }
 
 TEST(MeshReaderRefuses, InvalidPly) {
@@ -262,67 +340,6 @@ TEST(MeshReaderRefuses, OtherFormatsByName) {
   for (const std::string path : {"a.off", "a.smd", "a.mot", "a", "a.obj.gz", ".obj", "a.OBJ "}) {
     expect_refused(path, "OFF\n3 1 0\n", ".obj, .stl, .ply, .gltf, .glb");
   }
-}
-
-// ---------------------------------------------------------------------------------------------------------- files
-
-using Folder = TemporaryFolder;
-
-/// Returns the smallest glTF of a mesh, with its numbers in a separate file.
-std::string gltf(const TestMesh& mesh, const std::string& uri) {
-  return fmt::format(
-      R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"translation":[1,2,3]}}],)"
-      R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],"buffers":[{{"uri":"{}","byteLength":{}}}],)"
-      R"("bufferViews":[{{"buffer":0,"byteLength":{}}},{{"buffer":0,"byteOffset":{},"byteLength":{}}}],)"
-      R"("accessors":[{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3"}},)"
-      R"({{"bufferView":1,"componentType":5125,"count":{},"type":"SCALAR"}}]}})",
-      uri, 12 * (mesh.position.size() + mesh.triangle.size()), 12 * mesh.position.size(), 12 * mesh.position.size(),
-      12 * mesh.triangle.size(), mesh.position.size(), 3 * mesh.triangle.size());
-}
-
-std::string gltf_buffer(const TestMesh& mesh) {
-  std::string bytes;
-  for (const auto& p : mesh.position) {
-    for (int i = 0; i < 3; ++i) test::put(bytes, p[i]);
-  }
-  for (const auto& t : mesh.triangle) {
-    for (const auto v : t) test::put(bytes, v);
-  }
-  return bytes;
-}
-
-TEST(MeshReader, GltfIsReadInASeparateProcess) {
-  const Folder folder;
-  TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 5, 7);
-  folder.write("a.bin", gltf_buffer(mesh));
-  const auto read = read_mesh(folder.write("a.gltf", gltf(mesh, "a.bin")));
-  ASSERT_TRUE(read.has_value()) << read.error().message;
-  for (auto& p : mesh.position) p += Vector3f(1, 2, 3);
-  EXPECT_LT(largest_difference(corners(*read), corners(mesh)), 1e-5);
-}
-
-TEST(MeshReaderRefuses, DamagedOrOutsideReferringGltf) {
-  const Folder folder;
-  const TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 5, 7);
-  const std::string buffer = gltf_buffer(mesh);
-  fs::create_directories(folder.path / "inner");
-  folder.write("a.bin", buffer);
-  const auto refused = [&](const std::string& path) {
-    const auto read = read_mesh(path);
-    ASSERT_FALSE(read.has_value()) << path;
-    EXPECT_TRUE(read.error().message.starts_with(path)) << read.error().message;
-    EXPECT_EQ(read.error().message.find('\n'), std::string::npos);
-  };
-  refused(folder.write("inner/a.gltf", gltf(mesh, "../a.bin")));
-  refused(folder.write("inner/b.gltf", gltf(mesh, (folder.path / "a.bin").string())));
-  refused(folder.write("c.gltf", gltf(mesh, "missing.bin")));
-  folder.write("short.bin", buffer.substr(0, 50));
-  refused(folder.write("d.gltf", gltf(mesh, "short.bin")));
-  folder.write("wild.bin", std::string(4, '\xFF') + buffer.substr(4));  // not a number
-  refused(folder.write("e.gltf", gltf(mesh, "wild.bin")));
-  refused(folder.write("f.glb", "glTF" + std::string(40, '\xFF')));
-  refused(folder.write("g.gltf", "{"));
-  refused(folder.write("h.gltf", std::string(100000, '[')));
 }
 
 /// Returns the processor seconds for reading a mesh in each format.

@@ -10,12 +10,12 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
 #include <mobil/assets/files/csv_table.h>
 #include <mobil/muscle_table.h>
+#include "assets/import/folder_file.h"
 #include "assets/import/mesh_text.h"
 
 namespace mobil::inline v0_3 {
@@ -43,10 +43,10 @@ constexpr std::array<std::pair<std::string_view, Segment>, 16> bone_segment = {{
     {"sesamoid", Segment::toes_right},
 }};
 
-/// Returns the segment of a bone or of several joined by '+', by the first one's name.
+/// Returns the segment of a bone or of several joined by '+', by the first one's name in any case.
 std::optional<Segment> segment_of(std::string_view bone) {
   for (const auto& [name, segment] : bone_segment) {
-    if (bone.starts_with(name)) return segment;
+    if (begins_with(bone, name)) return segment;
   }
   return std::nullopt;
 }
@@ -233,24 +233,6 @@ Result<MeshFrame> landmark_frame(const CsvTable& table, const std::array<Landmar
   return frame;
 }
 
-/// Returns the path of a mesh in the folder; links are followed.
-Result<std::string> file_in_folder(const std::string& folder, std::string_view file, const std::string& where) {
-  const std::filesystem::path named(file);
-  const bool plain = std::none_of(file.begin(), file.end(), [](unsigned char c) { return c < ' ' || c == 127; });
-  bool inside = plain && named.is_relative() && std::find(named.begin(), named.end(), "..") == named.end();
-  const std::filesystem::path path = folder / named;
-  std::error_code error;
-  if (inside && std::filesystem::exists(std::filesystem::symlink_status(path, error))) {
-    const auto home = std::filesystem::canonical(folder, error), resolved = std::filesystem::canonical(path, error);
-    inside = !error && std::mismatch(home.begin(), home.end(), resolved.begin(), resolved.end()).first == home.end();
-  }
-  if (inside) return folder + "/" + std::string(file);
-  return fail(
-      fmt::format("{}: file {} leads out of the folder; valid: a path below it without '..' and links: copy the "
-                  "mesh into the folder",
-                  where, shown(file)));
-}
-
 /// Returns a row of the manifest; nothing if it is not wanted.
 Result<std::optional<ManifestRow>> read_row(const CsvTable& table, std::size_t row, const std::string& folder,
                                             const MeshFrame& usual, const AnatomyOptions& options) {
@@ -270,19 +252,20 @@ Result<std::optional<ManifestRow>> read_row(const CsvTable& table, std::size_t r
   if (side == "left") return passed_over;
   const auto group = cell(table, row, "group");
   read.part.kind = *kind;
+  const auto path = file_below(folder, file);
+  const std::string stem = path.value_or(std::filesystem::path(file)).stem().string();
   if (*kind == AnatomyKind::muscle || *kind == AnatomyKind::tendon) {
-    find_muscle_of(read.part, group, cell(table, row, "name"), std::filesystem::path(file).stem().string());
+    find_muscle_of(read.part, group, cell(table, row, "name"), stem);
   }
   if (!wanted(read.part, options)) return passed_over;
-  auto path = file_in_folder(folder, file, read.where);
-  if (!path) return tl::unexpected(path.error());
+  if (!path) return fail(fmt::format("{}: {}", read.where, path.error().message));
   const auto frame = read_frame(cell(table, row, "unit"), cell(table, row, "up"), usual, read.where);
   if (!frame) return tl::unexpected(frame.error());
   read.frame = *frame;
   read.part.midline = side == "mid";
-  read.part.mesh.name = std::filesystem::path(file).stem().string();
+  read.part.mesh.name = stem;
   read.name = file;
-  read.file = std::move(*path);
+  read.file = path->string();
   if (*kind == AnatomyKind::bone) {
     const auto segment = segment_of(read.part.mesh.name);
     if (!segment) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include <mobil/engine/geometry.h>
+#include "assets/import/mesh_text.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -60,12 +61,12 @@ FootShape foot_shape(const Anatomy& anatomy) {
     if (part.kind != AnatomyKind::bone) continue;
     if (part.origin != Segment::foot_right && part.origin != Segment::toes_right) continue;
     for (const auto& p : part.mesh.position) shape.lowest_y = std::min<double>(shape.lowest_y, p.y);
-    if (part.mesh.name.starts_with("calcaneus")) {
+    if (begins_with(part.mesh.name, "calcaneus")) {
       const auto& p = part.mesh.position;
       shape.heel_z = std::min_element(p.begin(), p.end(), [](const auto& a, const auto& b) { return a.z < b.z; })->z;
       shape.heel_found = true;
     }
-    if (part.mesh.name.starts_with("metatarsal_1")) {
+    if (begins_with(part.mesh.name, "metatarsal_1")) {
       shape.ball_z = z_of_lowest(part.mesh);
       shape.ball_found = true;
     }

@@ -141,6 +141,41 @@ TEST(AnatomyFolder, MuscleFollowsFromNameOrFile) {
   EXPECT_EQ(muscle("Right sartorius", "f", ""), "none");
 }
 
+TEST(AnatomyFolder, FilesAreFoundInAnotherCaseAndWithBackslashes) {
+  const Folder folder;
+  const auto loads = [&](const std::string& file) {
+    folder.write("manifest.csv", "file;name;side;kind;group\r" + file + ";Femur;right;bone;\r;;;;\r");
+    return folder.load();
+  };
+  for (const std::string file :
+       {"bones/femur_right.obj", "bones\\femur_right.obj", "Bones/Femur_Right.OBJ", "./BONES\\FEMUR_RIGHT.Obj"}) {
+    const auto anatomy = loads(file);
+    ASSERT_TRUE(anatomy.has_value()) << anatomy.error().message;
+    EXPECT_EQ(anatomy->part[0].mesh.name, "femur_right");
+    EXPECT_EQ(anatomy->part[0].origin, Segment::thigh_right);
+  }
+  folder.write("Calcaneus.OBJ", obj(leg.at("bones/calcaneus_right")));
+  EXPECT_EQ(loads("calcaneus.obj")->part[0].origin, Segment::foot_right);
+  EXPECT_TRUE(is_refused(loads("bones\\..\\..\\femur_right.obj"), "manifest.csv line 2: file", "leads out"));
+  EXPECT_TRUE(is_refused(loads("bones/femur.obj"), "bones/femur.obj: no such file"));
+  folder.write("FEMUR.obj", obj(leg.at("bones/femur_right")));
+  folder.write("Femur.obj", obj(leg.at("bones/femur_right")));
+  EXPECT_TRUE(is_refused(loads("femur.obj"), "manifest.csv line 2: file 'femur.obj' fits 'FEMUR.obj' and 'Femur.obj'"));
+}
+
+TEST(AnatomyFolder, FaceThatCrossesItselfIsReported) {
+  const Folder folder;
+  folder.write("femur.obj", obj(leg.at("bones/femur_right")) + "f 1 8 2 7\n");
+  folder.write("manifest.csv", "file,name,side,kind,group\nfemur.obj,Femur,right,bone,\n");
+  const auto anatomy = folder.load();
+  ASSERT_FALSE(anatomy.has_value());  // its edges are used twice, too
+  folder.write("femur.obj", "v -90 -90 600\nv -60 -60 620\nv -60 -90 600\nv -90 -60 620\nf 1 2 3 4\n");
+  const auto bow = folder.load();
+  ASSERT_TRUE(bow.has_value()) << bow.error().message;
+  ASSERT_FALSE(bow->part[0].report.said.empty());
+  EXPECT_EQ(bow->part[0].report.said[0], "the face of line 5 crosses itself; cut from its first corner");
+}
+
 TEST(AnatomyFolder, ThreadCountChangesNothing) {
   const Folder folder;
   const auto one = load_anatomy(folder.path.string(), {.threads = 1}),

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "assets/files/csv_text.h"
+
 namespace mobil::inline v0_3 {
 namespace {
 
@@ -21,30 +23,86 @@ std::string listed(std::span<const std::string_view> names) {
   return text;
 }
 
-/// Returns nothing for an open quote.
-std::optional<std::vector<std::string>> split(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += line[++i];
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  if (quoted) return std::nullopt;
-  return cells;
-}
-
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// A record of a table and what follows it.
+struct Record {
+  std::vector<std::string> cells;
+  std::size_t line = 1, lines = 1;
+};
+
+/// Takes the next record from the text. A cell that begins with a quote ends with one, and can have separators, line
+/// ends and doubled quotes inside. Returns nothing for an open quote.
+std::optional<Record> take_record(std::string_view& text, char separator) {
+  Record record;
+  record.cells.emplace_back();
+  bool quoted = false;
+  std::size_t i = 0;
+  for (; i < text.size() && (quoted || text[i] != '\n'); ++i) {
+    const char c = text[i];
+    std::string& own = record.cells.back();
+    record.lines += c == '\n' ? 1 : 0;
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+      own += text[++i];
+    } else if (c == '"' && (quoted || trimmed(own).empty())) {
+      quoted = !quoted;
+    } else if (c == separator && !quoted) {
+      record.cells.emplace_back();
+    } else {
+      own += c;
+    }
+  }
+  text.remove_prefix(std::min(i + 1, text.size()));
+  if (quoted) return std::nullopt;
+  for (auto& own : record.cells) own = std::string(trimmed(own));
+  return record;
+}
+
+bool all_empty(std::span<const std::string> cells) {
+  return std::ranges::all_of(cells, [](const std::string& own) { return own.empty(); });
+}
+
+/// Returns the separator with which the header has the required columns, or else most cells.
+char separator_of(std::string_view header, std::span<const std::string_view> required) {
+  char best = ',';
+  std::size_t most = 0;
+  for (const char separator : {',', ';', '\t'}) {
+    std::string_view text = header;
+    const auto record = take_record(text, separator);
+    if (!record) continue;
+    const bool complete = std::ranges::all_of(required, [&](std::string_view wanted) {
+      return std::ranges::find(record->cells, wanted) != record->cells.end();
+    });
+    const std::size_t cells = record->cells.size() + (complete && !required.empty() ? header.size() : 0);
+    if (cells > most) {
+      most = cells;
+      best = separator;
+    }
+  }
+  return best;
+}
+
+/// Returns the text with a point for the comma of a number at its beginning.
+std::string with_point(std::string text) {
+  const std::size_t first = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+  const std::size_t comma = text.find_first_not_of("0123456789", first);
+  if (comma == std::string::npos || text[comma] != ',') return text;
+  const std::size_t end = text.find_first_not_of("0123456789", comma + 1);
+  const bool digits = end == std::string::npos ? text.size() > comma + 1 : end > comma + 1;
+  if (digits && (end == std::string::npos || (text[end] != ',' && text[end] != '.'))) text[comma] = '.';
+  return text;
+}
+
+/// Takes "sep=;" away, with which a spreadsheet's table can begin.
+std::optional<char> take_separator(std::string_view& text) {
+  const auto line = trimmed(text.substr(0, text.find('\n')));
+  if ((!line.starts_with("sep=") && !line.starts_with("SEP=")) || line.size() > 5) return std::nullopt;
+  text.remove_prefix(std::min(text.find('\n'), text.size()));
+  return line.size() == 5 ? line[4] : '\t';
 }
 
 }  // namespace
@@ -69,30 +127,43 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-Result<CsvTable> parse_csv(std::string_view text, std::string_view name, std::span<const std::string_view> required) {
+Result<CsvTable> parse_csv(std::string_view bytes, std::string_view name, std::span<const std::string_view> required) {
   CsvTable table;
   table.path = name;
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const auto decoded = csv_text(bytes, name);
+  if (!decoded) return tl::unexpected(decoded.error());
+  std::string_view text = *decoded;
+  auto separator = take_separator(text);
   std::size_t header_line = 0;
-  for (std::size_t number_of_line = 1; !text.empty(); ++number_of_line) {
-    const auto end = text.find('\n');
-    const auto line = trimmed(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.empty()) continue;
-    auto cells = split(line);
-    if (!cells) return fail(fmt::format("{} line {}: a quote is never closed; close it", name, number_of_line));
-    for (auto& text_cell : *cells) text_cell = std::string(trimmed(text_cell));
+  for (std::size_t line = 1; !text.empty();) {
+    const std::size_t own_line = line;
+    const auto ahead = text.substr(0, text.find('\n'));
+    if (!separator && !trimmed(ahead).empty()) separator = separator_of(ahead, required);
+    auto record = take_record(text, separator.value_or(','));
+    if (!record) return fail(fmt::format("{} line {}: a quote is never closed; close it", name, own_line));
+    line += record->lines;
+    auto& cells = record->cells;
+    if (all_empty(cells)) continue;  // a spreadsheet's empty row
     if (table.header.empty()) {
-      table.header = std::move(*cells);
-      header_line = number_of_line;
+      while (cells.back().empty()) cells.pop_back();
+      table.header = std::move(cells);
+      header_line = own_line;
       continue;
     }
-    if (cells->size() != table.header.size()) {
-      return fail(fmt::format("{} line {}: {} cells where the header has {}; add or remove commas, or quote the cell",
-                              name, number_of_line, cells->size(), table.header.size()));
+    const std::size_t width = table.header.size();
+    if (cells.size() > width && all_empty(std::span(cells).subspan(width))) cells.resize(width);
+    if (cells.size() != width) {
+      return fail(fmt::format("{} line {}: {} cells where the header has {}; add or remove {}, or quote the cell", name,
+                              own_line, cells.size(), width,
+                              *separator == ','   ? "commas (decimals have a point)"
+                              : *separator == ';' ? "semicolons"
+                                                  : "tabs"));
     }
-    table.row.push_back(std::move(*cells));
-    table.line.push_back(number_of_line);
+    if (*separator != ',') {
+      for (auto& own : cells) own = with_point(std::move(own));
+    }
+    table.row.push_back(std::move(cells));
+    table.line.push_back(own_line);
   }
   for (const auto column_name : required) {
     if (table.header.empty() || column(table, column_name)) continue;

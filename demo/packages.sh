@@ -4,10 +4,10 @@
 walk_packages="g++ cmake ninja-build libeigen3-dev libhwy-dev libtbb-dev libexpected-dev libfmt-dev
   libmeshoptimizer-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1
   libgles2 libgl1-mesa-dri ffmpeg"
-crowd_packages="libassimp-dev libgl-dev libglfw3-dev libimgui-dev librecast-dev"  # mobil-lab needs them too
+crowd_packages="libgl-dev libglfw3-dev libimgui-dev librecast-dev"  # mobil-lab needs them too
 rivals_packages="libbullet-dev"
 build_packages="$walk_packages $crowd_packages $rivals_packages"
-test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
+test_packages="libassimp-dev libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
   python3-numpy python3-cffi python3-setuptools python3-wheel xvfb xauth"
 cluster_packages="libopenmpi-dev openmpi-bin"
 # Documents as pages and the reference (demo/site/run); the spelling checker, which its test uses if installed.

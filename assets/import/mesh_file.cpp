@@ -40,12 +40,16 @@ tl::unexpected<Error> too_large(const std::string& path, std::uintmax_t bytes) {
                           static_cast<double>(bytes) / 1e6, max_mesh_bytes / 1'000'000));
 }
 
-Result<MeshFile> read_bytes(std::string_view bytes, const std::string& path, MeshFormat format) {
+Result<MeshFile> read_bytes(std::string_view bytes, const std::string& path, MeshFormat format,
+                            const std::filesystem::path& folder) {
   if (bytes.size() > max_mesh_bytes) return too_large(path, bytes.size());
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+    return fail(fmt::format("{}: text in UTF-16; save it as UTF-8, or export the mesh again", path));
+  }
   if (format == MeshFormat::obj) return read_obj(bytes, path);
   if (format == MeshFormat::stl) return read_stl(bytes, path);
   if (format == MeshFormat::ply) return read_ply(bytes, path);
-  return fail(fmt::format("{}: glTF is read from a file alone; write it to one", path));
+  return read_gltf(bytes, path, folder);
 }
 
 }  // namespace
@@ -53,7 +57,7 @@ Result<MeshFile> read_bytes(std::string_view bytes, const std::string& path, Mes
 Result<MeshFile> read_mesh_bytes(std::string_view bytes, const std::string& path) {
   const auto format = format_of(path);
   if (!format) return tl::unexpected(format.error());
-  return read_bytes(bytes, path, *format);
+  return read_bytes(bytes, path, *format, {});
 }
 
 Result<MeshFile> read_mesh(const std::string& path) try {
@@ -65,12 +69,11 @@ Result<MeshFile> read_mesh(const std::string& path) try {
   }
   const auto size = std::filesystem::file_size(path, error);
   if (!error && size > max_mesh_bytes) return too_large(path, size);
-  if (*format == MeshFormat::gltf) return read_gltf(path);
   std::string bytes(error ? 0 : static_cast<std::size_t>(size), '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!in) return fail(fmt::format("{}: cannot be read; make it readable, or copy it again", path));
-  return read_bytes(bytes, path, *format);
+  return read_bytes(bytes, path, *format, std::filesystem::canonical(path).parent_path());
 } catch (const std::exception& error) {
   return fail(
       fmt::format("{}: cannot be read ({}); free some memory, or make the mesh coarser", path, shown(error.what())));

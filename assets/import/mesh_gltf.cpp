@@ -2,231 +2,318 @@
 
 #include <fmt/format.h>
 
-#include "assets/import/mesh_join.h"
-#include "assets/import/mesh_text.h"
-
-#if defined(__unix__) || defined(__APPLE__)
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/resource.h>
-#include <sys/types.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdint>
-#include <cstdio>
-#include <exception>
-#include <mutex>
-#include <optional>
+#include <utility>
+#include <vector>
 
-#include "assets/import/gltf_scene.h"
+#include "assets/import/gltf_file.h"
+#include "assets/import/mesh_join.h"
+#include "engine/eigen.h"
 
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr rlim_t processor_s = 10, memory_bytes = 2'000'000'000;
-constexpr std::chrono::seconds wall_limit{15};
-constexpr std::size_t max_words = 3 * max_mesh_triangles, max_line = 400;
+using Eigen::Affine3d;
+using Eigen::Vector3d;
+using nlohmann::json;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool limit_memory = false;  // sanitizers reserve terabytes of addresses
-#else
-constexpr bool limit_memory = true;
-#endif
-
-/// First message of the child: counts of positions and indices of a mesh, or of characters of a line.
-struct Answer {
-  std::uint64_t positions = 0, indices = 0, line = 0;
+/// Nodes of a file with their places in the world.
+struct GltfNodes {
+  std::vector<std::size_t> order;  // parents before their children
+  std::vector<bool> in_scene;
+  std::vector<Affine3d> world;
 };
 
-// ------------------------------------------------------------------------------------------------------- the child
-
-/// Returns the addresses in use, which a child has from its parent; 0 if the system does not report them.
-rlim_t addresses_now() {
-  unsigned long long pages = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "r"); file != nullptr) {
-    if (std::fscanf(file, "%llu", &pages) != 1) pages = 0;
-    std::fclose(file);
+Affine3d local_transform(const GltfItem& node) {
+  Affine3d transform = Affine3d::Identity();
+  if (std::array<double, 16> matrix{}; gltf_numbers(node, "matrix", matrix)) {
+    transform.matrix() = Eigen::Map<Eigen::Matrix4d>(matrix.data());
+    transform.makeAffine();
+    return transform;
   }
-  return static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+  std::array<double, 3> move{}, scale{1, 1, 1};
+  std::array<double, 4> turn{0, 0, 0, 1};
+  gltf_numbers(node, "translation", move);
+  gltf_numbers(node, "rotation", turn);
+  gltf_numbers(node, "scale", scale);
+  const Eigen::Quaterniond rotation(turn[3], turn[0], turn[1], turn[2]);
+  if (!(rotation.norm() > 0)) gltf_fault(node, "its rotation is not a quaternion; export it again");
+  transform.translate(Vector3d(move.data())).rotate(rotation.normalized()).scale(Vector3d(scale.data()));
+  return transform;
 }
 
-void set_limit(decltype(RLIMIT_CPU) what, rlim_t most) {
-  const rlimit limit{most, most};
-  ::setrlimit(what, &limit);
+/// Returns the roots of the scene; all roots without one.
+std::vector<std::size_t> scene_roots(const GltfFile& file, const std::vector<bool>& is_child) {
+  const auto named = gltf_whole({file.root, "file", 0}, "scene");
+  if (named || gltf_count(file, "scenes") > 0) {
+    const GltfItem scene = gltf_item(file, "scenes", named.value_or(0));
+    auto roots = gltf_wholes(scene, "nodes");
+    for (const std::size_t node : roots) {
+      const GltfItem root = gltf_item(file, "nodes", node);
+      if (is_child[node]) gltf_fault(root, "in a scene, and below another node; export it again");
+    }
+    return roots;
+  }
+  std::vector<std::size_t> roots;
+  for (std::size_t node = 0; node < is_child.size(); ++node) {
+    if (!is_child[node]) roots.push_back(node);
+  }
+  return roots;
 }
 
-void confine() {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGPIPE, SIGTERM, SIGINT}) {
-    std::signal(signal, SIG_DFL);
-  }
-  if (const int nowhere = ::open("/dev/null", O_WRONLY); nowhere >= 0) {
-    ::dup2(nowhere, 1);
-    ::dup2(nowhere, 2);
-  }
-  set_limit(RLIMIT_CPU, processor_s);
-  set_limit(RLIMIT_CORE, 0);
-  set_limit(RLIMIT_FSIZE, 0);
-  if (limit_memory) set_limit(RLIMIT_AS, addresses_now() + memory_bytes);
-}
-
-void send(int pipe, const void* data, std::size_t bytes) {
-  const auto* from = static_cast<const char*>(data);
-  while (bytes > 0) {
-    const auto sent = ::write(pipe, from, bytes);
-    if (sent <= 0) ::_exit(1);
-    from += sent;
-    bytes -= static_cast<std::size_t>(sent);
-  }
-}
-
-[[noreturn]] void be_child(const std::string& path, int pipe) try {
-  confine();
-  const auto raw = read_gltf_scene(path);
-  Answer answer;
-  if (raw) {
-    answer.positions = raw->position.size();
-    answer.indices = raw->triangle.size();
-    send(pipe, &answer, sizeof answer);
-    send(pipe, raw->position.data(), raw->position.size() * sizeof raw->position[0]);
-    send(pipe, raw->triangle.data(), raw->triangle.size() * sizeof raw->triangle[0]);
-  } else {
-    const auto line = raw.error().message.substr(0, max_line);
-    answer.line = line.size();
-    send(pipe, &answer, sizeof answer);
-    send(pipe, line.data(), line.size());
-  }
-  ::_exit(0);
-} catch (...) {
-  ::_exit(1);
-}
-
-// ------------------------------------------------------------------------------------------------------ the parent
-
-using Clock = std::chrono::steady_clock;
-
-enum class Received { all, less, late };
-
-/// Receives exactly so many bytes before `end`.
-Received receive(int pipe, void* data, std::size_t bytes, Clock::time_point end) {
-  auto* to = static_cast<char*>(data);
-  while (bytes > 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-    if (left <= 0) return Received::late;
-    pollfd wait{pipe, POLLIN, 0};
-    const int ready = ::poll(&wait, 1, static_cast<int>(left));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready == 0) return Received::late;
-    const auto got = ready < 0 ? -1 : ::read(pipe, to, bytes);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return Received::less;
-    to += got;
-    bytes -= static_cast<std::size_t>(got);
-  }
-  return Received::all;
-}
-
-struct Child {
-  Received received = Received::less;
-  RawMesh raw;
-  std::string line;
-};
-
-void receive_answer(int pipe, Clock::time_point end, Child& child) {
-  Answer answer;
-  child.received = receive(pipe, &answer, sizeof answer, end);
-  if (child.received != Received::all) return;
-  if (answer.positions > max_words || answer.indices > max_words || answer.line > max_line) {
-    child.received = Received::less;
-    return;
-  }
-  child.raw.position.resize(answer.positions);
-  child.raw.triangle.resize(answer.indices);
-  child.line.resize(answer.line);
-  const auto part = [&](void* data, std::size_t bytes) {
-    if (child.received == Received::all) child.received = receive(pipe, data, bytes, end);
-  };
-  part(child.raw.position.data(), answer.positions * sizeof child.raw.position[0]);
-  part(child.raw.triangle.data(), answer.indices * sizeof child.raw.triangle[0]);
-  part(child.line.data(), answer.line);
-}
-
-/// Checks the mesh from the pipe, which is as untrusted as the file.
-bool is_sound(const RawMesh& raw) {
-  for (const auto& p : raw.position) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
-  }
-  for (const auto v : raw.triangle) {
-    if (v >= raw.position.size()) return false;
-  }
-  return raw.triangle.size() % 3 == 0;
-}
-
-std::optional<Child> ask_child(const std::string& path) {
-  static std::mutex one_at_a_time;
-  const std::scoped_lock lock(one_at_a_time);
-  std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) return std::nullopt;
-  for (const int end : ends) ::fcntl(end, F_SETFD, FD_CLOEXEC);
-  const pid_t process = ::fork();
-  if (process == 0) {
-    ::close(ends[0]);
-    be_child(path, ends[1]);
-  }
-  ::close(ends[1]);
-  std::optional<Child> child;
-  if (process > 0) {
-    child.emplace();
-    receive_answer(ends[0], Clock::now() + wall_limit, *child);
-    ::kill(process, SIGKILL);  // it has sent all, or will not
-    while (::waitpid(process, nullptr, 0) < 0 && errno == EINTR) {
+GltfNodes place_nodes(const GltfFile& file) {
+  const std::size_t count = gltf_count(file, "nodes");
+  GltfNodes nodes{{}, std::vector<bool>(count), std::vector<Affine3d>(count)};
+  std::vector<std::vector<std::size_t>> children(count);
+  std::vector<bool> is_child(count);
+  for (std::size_t node = 0; node < count; ++node) {
+    const GltfItem item = gltf_item(file, "nodes", node);
+    nodes.world[node] = local_transform(item);
+    children[node] = gltf_wholes(item, "children");
+    for (const std::size_t child : children[node]) {
+      const GltfItem below = gltf_item(file, "nodes", child);
+      if (is_child[child]) gltf_fault(below, "has two parents; export it again");
+      is_child[child] = true;
     }
   }
-  ::close(ends[0]);
-  return child;
+  for (const std::size_t root : scene_roots(file, is_child)) nodes.in_scene[root] = true;
+  for (std::size_t node = 0; node < count; ++node) {
+    if (!is_child[node]) nodes.order.push_back(node);
+  }
+  for (std::size_t i = 0; i < nodes.order.size(); ++i) {
+    const std::size_t node = nodes.order[i];
+    for (const std::size_t child : children[node]) {
+      nodes.world[child] = nodes.world[node] * nodes.world[child];
+      nodes.in_scene[child] = nodes.in_scene[node];
+      nodes.order.push_back(child);
+    }
+  }
+  if (nodes.order.size() < count) throw GltfFault{"nodes that are their own ancestors; export it again"};
+  return nodes;
+}
+
+/// Returns the matrices that take the vertices of a skinned mesh to their joints.
+std::vector<Affine3d> joint_matrices(GltfFile& file, const GltfNodes& nodes, const GltfItem& skin) {
+  std::vector<Affine3d> matrix;
+  for (const std::size_t joint : gltf_wholes(skin, "joints")) {
+    gltf_item(file, "nodes", joint);
+    matrix.push_back(nodes.world[joint]);
+  }
+  const auto accessor = gltf_whole(skin, "inverseBindMatrices");
+  if (!accessor) return matrix;
+  if (gltf_accessor_count(file, *accessor) < matrix.size()) {
+    gltf_fault(skin, "fewer inverseBindMatrices than joints; export it again");
+  }
+  const std::vector<float> inverse = gltf_floats(file, *accessor, 16);
+  for (std::size_t j = 0; j < matrix.size(); ++j) {
+    Affine3d bind;
+    bind.matrix() = Eigen::Map<const Eigen::Matrix4f>(&inverse[16 * j]).cast<double>();
+    bind.makeAffine();
+    matrix[j] = matrix[j] * bind;
+  }
+  return matrix;
+}
+
+constexpr std::string_view different_counts = "attributes of a primitive have different counts; export it again";
+
+/// A primitive's attributes, and its vertices as one node shows them.
+struct Shown {
+  const json& attributes;
+  const GltfItem& mesh;
+  std::vector<Vector3d> place;
+};
+
+std::optional<std::size_t> attribute(const Shown& shown, const std::string& name) {
+  return gltf_whole({shown.attributes, shown.mesh.list, shown.mesh.index}, name.c_str());
+}
+
+/// Returns an attribute's numbers, of which every vertex has `width`.
+std::vector<float> vertex_floats(GltfFile& file, const Shown& shown, std::size_t accessor, std::size_t width) {
+  auto values = gltf_floats(file, accessor, width);
+  if (values.size() != width * shown.place.size()) {
+    gltf_fault(shown.mesh, different_counts);
+  }
+  return values;
+}
+
+/// Adds the morph targets by the node's weights, or else the mesh's.
+void add_targets(GltfFile& file, const GltfItem& node, const json& primitive, Shown& shown) {
+  const json* targets = gltf_member(primitive, "targets");
+  if (targets == nullptr || !targets->is_array()) return;
+  gltf_spend(file, shown.mesh, targets->size());
+  std::vector<double> weight(targets->size());
+  if (!gltf_numbers(node, "weights", weight)) gltf_numbers(shown.mesh, "weights", weight);
+  for (std::size_t t = 0; t < weight.size(); ++t) {
+    const auto accessor = gltf_whole({(*targets)[t], shown.mesh.list, shown.mesh.index}, "POSITION");
+    if (weight[t] == 0 || !accessor) continue;
+    const auto moved = vertex_floats(file, shown, *accessor, 3);
+    for (std::size_t v = 0; v < shown.place.size(); ++v) {
+      shown.place[v] += weight[t] * Eigen::Map<const Eigen::Vector3f>(&moved[3 * v]).cast<double>();
+    }
+  }
+}
+
+/// Moves the vertices with their joints. Returns whether these mirror the mesh.
+bool move_with_joints(GltfFile& file, const std::vector<Affine3d>& matrix, Shown& shown) {
+  std::vector<Vector3d> sum(shown.place.size(), Vector3d::Zero());
+  std::vector<double> whole(shown.place.size());  // sums of weights, 1 but for rounding
+  bool mirrored = false;
+  for (std::size_t set = 0;; ++set) {
+    const auto joints = attribute(shown, fmt::format("JOINTS_{}", set));
+    const auto weights = attribute(shown, fmt::format("WEIGHTS_{}", set));
+    if (!joints || !weights) break;
+    const auto weight = vertex_floats(file, shown, *weights, 4);
+    const auto joint = gltf_indices(file, *joints, 4);
+    if (joint.size() != weight.size()) gltf_fault(shown.mesh, different_counts);
+    for (std::size_t i = 0; i < joint.size(); ++i) {
+      if (weight[i] == 0) continue;
+      if (joint[i] >= matrix.size()) {
+        gltf_fault(shown.mesh,
+                   fmt::format("joint {}; valid: below {}, as its skin has: export it again", joint[i], matrix.size()));
+      }
+      const auto share = static_cast<double>(weight[i]);
+      sum[i / 4] += share * (matrix[joint[i]] * shown.place[i / 4]);
+      whole[i / 4] += share;
+      mirrored = matrix[joint[i]].linear().determinant() < 0;
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) {
+    if (whole[v] > 0) shown.place[v] = sum[v] / whole[v];
+  }
+  return mirrored;
+}
+
+/// Adds the triangles of a primitive, whose vertices begin at `first`.
+void add_triangles(const Shown& shown, std::vector<std::uint32_t> corner, std::size_t mode, bool turned, RawMesh& raw) {
+  constexpr std::size_t triangles = 4, strip = 5;
+  if (mode == triangles && corner.size() % 3 != 0) {
+    gltf_fault(shown.mesh,
+               fmt::format("{} corners of triangles; valid: a multiple of 3: export it again", corner.size()));
+  }
+  const std::size_t count = mode == triangles ? corner.size() / 3 : corner.size() < 3 ? 0 : corner.size() - 2;
+  if (!has_room(raw, count)) {
+    throw GltfFault{fmt::format("more than {} triangles; make the mesh coarser in a mesh editor", max_mesh_triangles)};
+  }
+  const auto first = static_cast<std::uint32_t>(raw.position.size());
+  for (auto& vertex : corner) {
+    if (vertex >= shown.place.size()) {
+      gltf_fault(shown.mesh, fmt::format("vertex {} is out of range; valid: 0 to {}: export it again", vertex,
+                                         static_cast<std::int64_t>(shown.place.size()) - 1));
+    }
+    vertex += first;
+  }
+  const std::size_t begin = raw.triangle.size();
+  if (mode == triangles) {
+    raw.triangle.insert(raw.triangle.end(), corner.begin(), corner.end());
+  } else if (mode == strip) {
+    add_strip(raw, corner);
+  } else {
+    for (std::size_t c = 2; c < corner.size(); ++c) {
+      raw.triangle.insert(raw.triangle.end(), {corner[c - 1], corner[c], corner[0]});
+    }
+  }
+  for (std::size_t t = begin; turned && t < raw.triangle.size(); t += 3)
+    std::swap(raw.triangle[t], raw.triangle[t + 1]);
+}
+
+/// A node, the place of its mesh, and the matrices of its skin.
+struct ShownNode {
+  const GltfItem& node;
+  const Affine3d& world;
+  const std::vector<Affine3d>* joints;  // null without a skin
+};
+
+void add_primitive(GltfFile& file, const ShownNode& by, const GltfItem& mesh, const json& primitive, RawMesh& raw) {
+  const GltfItem item{primitive, mesh.list, mesh.index};
+  gltf_spend(file, mesh, 100);  // its time, even if nothing is read
+  const json* attributes = gltf_member(primitive, "attributes");
+  const auto mode = *gltf_whole(item, "mode", 4);
+  if (mode > 6) gltf_fault(mesh, fmt::format("a primitive of mode {}; valid: 0 to 6: export it again", mode));
+  if (mode < 4 || attributes == nullptr) return;  // points and lines
+  Shown shown{*attributes, mesh, {}};
+  const auto positions = attribute(shown, "POSITION");
+  if (!positions) return;
+  const json* extensions = gltf_member(primitive, "extensions");
+  if (extensions != nullptr && gltf_member(*extensions, "KHR_draco_mesh_compression") != nullptr &&
+      gltf_member(gltf_item(file, "accessors", *positions).value, "bufferView") == nullptr) {
+    gltf_fault(mesh, "compressed by KHR_draco_mesh_compression; export it without");
+  }
+  const std::size_t count = gltf_accessor_count(file, *positions);
+  if (raw.position.size() + count > 3 * max_mesh_triangles) {
+    throw GltfFault{
+        fmt::format("more than {} vertices; make the mesh coarser in a mesh editor", 3 * max_mesh_triangles)};
+  }
+  const auto values = gltf_floats(file, *positions, 3);
+  for (std::size_t v = 0; v < count; ++v) {
+    shown.place.push_back(Eigen::Map<const Eigen::Vector3f>(&values[3 * v]).cast<double>());
+  }
+  add_targets(file, by.node, primitive, shown);
+  bool turned = false;
+  if (by.joints != nullptr) {
+    turned = move_with_joints(file, *by.joints, shown);
+  } else {
+    for (auto& p : shown.place) p = by.world * p;
+    turned = by.world.linear().determinant() < 0;
+  }
+  std::vector<std::uint32_t> corner;
+  if (const auto indices = gltf_whole(item, "indices")) {
+    corner = gltf_indices(file, *indices, 1);
+  } else {
+    for (std::uint32_t v = 0; v < count; ++v) corner.push_back(v);
+  }
+  add_triangles(shown, std::move(corner), mode, turned, raw);
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto p = shown.place[v].cast<float>().eval();
+    if (!p.allFinite()) {
+      gltf_fault(mesh, fmt::format("vertex {} is at ({}, {}, {}); every coordinate must be a finite number: export the "
+                                   "mesh again",
+                                   v, p.x(), p.y(), p.z()));
+    }
+    raw.position.push_back({p.x(), p.y(), p.z()});
+  }
+}
+
+RawMesh read_scene(GltfFile& file) {
+  const GltfNodes nodes = place_nodes(file);
+  RawMesh raw;
+  std::vector<std::vector<Affine3d>> joints(gltf_count(file, "skins"));
+  for (const std::size_t index : nodes.order) {
+    if (!nodes.in_scene[index]) continue;
+    const GltfItem node = gltf_item(file, "nodes", index);
+    const auto shown = gltf_whole(node, "mesh"), skinned = gltf_whole(node, "skin");
+    if (!shown) continue;
+    const GltfItem mesh = gltf_item(file, "meshes", *shown);
+    if (skinned) {
+      const GltfItem skin = gltf_item(file, "skins", *skinned);
+      if (joints[*skinned].empty()) joints[*skinned] = joint_matrices(file, nodes, skin);
+    }
+    const json* primitives = gltf_member(mesh.value, "primitives");
+    if (primitives == nullptr || !primitives->is_array()) gltf_fault(mesh, "no primitives; export it again");
+    for (const json& primitive : *primitives) {
+      add_primitive(file, {node, nodes.world[index], skinned ? &joints[*skinned] : nullptr}, mesh, primitive, raw);
+    }
+  }
+  return raw;
 }
 
 }  // namespace
 
-Result<MeshFile> read_gltf(const std::string& path) {
-  auto child = ask_child(path);
-  if (!child) {
+Result<MeshFile> read_gltf(std::string_view bytes, std::string_view path, const std::filesystem::path& folder) try {
+  GltfFile file = open_gltf(bytes, folder);
+  RawMesh raw = read_scene(file);
+  if (raw.triangle.empty()) {
     return fail(
-        fmt::format("{}: no process could be begun to read it; free some memory, or export it as .obj, .stl or "
-                    ".ply",
+        fmt::format("{}: its scene shows no triangle; export it with nodes, and triangles rather than points, "
+                    "lines or curves",
                     path));
   }
-  if (child->received == Received::late) {
-    return fail(
-        fmt::format("{}: not read within {} s; valid glTF takes less: export it again, or as .obj, .stl or .ply", path,
-                    wall_limit.count()));
-  }
-  if (child->received == Received::less || !is_sound(child->raw)) {
-    return fail(
-        fmt::format("{}: what reads glTF broke down over it (limits: {} s, {} GB); the file may be damaged: "
-                    "export it again, or as .obj, .stl or .ply",
-                    path, processor_s, memory_bytes / 1'000'000'000));
-  }
-  if (!child->line.empty()) return fail(fmt::format("{}: {}", path, child->line));
-  return join_mesh(child->raw, path);
+  return join_mesh(std::move(raw), path);
+} catch (const GltfFault& fault) {
+  return fail(fmt::format("{}: {}", path, fault.line));
+} catch (const nlohmann::json::exception&) {
+  return fail(fmt::format("{}: its JSON has a value of another kind than glTF; export it again", path));
 }
 
 }  // namespace mobil::inline v0_3
-
-#else
-
-namespace mobil::inline v0_3 {
-
-Result<MeshFile> read_gltf(const std::string& path) {
-  return fail(
-      fmt::format("{}: glTF is not read on this system; valid: .obj, .stl, .ply: export it as one of them", path));
-}
-
-}  // namespace mobil::inline v0_3
-
-#endif

@@ -1,17 +1,19 @@
 #pragma once
-// glTF and GLB, read by assimp in isolation.
+// glTF 2.0, as text or GLB, whichever the bytes are.
 
-#include <string>
+#include <filesystem>
+#include <string_view>
 
 #include <mobil/engine/error.h>
 #include <mobil/mesh_file.h>
 
 namespace mobil::inline v0_3 {
 
-/// Reads every mesh in the file with its nodes' transforms applied, in the file's own units and axes. A separate
-/// process reads it, with at most 10 s of processor time, 15 s of wall time and 2 GB of memory. It writes no file, and
-/// opens only files of the mesh's own folder. If it dies or is slow, the file is refused. Files are read one at a time.
-/// Without fork (Windows), every file is refused. Messages begin with the path.
-Result<MeshFile> read_gltf(const std::string& path);
+/// Reads the triangles of the default scene (or the first, or all nodes without a scene) in place: node transforms,
+/// skins with their joints as they stand, morph targets with their default weights. Points, lines, materials and images
+/// are skipped. Of the extensions that change meshes, KHR_mesh_quantization alone is read. Buffers are in the bytes, in
+/// data uris, or in files of `folder` and below; without a folder none is opened. Messages begin with `path`. Fails as
+/// read_mesh.
+Result<MeshFile> read_gltf(std::string_view bytes, std::string_view path, const std::filesystem::path& folder);
 
 }  // namespace mobil::inline v0_3

@@ -15,6 +15,7 @@
 #include "tests/fuzz/anatomy_target.h"
 #include "tests/fuzz/calls_target.h"
 #include "tests/fuzz/command_target.h"
+#include "tests/fuzz/gltf_target.h"
 #include "tests/fuzz/mesh_target.h"
 #include "tests/fuzz/script_target.h"
 #include "tests/fuzz/snapshot_target.h"
@@ -104,6 +105,9 @@ void shake(const std::string& target, void (*run)(Input)) {
 
 TEST(Fuzz, Mesh) {
   shake("mesh", &fuzz_mesh);
+}
+TEST(Fuzz, Gltf) {
+  shake("gltf", &fuzz_gltf);
 }
 TEST(Fuzz, Anatomy) {
   shake("anatomy", &fuzz_anatomy);

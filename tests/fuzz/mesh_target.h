@@ -1,5 +1,5 @@
 #pragma once
-// A mesh file. The first byte selects the format; the rest are its bytes.
+// A mesh file in OBJ, STL or PLY. The first byte selects the format; the rest are its bytes.
 
 #include <array>
 #include <cmath>
@@ -11,10 +11,7 @@
 
 namespace mobil::fuzz {
 
-inline void fuzz_mesh(Input input) {
-  if (input.empty()) return;
-  constexpr std::array<std::string_view, 3> names = {"a.obj", "a.stl", "a.ply"};
-  const auto file = read_mesh_bytes(text_of(input.subspan(1)), std::string(names[input[0] % names.size()]));
+inline void check_mesh(const Result<MeshFile>& file) {
   if (!held(file)) return;
   const auto sound = [](const SurfaceMesh& mesh) {
     promise(mesh.triangle.size() % 3 == 0, "triangles are whole");
@@ -31,6 +28,12 @@ inline void fuzz_mesh(Input input) {
   remove_specks(mesh, 0.01);
   sound(mesh);
   sound(clustered(mesh, 0.003));
+}
+
+inline void fuzz_mesh(Input input) {
+  if (input.empty()) return;
+  constexpr std::array<std::string_view, 3> names = {"a.obj", "a.stl", "a.ply"};
+  check_mesh(read_mesh_bytes(text_of(input.subspan(1)), std::string(names[input[0] % names.size()])));
 }
 
 }  // namespace mobil::fuzz

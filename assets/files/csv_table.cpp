@@ -29,10 +29,10 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// A record of a table and what follows it.
+/// The cells of a record, and its number of lines.
 struct Record {
   std::vector<std::string> cells;
-  std::size_t line = 1, lines = 1;
+  std::size_t lines = 1;
 };
 
 /// Takes the next record from the text. A cell that begins with a quote ends with one, and can have separators, line

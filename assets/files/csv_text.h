@@ -1,5 +1,5 @@
 #pragma once
-// The text of a table, whatever a spreadsheet wrote it as.
+// The text of a table in the encodings of spreadsheets.
 
 #include <string>
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Returns UTF-8 without a mark, whose lines end with LF: from UTF-8 or, with a mark, UTF-16; from LF, CRLF or CR. Fails
-/// with a line that begins with the name on bytes that are no text.
+/// Returns UTF-8 without a mark, with lines that end with LF. The bytes are UTF-8, or UTF-16 with a mark; their lines
+/// end with LF, CRLF or CR. Fails with a line that begins with the name on a workbook and on zero bytes.
 Result<std::string> csv_text(std::string_view bytes, std::string_view name);
 
 }  // namespace mobil::inline v0_3

@@ -8,10 +8,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// Returns the path of a name below the folder, whose links are followed. A name that does not exist is also looked for
-/// with slashes in place of backslashes, and in another case of its letters, if only one file then fits. Without such a
-/// file it returns the name's own path. Fails with a line that lacks the place of the name, on a name that leads out of
-/// the folder, or fits several files.
+/// Returns the path of a name below the folder; links are followed. A name without a file stands for the one file that
+/// has slashes for its backslashes, or letters of another case. Without such a file it returns the name's own path.
+/// Fails on a name that leads out of the folder or fits several files, with a line that lacks the place of the name.
 Result<std::filesystem::path> file_below(const std::filesystem::path& folder, std::string_view name);
 
 }  // namespace mobil::inline v0_3

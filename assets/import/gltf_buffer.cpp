@@ -36,7 +36,7 @@ std::string without_percents(std::string_view text) {
   return plain;
 }
 
-/// Returns the bytes of a text in base64; nothing if it is none.
+/// Returns the bytes of a text in base64; nothing for other texts.
 std::optional<std::string> from_base64(std::string_view text) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::array<signed char, 256> value;

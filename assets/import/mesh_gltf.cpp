@@ -158,7 +158,7 @@ void add_targets(GltfFile& file, const GltfItem& node, const json& primitive, Sh
 /// Moves the vertices with their joints. Returns whether these mirror the mesh.
 bool move_with_joints(GltfFile& file, const std::vector<Affine3d>& matrix, Shown& shown) {
   std::vector<Vector3d> sum(shown.place.size(), Vector3d::Zero());
-  std::vector<double> whole(shown.place.size());  // sums of weights, 1 but for rounding
+  std::vector<double> whole(shown.place.size());  // sums of weights, 1 within rounding
   bool mirrored = false;
   for (std::size_t set = 0;; ++set) {
     const auto joints = attribute(shown, fmt::format("JOINTS_{}", set));

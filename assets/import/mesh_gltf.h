@@ -11,7 +11,7 @@ namespace mobil::inline v0_3 {
 
 /// Reads the triangles of the default scene (or the first, or all nodes without a scene) in place: node transforms,
 /// skins with their joints as they stand, morph targets with their default weights. Points, lines, materials and images
-/// are skipped. Of the extensions that change meshes, KHR_mesh_quantization alone is read. Buffers are in the bytes, in
+/// are skipped. KHR_mesh_quantization is the only extension of meshes that is read. Buffers are in the bytes, in
 /// data uris, or in files of `folder` and below; without a folder none is opened. Messages begin with `path`. Fails as
 /// read_mesh.
 Result<MeshFile> read_gltf(std::string_view bytes, std::string_view path, const std::filesystem::path& folder);

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> first_equal(const std::vector<Vec3<float>>& position)
   return first;
 }
 
-/// Cuts the polygons in place of their fans.
+/// Replaces the fans of polygons by their cut.
 Result<void> cut_polygons(RawMesh& raw, std::string_view path, std::string_view faces, std::vector<std::string>& said) {
   std::size_t work = max_corner_comparisons, crossed = 0, first_crossed = 0;
   std::vector<std::uint32_t> corner;

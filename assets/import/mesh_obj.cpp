@@ -33,8 +33,8 @@ struct ObjReader {
   std::size_t largest_line = 0;
 };
 
-/// Moves to the next statement. A line that ends in a backslash goes on in the next, unless that begins a statement or
-/// comment: names and comments can end so, too.
+/// Moves to the next statement. A backslash at the end of a line continues it, except before a statement or comment:
+/// names and comments can end with a backslash.
 bool pass_over(MeshText& text) {
   for (bool continues = true; continues;) {
     const std::size_t before = text.at;

@@ -8,9 +8,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// Reads vertices and faces; all other statements of the format are skipped. A vertex has three numbers, then
-/// optionally a weight of 1 and a colour. Messages begin with `path`. Fails as read_mesh, and on a statement that OBJ
-/// does not have.
+/// Reads vertices and faces; all other statements of the format are skipped. A skipped line takes no statement with it.
+/// A vertex has three numbers, then optionally a weight of 1 and a colour. Messages begin with `path`. Fails as
+/// read_mesh, and on a statement that OBJ does not have.
 Result<MeshFile> read_obj(std::string_view bytes, std::string_view path);
 
 }  // namespace mobil::inline v0_3

@@ -14,7 +14,7 @@ struct FlatPoint {
   friend bool operator==(const FlatPoint&, const FlatPoint&) = default;
 };
 
-/// A polygon as seen along its normal, and what is left of it: a ring of corners.
+/// A polygon as seen along its normal, and the ring of its corners that are not yet clipped.
 struct FlatPolygon {
   std::vector<FlatPoint> point;
   std::vector<std::uint32_t> before, after;
@@ -22,7 +22,7 @@ struct FlatPolygon {
   bool collinear = false;
 };
 
-/// What may lie in an ear that is clipped. Stricter rules are tried first.
+/// Corners that are allowed in a clipped ear. Stricter rules are tried first.
 enum class EarRule : std::uint8_t {
   nothing,  // no corner in it or on its edges
   no_area,  // the ear is flat
@@ -109,8 +109,8 @@ bool is_spike(const FlatPolygon& polygon, std::uint32_t tip) {
   return std::abs(turn(p, t, n)) <= polygon.flat && (t.u - p.u) * (n.u - t.u) + (t.v - p.v) * (n.v - t.v) <= 0;
 }
 
-/// Returns the tip of a spike among `corners` from `start` on, or else that of an ear, or point.size(). A spike comes
-/// first, because an ear beside it can lie outside.
+/// Returns the tip of a spike among `corners` from `start` on, or else that of an ear, or point.size(). Spikes have
+/// precedence: an ear next to a spike can lie outside.
 std::uint32_t find_tip(const FlatPolygon& polygon, std::uint32_t start, std::uint32_t corners, std::size_t& work) {
   auto tip = start;
   for (std::uint32_t i = 0; i < corners; ++i, tip = polygon.after[tip]) {
@@ -152,7 +152,7 @@ PolygonCut cut_polygon(const std::vector<Vec3<float>>& position, std::span<const
   std::uint32_t start = 1;
   std::uint32_t* to = triangle;
   for (std::uint32_t left = count; left > 2; --left) {
-    // Only the corners beside the last tip can have become spikes. Ears side by side would become slivers.
+    // New spikes are possible only at the two neighbours of the last tip.
     const std::uint32_t tip = find_tip(polygon, start, left == count ? count : 2, work);
     if (tip == count) {
       write_fan(corner, triangle);

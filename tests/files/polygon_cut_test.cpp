@@ -116,7 +116,7 @@ RC_GTEST_PROP(PolygonCut, BentPolygonIsCutAsSeenAlongItsNormal, ()) {
   RC_ASSERT(has_edges_of(cut, star.size()));
 }
 
-/// A comb of teeth, of which a fan covers none but the first.
+/// A comb of teeth. A fan covers only the first.
 Polygon comb(int teeth) {
   Polygon polygon = {{2.0 * teeth, 0}, {2.0 * teeth, 1}};
   for (int t = teeth; t-- > 0;) {

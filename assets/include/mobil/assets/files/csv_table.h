@@ -24,8 +24,8 @@ struct CsvTable {
 /// Reads cells between commas, semicolons or tabs, whichever give the header its columns; between the latter two,
 /// numbers can have a decimal comma, which becomes a point. Cells in double quotes can have separators, line ends and
 /// doubled quotes inside. Reads UTF-8, UTF-16 with a mark, and lines that end with LF, CRLF or CR; skips rows without
-/// any text. Fails on other bytes, a table without rows, a missing column of `required`, an open quote, or a row that is
-/// not as wide as the header.
+/// any text. Fails on other bytes, a table without rows, a missing column of `required`, an open quote, or a row that
+/// is not as wide as the header.
 Result<CsvTable> parse_csv(std::string_view bytes, std::string_view name, std::span<const std::string_view> required);
 
 /// Reads a table from a file. Also fails if the file cannot be read.

@@ -8,9 +8,9 @@
 // of the left is optional. All files have one frame, derived from hip to ankle: metres, centimetres or millimetres; z
 // up (+x to the left, +y backwards) or y up (+x to the left, +z forwards). Columns unit (m, cm, mm, in) and up (z, y)
 // of landmarks.csv override it, equal in every row; those of manifest.csv apply to one row's mesh and points. Meshes
-// are files below the folder; see read_mesh for their formats. Bones are identified by the beginning of their file's
-// name: hip_bone, sacrum, femur, patella, tibia, fibula, talus, calcaneus, navicular, cuboid, …cuneiform, metatarsal,
-// phalanx, sesamoid.
+// are files below the folder, in any case of letters; see read_mesh for their formats. Bones are identified by the
+// beginning of their file's name: hip_bone, sacrum, femur, patella, tibia, fibula, talus, calcaneus, navicular, cuboid,
+// …cuneiform, metatarsal, phalanx, sesamoid.
 
 #include <optional>
 #include <string>

@@ -173,8 +173,8 @@ Result<std::optional<LandmarkPoint>> landmark(const CsvTable& table, std::string
     if (cell(table, row, "name") != name || cell(table, row, "side") != side) continue;
     const auto x = number(cell(table, row, "x")), y = number(cell(table, row, "y")), z = number(cell(table, row, "z"));
     if (!x || !y || !z) {
-      return fail(fmt::format("{} line {}: {} is not three finite numbers; write x, y and z", table.path,
-                              table.line[row], name));
+      return fail(fmt::format("{} line {}: {} is not three finite numbers; write x, y and z with decimal points",
+                              table.path, table.line[row], name));
     }
     return std::optional(LandmarkPoint{*x, *y, *z});
   }

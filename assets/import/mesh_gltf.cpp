@@ -146,8 +146,9 @@ void add_targets(GltfFile& file, const GltfItem& node, const json& primitive, Sh
   std::vector<double> weight(targets->size());
   if (!gltf_numbers(node, "weights", weight)) gltf_numbers(shown.mesh, "weights", weight);
   for (std::size_t t = 0; t < weight.size(); ++t) {
+    if (weight[t] == 0) continue;
     const auto accessor = gltf_whole({(*targets)[t], shown.mesh.list, shown.mesh.index}, "POSITION");
-    if (weight[t] == 0 || !accessor) continue;
+    if (!accessor) continue;
     const auto moved = vertex_floats(file, shown, *accessor, 3);
     for (std::size_t v = 0; v < shown.place.size(); ++v) {
       shown.place[v] += weight[t] * Eigen::Map<const Eigen::Vector3f>(&moved[3 * v]).cast<double>();

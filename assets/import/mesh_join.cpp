@@ -12,7 +12,7 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint32_t no_vertex = ~0U;
-constexpr std::size_t max_corner_comparisons = 1'000'000'000;  // some seconds
+constexpr std::size_t max_corner_comparisons = 400'000'000;  // a second
 
 struct PlacedVertex {
   float x, y, z;

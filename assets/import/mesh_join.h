@@ -38,7 +38,7 @@ bool has_room(const RawMesh& raw, std::size_t triangles);
 
 /// Returns the mesh; see MeshFile. Vertices are in the order in which triangles first use them; unused ones are left
 /// out. `faces` begins the place of a face in messages, such as "line". Fails if no triangle has three different
-/// corners, or if faces have so many corners that cutting them takes minutes.
+/// corners, or if faces have so many corners that cutting them takes long.
 Result<MeshFile> join_mesh(RawMesh raw, std::string_view path, std::string_view faces = "face");
 
 /// Returns "PATH line N: what", for faults of a text.

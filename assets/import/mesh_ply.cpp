@@ -262,7 +262,10 @@ Result<MeshFile> read_ply(std::string_view bytes, std::string_view path) {
     first = first && element.count == 0;
   }
   const bool text = reader.format == PlyFormat::ascii;
-  if (text ? !next_word_of_any_line(reader.text).empty() : reader.text.at < bytes.size()) {
+  // Some programs append a line end or fill a block.
+  constexpr std::string_view filling("\0\r\n", 3);
+  if (text ? !next_word_of_any_line(reader.text).empty()
+           : bytes.find_first_not_of(filling, reader.text.at) != std::string_view::npos) {
     return fail(
         fmt::format("{}: data after the last element that its header promises; the file may be damaged: copy or "
                     "export it again",

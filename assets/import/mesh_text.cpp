@@ -92,8 +92,8 @@ std::optional<float> coordinate(std::string_view word) {
 bool is_number(std::string_view word) {
   word = without_plus(word);
   if (const auto mark = word.find(".#"); mark != std::string_view::npos) {  // as Microsoft's printf wrote them
-    const auto kind = word.substr(mark + 2);
-    return kind.starts_with("IND") || kind.starts_with("INF") || kind.starts_with("QNAN") || kind.starts_with("SNAN");
+    const auto one = word.substr(0, mark), kind = word.substr(mark + 2);
+    return (one == "1" || one == "-1") && kind.find_first_not_of("0123456789IJNDOFQSAR") == std::string_view::npos;
   }
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);

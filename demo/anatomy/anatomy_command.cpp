@@ -61,10 +61,10 @@ std::string anatomy_table(const AnatomySurvey& survey) {
                                  "area_cm2", "repairs and remarks");
   for (const auto& mesh : survey.mesh) {
     const SurfaceReport& report = mesh.part.report;
-    text += fmt::format("{:{}} {:6} {:26} {:>9} {:>6} {:>6} {:>6} {:>6} {:>10.2f} {:>10.1f}  {}{}\n",
-                        mesh.file.substr(0, 60), widest, kind_of(mesh.part), muscle_of(mesh.part), report.triangles,
-                        report.open_edges, report.overused_edges, report.pieces, report.self_intersections,
-                        report.volume_cm3, report.area_cm2, mesh.fault ? "UNUSABLE; " : "", all_of(report.said));
+    text += fmt::format("{:{}} {:6} {:26} {:>9} {:>6} {:>6} {:>6} {:>6} {:>10.2f} {:>10.1f}  {}{}\n", mesh.file, widest,
+                        kind_of(mesh.part), muscle_of(mesh.part), report.triangles, report.open_edges,
+                        report.overused_edges, report.pieces, report.self_intersections, report.volume_cm3,
+                        report.area_cm2, mesh.fault ? "UNUSABLE; " : "", all_of(report.said));
   }
   for (const auto& line : survey.anatomy.said) text += fmt::format("note: {}\n", line);
   for (const auto& line : survey.faults) text += fmt::format("fault: {}\n", line);

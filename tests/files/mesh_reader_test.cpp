@@ -240,7 +240,7 @@ TEST(MeshReader, BinaryStlIsKnownByItsSizeAndTextByItsWords) {
     }
   }
   for (const std::string normal :
-       {"nan nan nan", "-1.#IND -1.#IND 1.#QNAN", "-nan(ind) inf -inf", "1.#INF 1.#SNAN 0"}) {
+       {"nan nan nan", "-1.#IND -1.#IND 1.#QNAN", "-nan(ind) inf -inf", "1.#INF00 1.#SNAN 1.#J"}) {
     std::string other = text;
     for (std::size_t at = 0; (at = other.find("0 0 1\n", at)) != std::string::npos;) other.replace(at, 5, normal);
     const auto read = read_mesh_bytes(other, "a.stl");
@@ -330,6 +330,7 @@ TEST(MeshReaderRefuses, InvalidPly) {
   expect_refused("a.ply", text + "1 2 3\n", "after the last element");
   expect_refused("a.ply", text.substr(0, text.size() - 9), "a.ply");
   expect_refused("a.ply", big + "x", "after the last element");
+  EXPECT_TRUE(read_mesh_bytes(big + std::string("\r\n\0\0", 4), "a.ply").has_value());
   expect_refused("a.ply", big.substr(0, big.size() - 1), "cut short");
   std::string out_of_range = big;
   out_of_range.back() = 17;

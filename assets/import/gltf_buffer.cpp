@@ -39,10 +39,9 @@ std::string without_percents(std::string_view text) {
 /// Returns the bytes of a text in base64; nothing for other texts.
 std::optional<std::string> from_base64(std::string_view text) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::array<signed char, 256> value;
+  std::array<int, 256> value;
   value.fill(-1);
-  for (std::size_t i = 0; i < digits.size(); ++i)
-    value[static_cast<unsigned char>(digits[i])] = static_cast<signed char>(i);
+  for (std::size_t i = 0; i < digits.size(); ++i) value[static_cast<unsigned char>(digits[i])] = static_cast<int>(i);
   text = text.substr(0, text.find_last_not_of('=') + 1);
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3 + 3);

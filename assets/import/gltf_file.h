@@ -18,7 +18,7 @@ struct GltfFault {
   std::string line;
 };
 
-struct GltfFile {
+struct GltfFile {  // NOLINT(bugprone-exception-escape): the parser's assertions
   nlohmann::json root;
   std::optional<std::string_view> binary;          // of a GLB
   std::filesystem::path folder;                    // of files that it refers to; empty: none are read

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <exception>
 
+#include <mobil/engine/interrupt.h>
+
 #if defined(__SSE2__)
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -43,6 +45,7 @@ struct Guarded {
   void* context;
   std::atomic<bool> thrown{false};
   std::exception_ptr first;
+  InterruptScope* interrupt = InterruptScope::current();
 #ifndef NDEBUG
   std::atomic<std::size_t> done{0};
 #endif
@@ -51,11 +54,13 @@ void run_guarded(void* context, std::size_t begin, std::size_t end) noexcept {
   const FloatMode mode;
   Guarded& of = *static_cast<Guarded*>(context);
   assert(begin < end && end <= of.count && "a host's parallel_for gave a range outside of what was asked");
+  InterruptScope* const before = InterruptScope::enter(of.interrupt);
   try {
     of.body(of.context, begin, end);
   } catch (...) {
     if (!of.thrown.exchange(true)) of.first = std::current_exception();
   }
+  InterruptScope::enter(before);
 #ifndef NDEBUG
   of.done += end - begin;
 #endif

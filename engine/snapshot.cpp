@@ -4,6 +4,8 @@
 #include <cstring>
 #include <string>
 
+#include <mobil/engine/interrupt.h>
+
 namespace mobil::inline v0_3 {
 
 tl::unexpected<Error> damaged(std::string_view what) {
@@ -325,7 +327,13 @@ Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::
     if (saved_[at] != SavedWorld::nobody) return damaged("two tables of one key");
     saved_[at] = t;
     table_[t] = at;
-    world.tables_[at].reserve(from.rows);
+    Table& table = world.tables_[at];
+    table.reserve(from.rows);
+    // Fresh pages cost more than their copy in commit, which cannot be interrupted.
+    for (std::size_t b = table.block_count(); b < (from.rows + lane_count - 1) / lane_count; ++b) {
+      check_interrupt();
+      std::fill_n(table.block(b), std::size_t{table.words()} * lane_count, 0.0F);
+    }
     gap_[t] = gap_of(world.tables_[at], without);
   }
   world.entities_.slots_.reserve(saved.slots.size());

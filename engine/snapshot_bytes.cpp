@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include <mobil/engine/interrupt.h>
 #include "engine/row_hash.h"
 
 namespace mobil::inline v0_3 {
@@ -36,6 +37,7 @@ struct Sealing {
 
   void run(std::size_t begin, std::size_t end) const {
     for (std::size_t c = begin; c < end; ++c) {
+      check_interrupt();
       const std::size_t from = SnapshotLayout::header_bytes + c * SnapshotLayout::chunk_bytes;
       const std::size_t to = std::min(from + SnapshotLayout::chunk_bytes, layout.seals_at());
       const std::size_t first = std::max(from, layout.blocks_at());
@@ -54,6 +56,7 @@ struct Checking {
 
   void run(std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
+      check_interrupt();
       const std::size_t from = SnapshotLayout::header_bytes + c * SnapshotLayout::chunk_bytes;
       const std::size_t to = std::min(from + SnapshotLayout::chunk_bytes, layout.seals_at());
       std::uint64_t hash;

@@ -11,6 +11,7 @@
 #include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/components/footing.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/host_parts.h>
 #include <mobil/lod.h>
 #include <mobil/muscle_library.h>
@@ -359,8 +360,11 @@ void Simulation::tick(std::uint32_t count) {
   core_->workspace.get<StepLog>().clear();
   if (count == 0) return;
   for (const auto begin : {&begin_lod_report, &begin_avoidance_report, &begin_terrain_report}) begin(core_->frame);
-  for (std::uint32_t i = 0; i < count; ++i)
+  for (std::uint32_t i = 0; i < count; ++i) {
+    check_interrupt();
+    const WholeScope tick;
     core_->schedule.tick(core_->world, core_->tick, core_->workspace, core_->jobs);
+  }
 }
 
 std::span<const StepEvent> Simulation::events() const {

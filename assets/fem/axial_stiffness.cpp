@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include <mobil/engine/interrupt.h>
 #include "assets/fem/critical_step.h"
 #include "assets/fem/stencil_matrix.h"
 #include "engine/exact_math.h"
@@ -64,6 +65,7 @@ void solve(const Sized& belly, FarEnd end, const Displacements& load, Displaceme
   double rr = scalar_product(r, r);
   const double enough = 1e-20 * rr;
   for (std::size_t step = 0; step < 4 * size && rr > enough; ++step) {
+    check_interrupt();
     belly.multiply(p, q);
     hold(q);
     const double alpha = rr / scalar_product(p, q);

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include <mobil/engine/interrupt.h>
+
 namespace mobil::inline v0_3 {
 namespace {
 
@@ -24,6 +26,7 @@ struct Band {
   /// Factorises in place; returns false if the matrix is not positive definite.
   bool factorise() {
     for (std::size_t c = 0; c < size; ++c) {
+      check_interrupt();
       double* const own = column(c);
       if (!(own[0] > 0)) return false;
       const std::size_t below = std::min(reach, size - 1 - c);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <mobil/engine/interrupt.h>
 #include "assets/fem/top_eigenvalue.h"
 #include "engine/exact_math.h"
 
@@ -130,6 +131,7 @@ class Tabulation {
   }
   /// At S = r, l = 1: K / (S²·l) = (A + r·B + r²·C) / r², so h = r²·ω².
   double top(double r, double q) {
+    check_interrupt();
     StepCase step_case = step_case_;
     step_case.foundation_1_s = std::sqrt(q) / r;
     fill_pencil(terms_, r, 1, step_case, pencil_);

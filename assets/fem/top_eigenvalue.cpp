@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include <mobil/engine/interrupt.h>
 #include "assets/fem/stiffness_terms.h"
 #include "engine/exact_math.h"
 
@@ -163,6 +164,7 @@ double lanczos_top(SymmetricOperator& op, const Numbers& start, std::size_t long
   double top = 0;
   longest = std::min(longest, now.size());
   for (std::size_t step = 1; step <= longest; ++step) {
+    check_interrupt();
     op.apply(now, next);
     const double a = dot(now, next);
     diagonal.push_back(a);
@@ -192,6 +194,7 @@ bool exceeds_spectrum(const StencilPencil& pencil, double sigma) {
   WindowCholesky factor(pencil.moving.size(), pencil_band(cells), 0);
   bool positive = true;
   for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    check_interrupt();
     const std::uint32_t n = node_index(cells, i, j, k);
     for (std::size_t r = 0; r < 3 && positive; ++r) {
       const std::size_t at = 3 * n + r;

@@ -1,5 +1,7 @@
 #include "assets/reduction/dense.h"
 
+#include <mobil/engine/interrupt.h>
+
 namespace mobil::inline v0_3 {
 
 using Eigen::MatrixXd;
@@ -18,10 +20,12 @@ Eigen::VectorXd transposed_product(const MatrixXd& a, const Eigen::VectorXd& v) 
 }
 
 Columns columns_product(const Eigen::Ref<const Columns>& a, const MatrixXd& b) {
+  check_interrupt();
   return a * b;
 }
 
 void subtract_product(Columns& from, const Eigen::Ref<const Columns>& a, const MatrixXd& b) {
+  check_interrupt();
   from.noalias() -= a * b;
 }
 

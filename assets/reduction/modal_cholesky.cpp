@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <mobil/engine/interrupt.h>
 #include "assets/reduction/double_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -103,6 +104,7 @@ bool factorise_dense(double* own, std::size_t size, std::size_t stride) {
 bool factorise_all(double* entry, std::size_t size, std::size_t reach, std::size_t stride) {
   constexpr std::size_t block = BandCholesky::block_width;
   for (std::size_t c = 0; c < size; c += block) {
+    check_interrupt();
     const std::size_t terms = std::min(block, size - c), next = c + terms, below = std::min(reach, size - next);
     double *const own = entry + c * stride + c, *const under = entry + c * stride + next;
     if (!factorise_dense(own, terms, stride)) return false;
@@ -209,6 +211,7 @@ bool BandCholesky::factorise() {
 
 void BandCholesky::solve(Eigen::Ref<Columns> columns) const {
   for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+    check_interrupt();
     Eigen::VectorXd one = columns.col(c);
     HWY_DYNAMIC_DISPATCH(solve_one)(entry_.data(), size_, reach_, stride_, one.data());
     columns.col(c) = one;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <mobil/engine/interrupt.h>
 #include "assets/fem/kernel_arrays.h"
 #include "assets/reduction/dense.h"
 #include "engine/eigen.h"
@@ -53,6 +54,7 @@ Columns applied(const StiffnessTerms& terms, const OperatorMix& mix, Eigen::Ref<
   Columns result = Columns::Zero(fields.rows(), fields.cols());
   const Index width = fields.cols();
   for_each_node(terms.cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    check_interrupt();
     const std::uint32_t n = node_index(terms.cells, i, j, k);
     for_each_neighbour(terms.cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
       const auto block = coupling(terms, mix, n, m, slot);
@@ -76,6 +78,7 @@ Columns mass_times(const StiffnessTerms& terms, Eigen::Ref<const Columns> fields
   Columns result = Columns::Zero(fields.rows(), fields.cols());
   const Index width = 3 * fields.cols();
   for_each_node(terms.cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    check_interrupt();
     const std::uint32_t n = node_index(terms.cells, i, j, k);
     double* const to = result.data() + n * width;
     for_each_neighbour(terms.cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
@@ -91,6 +94,7 @@ Eigen::MatrixXd inner(Eigen::Ref<const Columns> left, Eigen::Ref<const Columns> 
   constexpr Index piece = 96;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(left.cols(), right.cols());
   for (Index row = 0; row < left.rows(); row += piece) {
+    check_interrupt();
     const Index rows = std::min(piece, left.rows() - row);
     add_inner(left.middleRows(row, rows), right.middleRows(row, rows), sum);
   }

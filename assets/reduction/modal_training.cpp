@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <mobil/engine/interrupt.h>
 #include "assets/reduction/dense.h"
 #include "assets/reduction/symmetric_eigen.h"
 #include "engine/eigen.h"
@@ -68,6 +69,7 @@ Vibrations vibrations(const Training& training, const MovingOperator& inverse, c
   Columns space(start.rows(), depth * block), mass_space(start.rows(), depth * block);
   Index size = 0, moving = 0;
   for (Index step = 0; step < depth && start.cols() > 0 && (step == 0 || size < moving); ++step) {
+    check_interrupt();
     Columns next = start;
     hold(terms.cells, training.options.far_end, next);
     if (step == 0) moving = (next.rowwise().squaredNorm().array() > 0).count();  // more are rounding errors
@@ -130,6 +132,7 @@ Result<TrainedBody> train(const Training& training, double across, double along)
   const ModalBasisOptions& o = training.options;
   const StiffnessTerms& terms = training.terms;
   const bool held = o.far_end == FarEnd::held;
+  check_interrupt();
   const OperatorMix stiffness = stiffness_over_mass(across, along, training.foundation_1_s2);
   const MovingOperator inverse(terms, o.far_end, stiffness);
   if (!inverse.positive_definite()) return fail("the mesh's stiffness is not positive definite; check its material");

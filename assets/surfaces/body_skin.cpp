@@ -5,6 +5,7 @@
 #include <span>
 
 #include <mobil/anthropometry.h>
+#include <mobil/engine/interrupt.h>
 #include "assets/surfaces/coarser_surface.h"
 #include "assets/surfaces/form_mesh.h"
 
@@ -76,6 +77,7 @@ std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
   constexpr std::array<double, skin_details> longest_m = {1, 0.042, 0.07, 1};
   std::array<SkinMesh, skin_details> mesh;
   for (std::size_t d = 0; d < skin_details; ++d) {
+    check_interrupt();
     SurfaceMesh light = can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]);
     split_long_edges(form, light, longest_m[d]);
     mesh[d] = make_mesh(form, body, std::move(light), static_cast<SkinDetail>(d));

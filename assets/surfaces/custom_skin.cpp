@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/interrupt.h>
 #include "assets/surfaces/space_cells.h"
 #include "assets/surfaces/surface_mesh.h"
 
@@ -209,6 +210,7 @@ void add_leg(const SurfaceMesh& whole, double top, const LegSkin& skin, bool sho
   const std::vector<Vec> normal = normals_of(mesh);
   const auto first = static_cast<std::uint32_t>(own.vertex.size());
   for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+    check_interrupt();
     const Vec p = to_double(mesh.position[v]);
     const double below = std::clamp((top - p.y) / seam_m, 0.0, 1.0);
     SkinFollower one = skin.follower(p, normal[v], below * below * (3 - 2 * below));

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/interrupt.h>
 #include "engine/row_hash.h"
 
 namespace mobil::inline v0_3 {
@@ -142,6 +143,7 @@ class Mesher {
   void visit_block(const Place& from, int block, double block_m) {
     const Vec centre = at(from) + 0.5 * Vec{block_m, block_m, block_m};
     if (std::abs(body_.distance(centre)) > 1.3 * 0.87 * block_m) return;
+    check_interrupt();
     for (int k = 0; k < block * block * block; ++k) {
       visit({{from.x + width(0) * (k % block), from.y + width(0) * (k / block % block),
               from.z + width(0) * (k / (block * block))},
@@ -246,6 +248,7 @@ std::vector<form::Vec> neighbour_means(std::span<const std::uint32_t> triangle, 
 }
 
 form::Vec onto_surface(const BodyForm& body, Vec p, int steps) {
+  check_interrupt();
   constexpr double max_m = 0.02, min_slope = 0.1;
   for (int i = 0; i < steps; ++i) {
     const Vec slope = body.slope(p);

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <mobil/engine/interrupt.h>
 #include "engine/snapshot_bytes.h"
 
 namespace mobil::inline v0_3 {
@@ -29,6 +30,7 @@ class BakeWriter {
 
  private:
   void append(const void* from, std::size_t count) {
+    check_interrupt();
     const auto* const first = static_cast<const std::byte*>(from);
     bytes.insert(bytes.end(), first, first + count);
   }
@@ -53,6 +55,7 @@ class BakeReader {
   }
   template <class T>
   void operator()(std::vector<T>& numbers, std::size_t length) {
+    check_interrupt();
     const Records<T> all = in_.take_many<T>(length);
     sound_ = sound_ && all.size() == length;
     if (!sound_) return;

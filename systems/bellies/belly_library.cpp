@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include <mobil/engine/interrupt.h>
 #include "assets/reduction/modal_rows.h"
 #include "assets/surfaces/muscle_lattice.h"
 #include "systems/deformation/deformation.h"
@@ -155,6 +156,7 @@ std::pair<const BellyTemplate*, const BellyTemplate*> BellyLibrary::find_shape(M
 Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, const LegMuscles& choice,
                                                                 const BellyTemplate* alike,
                                                                 std::optional<ShapeTables> known) {
+  check_interrupt();
   auto mesh = bend_block(choice.cells, muscle_lattice(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
   const MuscleOptions options = options_of(choice, muscle);
@@ -250,6 +252,7 @@ Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTempl
                                                                 double dt_s, const BellyScale<float>& scale) {
   const SolverKey key = solver_key(shape, method, mass, dt_s, scale);
   if (auto found = find_solver(key)) return found;
+  check_interrupt();
   auto solver = make_belly_solver(*shape.shape, method, mass, dt_s, key.across, key.along);
   if (!solver) return tl::unexpected(solver.error());
   solvers_.push_back({&shape, std::make_shared<const BellySolver>(std::move(*solver))});

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/engine/interrupt.h>
 #include "systems/bellies/belly_library.h"
 
 namespace mobil::inline v0_3 {
@@ -59,8 +60,17 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
       keys.push_back(key);
     }
   }
+  const auto keep = [&] {
+    for (auto& one : shapes)
+      if (one.made != nullptr) templates_.push_back(std::move(*one.made));
+    for (auto& one : bases) {
+      if (one.made == nullptr) continue;
+      one.made->given = true;
+      bases_.push_back(std::move(*one.made));
+    }
+  };
   // Most expensive jobs first.
-  in_parallel(jobs, bases.size() + shapes.size(), [&](std::size_t begin, std::size_t end) {
+  const auto make = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i < bases.size()) {
         bases[i].take(make_basis(bases[i].muscle, choice, keys[i]));
@@ -69,14 +79,16 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
         one.take(make_shape(one.muscle, choice, find_shape(one.muscle, choice).second));
       }
     }
-  });
+  };
+  try {
+    in_parallel(jobs, bases.size() + shapes.size(), make);
+  } catch (const Interrupted&) {
+    keep();
+    throw;
+  }
   if (auto ok = all_made(shapes); !ok) return ok;
   if (auto ok = all_made(bases); !ok) return ok;
-  for (auto& one : shapes) templates_.push_back(std::move(*one.made));
-  for (auto& one : bases) {
-    one.made->given = true;
-    bases_.push_back(std::move(*one.made));
-  }
+  keep();
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     if (choice.muscles[m]) prepare_solvers(static_cast<Muscle>(m), choice, tick_s);
   }

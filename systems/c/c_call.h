@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -21,6 +22,7 @@
 #include <vector>
 
 #include <mobil/avoidance.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/engine/world.h>
 #include <mobil/lod.h>
 #include <mobil/mobil.h>
@@ -268,6 +270,8 @@ struct mobil_sim {
   mobil::SkinTables skin_tables;
   mobil::SkinWriter skin_writer;
   mobil::c::Line line;
+  mobil::Interrupt interrupt;
+  std::atomic<bool> busy = false;  // a call runs
   mobil_heights ground = nullptr;  // the host's function of heights, and its argument
   void* ground_user = nullptr;
   // Scratch memory of calls.
@@ -299,9 +303,17 @@ template <class F>
 int call(const mobil_sim* asked, const char* name, F f) noexcept {
   if (asked == nullptr) return MOBIL_REFUSED;
   auto* const sim = const_cast<mobil_sim*>(asked);
+  if (sim->busy.exchange(true, std::memory_order_acquire)) return MOBIL_BUSY;
+  const struct Use {
+    mobil_sim& of;
+    ~Use() { of.busy.store(false, std::memory_order_release); }
+  } use{*sim};
   sim->line.call = name;
   try {
+    const InterruptScope interruptible(sim->interrupt);
     return f(*sim);
+  } catch (const Interrupted&) {
+    return sim->line.refuse(MOBIL_INTERRUPTED, "ended by the function of mobil_set_interrupt");
   } catch (const std::bad_alloc&) {
     return sim->line.refuse(MOBIL_MEMORY, status_text(Status::no_memory));
   } catch (const Stopped& host) {

@@ -169,6 +169,7 @@ int mobil_write_custom_skin(mobil_sim* sim, const mobil_custom_skin* skin, const
       return s.line.refuse(done.error());
     in_parallel(s.jobs, count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
+        check_interrupt();
         Following& one = following[i];
         follow_skin(skin->own, one.beneath.position, one.beneath.normal, one.own.position, one.own.normal);
         write_vertices(one.own.position, one.positions,

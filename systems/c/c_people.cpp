@@ -77,6 +77,7 @@ int spawn_posed(mobil_sim& sim, std::span<const SpawnRequest> asked, const LegMu
   const auto undo = [&] { (void)world.despawn(sim.people); };
   try {
     for (std::size_t i = 0; i < asked.size(); ++i) {
+      check_interrupt();
       const auto person = world.spawn_posed(asked[i].body);
       if (person) sim.people.push_back(*person);
       auto done = person ? Result<void>{} : Result<void>(tl::unexpected(person.error()));
@@ -85,7 +86,7 @@ int spawn_posed(mobil_sim& sim, std::span<const SpawnRequest> asked, const LegMu
       undo();
       return sim.line.refuse(done.error(), person_number(i));
     }
-  } catch (const std::bad_alloc&) {
+  } catch (...) {
     undo();
     throw;
   }

@@ -173,6 +173,13 @@ int mobil_tick(mobil_sim* sim, unsigned int ticks) {
   });
 }
 
+int mobil_set_interrupt(mobil_sim* sim, mobil_interrupt interrupt, void* user) {
+  return call(sim, "mobil_set_interrupt", [&](mobil_sim& s) {
+    s.interrupt = {user, interrupt};
+    return int{MOBIL_OK};
+  });
+}
+
 double mobil_time_s(const mobil_sim* sim) {
   return sim == nullptr ? 0 : sim->simulation->time_s();
 }

@@ -9,6 +9,7 @@
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/rows.h>
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
@@ -230,6 +231,7 @@ std::span<const WalkLimit, bound_count> walk_limits() {
 
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes) {
+  check_interrupt();
   const bool seldom = looking == Looking::roughly || looking == Looking::at_changes;
   WalkLooked walk(size, gait, seldom ? 1 : max_parts);
   const Lanes<std::uint32_t> settled = walk.settled();

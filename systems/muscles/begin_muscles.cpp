@@ -8,6 +8,7 @@
 #include <mobil/components/fade.h>
 #include <mobil/components/pose.h>
 #include <mobil/engine/access.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/rows.h>
 #include "assets/reduction/modal_rows.h"
 #include "systems/deformation/deformation.h"
@@ -300,6 +301,7 @@ tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, c
     const auto muscle = static_cast<Muscle>(number);
     const std::size_t first = groups.size();
     for (std::uint32_t i = 0; i < people.size(); ++i) {
+      check_interrupt();
       auto common = library.shared(muscle, choice, size[i * muscles + at].scale, time.tick_s);
       if (!common) {
         return tl::unexpected(NotMade{i, {std::string(muscle_name(muscle)) + ": " + common.error().message}});
@@ -325,13 +327,17 @@ tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, c
   const BeginningMuscles all{world, choice, people, size, muscles, time.tick, static_cast<float>(time.tick_s)};
   in_parallel(jobs, tasks.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
+      check_interrupt();
       tasks[t].done = Block(all, groups[tasks[t].group], tasks[t].block).make();
     }
   });
   for (const Task& task : tasks) {
     if (!task.done) return tl::unexpected(NotMade{groups[task.group].who[task.block * lane_count], task.done.error()});
   }
-  for (const Group& group : groups) create_rows(world, jobs, group, made);
+  for (const Group& group : groups) {
+    check_interrupt();
+    create_rows(world, jobs, group, made);
+  }
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include <mobil/components/fade.h>
 #include <mobil/each.h>
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/forces.h>
 #include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
@@ -238,6 +239,7 @@ Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity>
   std::vector<MuscleSize> size(people.size() * each);
   in_parallel(scene.jobs, people.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t h = begin; h < end; ++h) {
+      check_interrupt();
       const Body body = *make_body(body_request(world, people[h]));
       auto at = size.begin() + static_cast<std::ptrdiff_t>(h * each);
       for (std::size_t m = 0; m < choice.muscles.size(); ++m)

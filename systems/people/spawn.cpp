@@ -11,6 +11,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/rows.h>
 #include <mobil/systems/limits/style_limits.h>
 #include <mobil/systems/people/person_requests.h>
@@ -104,6 +105,7 @@ tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const Spawn
   std::atomic<std::size_t> wrong = people.size();  // the first invalid request
   in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      check_interrupt();
       if (check(people[i], size[i], gait[i], i, each)) continue;
       for (std::size_t before = wrong; i < before && !wrong.compare_exchange_weak(before, i);) {
       }
@@ -123,7 +125,10 @@ void create_walkers(World& world, const Jobs& jobs, std::span<const SpawnRequest
   const std::size_t blocks = (people.size() + lane_count - 1) / lane_count;
   FirstInstants instants(blocks);
   in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) instants.make(b, people, size, gait);
+    for (std::size_t b = begin; b < end; ++b) {
+      check_interrupt();
+      instants.make(b, people, size, gait);
+    }
   });
   world.create_many(instants.parts(people.front().parts), entities, jobs);
 }

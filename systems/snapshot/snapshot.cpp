@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include <mobil/engine/interrupt.h>
 #include <mobil/schedule.h>
 #include "engine/snapshot.h"
 #include "systems/snapshot/snapshot_check.h"
@@ -334,6 +335,9 @@ Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotT
     done = restore_checked(scene, present, work, limits, in);
   } catch (const std::bad_alloc&) {
     done = fail(Status::no_memory);
+  } catch (const Interrupted&) {
+    WorldSnapshot::give_up(scene.world);
+    throw;
   }
   if (!done) WorldSnapshot::give_up(scene.world);
   return done;

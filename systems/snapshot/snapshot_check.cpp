@@ -12,6 +12,7 @@
 
 #include <mobil/components/leg_muscles.h>
 #include <mobil/components/muscle.h>
+#include <mobil/engine/interrupt.h>
 #include "engine/snapshot.h"
 #include "systems/muscles/muscle_parts.h"
 
@@ -94,6 +95,7 @@ Result<void> check_numbers(const SavedWorld& world, std::span<const Module> modu
     std::atomic<bool> finite = true;
     in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
+        check_interrupt();
         const std::byte* const block = &world.blocks[table.first_block_byte + b * block_bytes];
         for (std::size_t w = 0; w < is_float.size(); ++w) {
           if (!is_float[w]) continue;

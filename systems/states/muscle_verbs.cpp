@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <mobil/engine/interrupt.h>
 #include <mobil/muscle_table.h>
 #include <mobil/systems/people/person_requests.h>
 #include "systems/muscles/muscle_parts.h"
@@ -46,11 +47,15 @@ Result<void> change_full(const Frame& frame, std::span<const Entity> people, con
     if (done) transaction.commit();
     return done;
   }
-  for (std::size_t i = 0; i < people.size(); ++i)
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    check_interrupt();
     if (const Result<void> ok = check(i); !ok) return tl::unexpected(of_person(people, i, ok.error()));
+  }
   transaction.commit();
-  for (std::size_t i = 0; i < people.size(); ++i)
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    check_interrupt();
     if (const Result<void> done = change(i); !done) return tl::unexpected(of_person(people, i, done.error()));
+  }
   return {};
 }
 
@@ -87,6 +92,7 @@ Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, con
   World::Transaction transaction(frame.world, frame.jobs);
   if (auto done = make_muscles_full(frame, people); !done) return done;
   for (std::size_t i = 0; i < people.size(); ++i) {
+    check_interrupt();
     Result<void> ok;
     if (has_muscles(frame.world, people[i])) {
       have.push_back(i);
@@ -97,10 +103,13 @@ Result<void> set_muscles(const Frame& frame, std::span<const Entity> people, con
     if (!ok) return tl::unexpected(of_person(people, i, ok.error()));
   }
   transaction.commit();
-  for (const std::size_t i : have)
+  for (const Entity person : people) choose_from_now(frame.world, person);
+  for (const std::size_t i : have) {
+    check_interrupt();
     if (const auto done = change_leg_muscles(scene_of(frame), people[i], *choice); !done)
       return tl::unexpected(of_person(people, i, done.error()));
-  for (const Entity person : people) choose_from_now(frame.world, person);
+    choose_from_now(frame.world, people[i]);
+  }
   return {};
 }
 

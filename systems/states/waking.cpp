@@ -10,6 +10,7 @@
 #include <mobil/components/footing.h>
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/engine/scratch.h>
 #include <mobil/rows.h>
 #include <mobil/systems/people/person_requests.h>
@@ -149,6 +150,7 @@ struct WakingWork::Blocks {
       const ScratchLease lease(&room);
       auto& block = *new (lease.data()) WakingBlock;
       for (std::size_t b = begin; b < end; ++b) {
+        check_interrupt();
         for (std::size_t l = 0; l < lane_count; ++l) {
           const std::size_t i = b * lane_count + l;
           put(block, i < count ? i : b * lane_count, l);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <mobil/anthropometry.h>
+#include <mobil/engine/interrupt.h>
 #include "systems/muscles/leg_moments.h"
 #include "systems/states/sleep.h"
 
@@ -70,8 +71,12 @@ void WarmingRoom::warm_people(const MuscleScene& scene, const LegMuscles& choice
   create_steady(world_, scene.jobs, steady_, {then, tick_s}, people_, work_);
   const MuscleScene room{world_, scene.library, scene.work, scene.jobs, {then, scene.time.tick_s}};
   if (begin_leg_muscles(room, people_, choice)) {
-    for (std::uint32_t tick = then; tick < now; ++tick) schedule_.run(world_, {tick_s, tick}, scene.jobs);
+    for (std::uint32_t tick = then; tick < now; ++tick) {
+      check_interrupt();
+      schedule_.run(world_, {tick_s, tick}, scene.jobs);
+    }
     for (std::size_t i = 0; i < steady_.size(); ++i) {
+      check_interrupt();
       const std::vector<MuscleRef> warm = muscles_of(world_, people_[i]);
       const std::vector<MuscleRef> cold = muscles_of(scene.world, steady_[i].entity);
       for (std::size_t m = 0; m < std::min(warm.size(), cold.size()); ++m) {

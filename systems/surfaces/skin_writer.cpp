@@ -9,6 +9,7 @@
 #include <mobil/components/body.h>
 #include <mobil/components/fat.h>
 #include <mobil/components/pose.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/systems/surfaces/place_skin.h>
 #include "systems/gait/fat_motion.h"
 
@@ -66,6 +67,7 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
   const auto& work = *static_cast<const Work*>(context);
   const ScratchLease scratch(&work.scratch);
   for (std::size_t i = begin; i < end; ++i) {
+    check_interrupt();
     const SkinRequest& request = work.requests[i];
     const BodySkin& skin = *request.shape.skin;
     const std::span maps(reinterpret_cast<FrameMap*>(scratch.data()), mesh_of(skin).frame.size());

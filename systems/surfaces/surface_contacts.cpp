@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <mobil/engine/geometry.h>
+#include <mobil/engine/interrupt.h>
 #include "assets/surfaces/space_cells.h"
 
 namespace mobil::inline v0_3 {
@@ -80,6 +81,7 @@ SurfaceContacts find_contacts(const BodySurfaces& surfaces, std::span<const Vec3
   };
   std::map<std::uint32_t, Nearest> nearest;  // by part
   for (std::uint32_t v = 0; v < surfaces.vertices; ++v) {
+    check_interrupt();
     const SurfacePart& own = surfaces.part[part_of[v]];
     if (!own.driver) continue;
     nearest.clear();
@@ -367,6 +369,7 @@ void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position
                 ContactWork& work) {
   Apart apart(contacts, position, normal, work);
   for (int round = 0; round < rounds; ++round) {
+    check_interrupt();
     for (int i = 0; i < shifts; ++i) apart.shift();
     for (int i = 0; i < sweeps; ++i) apart.sweep();
     apart.give_back(round + 1 == rounds);

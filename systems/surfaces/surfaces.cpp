@@ -9,6 +9,7 @@
 
 #include <mobil/components/activation.h>
 #include <mobil/components/pose.h>
+#include <mobil/engine/interrupt.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include <mobil/systems/surfaces/write_vertices.h>
 #include "systems/surfaces/place_vertices.h"
@@ -193,6 +194,7 @@ void SurfaceWriter::write_pieces(void* context, std::size_t begin, std::size_t e
   const ScratchLease scratch(&work.writer.scratch_);
   // piece by piece for all people: those who share their surfaces find them in the cache
   for (std::size_t i = begin; i < end; ++i) {
+    check_interrupt();
     const std::size_t r = i % work.requests.size(), p = i / work.requests.size();
     const auto& pieces = work.requests[r].surfaces->piece;
     if (p < pieces.size()) work.write_piece(r, pieces[p], scratch.data());

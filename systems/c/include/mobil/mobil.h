@@ -13,13 +13,14 @@
  *   mobil_poses(sim, &id, 1, NULL, matrices, 0);
  *
  * Calls. A function that can fail returns MOBIL_OK (0) or a negative code. mobil_message then returns one line with the
- * mistake, the valid range and the remedy. A failed call changes nothing. Nothing is global or thrown. The only
- * callbacks are `jobs`, `memory` and the ground (mobil_terrain_set_heights). One thread at a time can use a simulation.
- * A program can have any number of simulations.
+ * mistake, the valid range and the remedy. A failed call changes nothing, except that interrupted ticks stay
+ * (mobil_set_interrupt). Nothing is global or thrown. The only callbacks are `jobs`, `memory`, the ground
+ * (mobil_terrain_set_heights) and mobil_set_interrupt. One call at a time can use a simulation; a second one, by
+ * another thread or by a callback, returns MOBIL_BUSY. A program can have any number of simulations.
  *
  * Memory. The caller owns all arrays. Rows are `stride` bytes apart; 0 means tightly packed. No pointer is kept after a
- * call, except those of mobil_options and mobil_terrain_set_heights. Strings are UTF-8. Returned strings are valid as
- * long as the simulation or the library.
+ * call, except those of mobil_options, mobil_terrain_set_heights and mobil_set_interrupt. Strings are UTF-8. Returned
+ * strings are valid as long as the simulation or the library.
  *
  * Structs begin with their size in the caller's header, which mobil_defaults writes. Programs built with an older
  * header keep working. One built with a newer header is refused only if it uses a new field.
@@ -73,14 +74,16 @@ typedef struct mobil_id {
 
 enum {
   MOBIL_OK = 0,
-  MOBIL_STALE = -1,   /* a stale or invalid handle */
-  MOBIL_MISSING = -2, /* the person does not have it */
-  MOBIL_ALREADY = -3, /* the person has it already */
-  MOBIL_REFUSED = -4, /* a value out of range, a null pointer or damaged bytes; the message has details */
-  MOBIL_ROOM = -5,    /* the caller's memory is too small */
-  MOBIL_MEMORY = -6,  /* out of memory */
-  MOBIL_STRUCT = -7,  /* a struct's size is not valid for this library */
-  MOBIL_INTERNAL = -8 /* an internal error of the library */
+  MOBIL_STALE = -1,       /* a stale or invalid handle */
+  MOBIL_MISSING = -2,     /* the person does not have it */
+  MOBIL_ALREADY = -3,     /* the person has it already */
+  MOBIL_REFUSED = -4,     /* a value out of range, a null pointer or damaged bytes; the message has details */
+  MOBIL_ROOM = -5,        /* the caller's memory is too small */
+  MOBIL_MEMORY = -6,      /* out of memory */
+  MOBIL_STRUCT = -7,      /* a struct's size is not valid for this library */
+  MOBIL_INTERNAL = -8,    /* an internal error of the library */
+  MOBIL_INTERRUPTED = -9, /* ended by the function of mobil_set_interrupt */
+  MOBIL_BUSY = -10        /* a call of another thread or around this callback runs; mobil_message is that call's */
 };
 
 /* Axes of the host. */
@@ -339,6 +342,15 @@ MOBIL_API int mobil_advance(mobil_sim* sim, double seconds, mobil_ticks* out);
 /* Runs a number of ticks, independent of the accumulated time. */
 MOBIL_API int mobil_tick(mobil_sim* sim, unsigned int ticks);
 MOBIL_API double mobil_time_s(const mobil_sim* sim); /* simulated so far */
+/* Returns 0 to go on, any other value to end the call. Must not use the simulation. */
+typedef int (*mobil_interrupt)(void* user);
+/* Sets the function that long calls ask about every 0.05 s, on their thread, or none (null). It ends them:
+ * - mobil_tick and mobil_advance end between two ticks, and their finished ticks stay. The remaining ones of
+ *   mobil_advance run with the next frame, those of mobil_tick do not run. A single tick is never cut.
+ * - mobil_set_muscles, mobil_set_method and mobil_set_excitation end between two people: those before have changed.
+ * - Calls that write vertices, snapshots or baked data leave the memory partly written.
+ * - All other calls change nothing. Finished meshes and bases of muscles stay, so a repeated call continues. */
+MOBIL_API int mobil_set_interrupt(mobil_sim* sim, mobil_interrupt interrupt, void* user);
 MOBIL_API double mobil_tick_s(const mobil_sim* sim); /* of one tick */
 
 /* ---- Reading --------------------------------------------------------------------------------------------------- */

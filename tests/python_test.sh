@@ -7,6 +7,9 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 export PYTHONDONTWRITEBYTECODE=1
 PYTHONPATH="$1/python" /usr/bin/python3 "$2/tests/c/python_test.py" "$3"
+for tested in values objects; do
+  PYTHONPATH="$1/python" /usr/bin/python3 "$2/tests/c/python_${tested}_test.py"
+done
 PYTHONPATH="$1/python" /usr/bin/python3 -m doctest "$2/systems/python/README.md"
 if ! /usr/bin/python3 -c 'import setuptools, wheel' 2>/dev/null; then
   echo "no wheel made: python3-setuptools or python3-wheel is not there"

@@ -13,6 +13,16 @@ export class MobilError extends Error {
 const views = { pointer: 'Uint32', size_t: 'Uint32', int: 'Int32', 'unsigned int': 'Uint32', float: 'Float32', double: 'Float64' };
 const bytesOf = (type) => (type === 'double' ? 8 : 4);
 
+const ranges = { pointer: [0, 2 ** 32 - 1], size_t: [0, 2 ** 32 - 1], 'unsigned int': [0, 2 ** 32 - 1], int: [-(2 ** 31), 2 ** 31 - 1] };
+
+/** Returns a number of a C type. Bools are 0 and 1. Fractions of integers, NaN and whatever is no number are refused. */
+export function numberOf(value, what, type = 'int', [low, high] = ranges[type] ?? [-Infinity, Infinity]) {
+  const number = value === null || typeof value === 'object' ? NaN : Number(value), whole = type in ranges;
+  if (Number.isNaN(number) || (whole && !Number.isInteger(number))) throw new MobilError(`${what} is ${String(value)}; give ${whole ? 'an integer' : 'a number'}`, constants.MOBIL_REFUSED);
+  if (number < low || number > high) throw new MobilError(`${what} ${number} is out of range; choose ${low} to ${high}`, constants.MOBIL_REFUSED);
+  return number;
+}
+
 /** Returns true if this engine can run the library: it has SIMD of 128 bits. */
 export function canRun() {
   // (module (func (drop (i8x16.splat (i32.const 0)))))
@@ -105,15 +115,15 @@ export class Library {
     const { size } = structs[name];
     const code = this.x.mobil_defaults(constants[which], at, size);
     if (code !== 0) throw new MobilError(`${name} is not as this module knows it`, code);
-    for (const [field, value] of Object.entries(given)) this.set(name, at, field, value);
+    for (const [field, value] of Object.entries(given)) if (value !== undefined) this.set(name, at, field, value);
   }
   set(name, at, field, value) {
     const place = structs[name].fields[field];
     if (!place) throw new MobilError(`${name} has no ${field}; it has ${Object.keys(structs[name].fields).join(', ')}`, constants.MOBIL_REFUSED);
     const put = `set${views[place.type]}`;
     if (place.count && value?.length !== place.count) throw new MobilError(`${field} of ${name} is ${place.count} numbers`, constants.MOBIL_REFUSED);
-    if (place.count) for (let i = 0; i < place.count; ++i) this.data[put](at + place.at + bytesOf(place.type) * i, value[i], true);
-    else this.data[put](at + place.at, Number(value), true);
+    if (place.count) for (let i = 0; i < place.count; ++i) this.data[put](at + place.at + bytesOf(place.type) * i, numberOf(value[i], `${field}[${i}]`, place.type), true);
+    else this.data[put](at + place.at, numberOf(value, field, place.type), true);
   }
   /** Returns a field: a number, or an array of numbers. */
   get(name, at, field) {

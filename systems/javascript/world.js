@@ -1,7 +1,7 @@
 // mobil.h as a class: people, their walks and muscles, time and reading. Returned arrays are views into the library's
 // memory, valid until the next call; copy them with `.slice()` to keep them.
 import { constants as c, structs } from './interface.js';
-import { MobilError } from './library.js';
+import { MobilError, numberOf } from './library.js';
 import { Avoidance, Lod, Terrain } from './subjects.js';
 import { Surfaces } from './surfaces.js';
 
@@ -192,12 +192,12 @@ export class World {
   }
   /** Switches a feature of FEATURES from the next tick on. events() returns step events; fat is for peers that display
    *  skin, which this module does not have. */
-  enable(people, feature, on = true) { this.#call('enable', people.ids, people.count, feature, on ? 1 : 0); }
+  enable(people, feature, on = true) { this.#call('enable', people.ids, people.count, numberOf(feature, 'feature'), on ? 1 : 0); }
   /** Changes people to a state of STATES where possible (see mobil.h). Returns how many are in it now. */
   setState(people, state, within_m = 0.005) {
     return this.library.within((take) => {
       const changed = take(4);
-      this.#call('set_state', people.ids, people.count, state, within_m, changed);
+      this.#call('set_state', people.ids, people.count, numberOf(state, 'state'), numberOf(within_m, 'within_m', 'float'), changed);
       return this.library.u32[changed >> 2];
     });
   }
@@ -214,12 +214,12 @@ export class World {
   setMuscles(people, muscles) { this.library.within((take) => this.#call('set_muscles', people.ids, people.count, this.#muscles(take, muscles))); }
   /** Sets the method of one muscle, both sides: fields of mobil_method. */
   setMethod(people, muscle, method) {
-    this.library.within((take) => this.#call('set_method', people.ids, people.count, muscle, this.#struct(take, 'mobil_method', 'MOBIL_METHOD', method)));
+    this.library.within((take) => this.#call('set_method', people.ids, people.count, numberOf(muscle, 'muscle'), this.#struct(take, 'mobil_method', 'MOBIL_METHOD', method)));
   }
   /** Sets the excitation of a muscle with MOBIL_BY_HOST, clamped to 0.01 to 1: one number for all, or one a person. */
   setExcitation(people, muscle, side, excitation) {
     const each = typeof excitation === 'number' ? new Float32Array(people.count).fill(excitation) : excitation;
-    this.library.within((take) => this.#call('set_excitation', people.ids, people.count, muscle, side, this.#exactly(take, each, people.count, 'excitations'), 0));
+    this.library.within((take) => this.#call('set_excitation', people.ids, people.count, numberOf(muscle, 'muscle'), numberOf(side, 'side'), this.#exactly(take, each, people.count, 'excitations'), 0));
   }
   /** Makes the shared data of these muscles, so that no later call waits for it. */
   prepare(muscles) { this.library.within((take) => this.#call('prepare', this.#muscles(take, muscles))); }
@@ -245,7 +245,7 @@ export class World {
   method(person, muscle) {
     return this.library.within((take) => {
       const at = this.#struct(take, 'mobil_method', 'MOBIL_METHOD');
-      this.#call('get_method', ...this.#passed(take, person.handle()), muscle, at);
+      this.#call('get_method', ...this.#passed(take, person.handle()), numberOf(muscle, 'muscle'), at);
       return this.library.object('mobil_method', at);
     });
   }
@@ -258,14 +258,14 @@ export class World {
 
   // ---- Time
   tick(ticks = 1) {
-    this.#call('tick', ticks);
+    this.#call('tick', numberOf(ticks, 'ticks', 'unsigned int'));
     this.terrain.finish();
   }
   /** Adds the time of a frame and runs as many ticks as fit. Returns {count, alpha, dropped_s}. */
   advance(seconds) {
     return this.library.within((take) => {
       const at = take(structs.mobil_ticks.size);
-      this.#call('advance', seconds, at);
+      this.#call('advance', numberOf(seconds, 'seconds', 'double'), at);
       this.terrain.finish();
       return this.library.object('mobil_ticks', at);
     });
@@ -313,13 +313,13 @@ export class World {
   }
   /** Returns rows of MOBIL_JOINTS, MOBIL_FEET and so on. */
   read(what, people) {
-    const floats = Math.max(this.library.x.mobil_row_floats(what), 0) * people.count, out = people.room(floats);
+    const floats = Math.max(this.library.x.mobil_row_floats(numberOf(what, 'row')), 0) * people.count, out = people.room(floats);
     this.#call('read', what, people.ids, people.count, out, 0);
     return this.#floats(out, floats);
   }
   /** Returns rows of MOBIL_LINE, MOBIL_REPORT and so on, of one muscle and side. */
   readMuscle(what, people, muscle, side = c.MOBIL_RIGHT) {
-    const one = this.library.within((take) => this.must(this.library.x.mobil_muscle_row_floats(this.at, what, ...this.#passed(take, people.handle()), muscle, side)));
+    const one = this.library.within((take) => this.must(this.library.x.mobil_muscle_row_floats(this.at, numberOf(what, 'row'), ...this.#passed(take, people.handle()), numberOf(muscle, 'muscle'), numberOf(side, 'side'))));
     const floats = one * people.count, out = people.room(floats);
     this.#call('read_muscles', what, people.ids, people.count, muscle, side, out, 0);
     return this.#floats(out, floats);

@@ -217,6 +217,19 @@ test('one advance a frame chooses, steers and asks for the ground', () => {
   world.destroy();
 });
 
+test('integers are whole and in range, numbers are numbers', () => {
+  const world = mobil.world(), people = spawned(world, 2), state = world.hash();
+  for (const call of [
+    () => world.spawn([{ height_m: [1.7, 1.8] }]), () => world.spawn([{ height_m: NaN }]), () => world.spawn([{ sex: 0.5 }]),
+    () => world.spawn([{ sex: 'woman' }]), () => world.spawn([{ sex: 2 ** 40 }]), () => world.spawn([{ place: [0, 0, 'x'] }]),
+    () => world.tick(1.5), () => world.tick(-1), () => world.tick(2 ** 32), () => world.tick(NaN), () => world.advance(NaN),
+    () => world.enable(people, 0.5), () => world.setState(people, 'asleep'), () => world.read(null, people),
+    () => world.setMuscles(people, { method: '' + METHODS.modal + 'x' }), () => world.setMuscles(people, { modes: 4.5 }),
+  ]) assert.throws(call, refused(/give an? (integer|number)|out of range/, c.MOBIL_REFUSED));
+  assert.equal(world.hash(), state);
+  world.spawn([{ height_m: 1.7, sex: true, mass_kg: undefined }]).forget();
+});
+
 test('states, and old names', () => {
   const world = mobil.world(), people = spawned(world, 4);
   world.tick(120);

@@ -14,7 +14,17 @@
 SI units, radians. People are numpy arrays of handles. Results are numpy arrays, or are written to `out` if given.
 """
 
-from ._library import Error, MissingError, OutOfMemoryError, RefusedError, StaleError, lib, text
+from ._library import (
+    BusyError,
+    Error,
+    MissingError,
+    OutOfMemoryError,
+    RefusedError,
+    StaleError,
+    WrongTypeError,
+    lib,
+    text,
+)
 from .arrays import EVENT, PERSON, ROOT
 from .deprecated import Avoidance, Terrain
 from .lod import Choice, Lod
@@ -35,7 +45,7 @@ from .names import (
 )
 from .plots import plot_walk
 from .skin import CustomSkin, Skin
-from .structs import method, muscles
+from .structs import Method, Muscles, method, muscles
 from .surfaces import Part, Surfaces
 from .surroundings import AvoidanceReport, TerrainReport
 from .walks import Walk, walk
@@ -46,6 +56,7 @@ __all__ = [
     "ACTIVATION",
     "Avoidance",
     "AvoidanceReport",
+    "BusyError",
     "Choice",
     "EVENT",
     "EVENTS",
@@ -56,6 +67,8 @@ __all__ = [
     "Lod",
     "MOMENTS",
     "MUSCLES",
+    "Method",
+    "Muscles",
     "MissingError",
     "OutOfMemoryError",
     "CustomSkin",
@@ -79,6 +92,7 @@ __all__ = [
     "Ticks",
     "Walk",
     "World",
+    "WrongTypeError",
     "method",
     "muscles",
     "plot_walk",

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import pathlib
 import re
+import threading
+from typing import Any
 
 import cffi
 
@@ -19,6 +21,13 @@ class Error(Exception):
         super().__init__(line)
         self.code = code
 
+    def __reduce__(self) -> Any:  # pools pickle what their workers raise
+        return _remade, (type(self), self.args), self.__dict__
+
+
+def _remade(kind: type[Error], args: tuple[Any, ...]) -> Error:
+    return Exception.__new__(kind, *args)  # without __init__, whose arguments are others in a subclass
+
 
 class StaleError(Error, LookupError):
     """A stale or invalid handle."""
@@ -32,8 +41,26 @@ class RefusedError(Error, ValueError):
     """A value out of range, or damaged bytes."""
 
 
+class WrongTypeError(RefusedError, TypeError):
+    """A value of a type that is not accepted."""
+
+
+class BusyError(Error, RuntimeError):
+    """A world in use: by a call of another thread, or by the call around this one."""
+
+
 class OutOfMemoryError(Error, MemoryError):
     """Out of memory."""
+
+
+class Owner:
+    """Base class of objects with memory of the C library, which are neither copied nor pickled."""
+
+    _instead = ""
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        name = type(self).__name__
+        raise TypeError(f"a {name} has memory of the C library and is not copied or pickled; {self._instead}")
 
 
 def _declarations(header: pathlib.Path) -> str:
@@ -79,6 +106,7 @@ _ERRORS = {
     lib.MOBIL_MISSING: MissingError,
     lib.MOBIL_REFUSED: RefusedError,
     lib.MOBIL_MEMORY: OutOfMemoryError,
+    lib.MOBIL_BUSY: BusyError,
 }
 
 
@@ -87,9 +115,28 @@ def text(of: object) -> str:
     return ffi.string(of).decode("utf-8")
 
 
+_kept = threading.local()  # what a callback raised in the present call of this thread
+
+
+def keep(error: BaseException) -> None:
+    """Keeps what a callback raised for fail(): an exception must not cross the library."""
+    _kept.error = error
+
+
 def fail(code: int, line: str) -> None:
-    """Raises the exception of a negative code."""
+    """Raises the exception of a negative code, or what a callback has raised."""
+    raised, _kept.error = getattr(_kept, "error", None), None
+    if raised is not None:
+        raise raised
+    if code == lib.MOBIL_BUSY:
+        line = "this world is in use by another thread or by the call around this one; wait for the end of that call"
     raise _ERRORS.get(code, Error)(code, line)
+
+
+@ffi.callback("mobil_interrupt", error=1, onerror=lambda kind, error, trace: keep(error))
+def interrupt(_: Any) -> int:
+    """Does nothing: Python runs the handlers of signals, such as Ctrl-C, when a function begins."""
+    return 0
 
 
 def struct(name: str):

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from . import names
 from ._library import ffi
-from .names import number_of
+from .values import refuse, refuse_type
 
 PERSON = np.dtype([("index", np.uint32), ("generation", np.uint32)])
 """Handle of a person. People are one-dimensional arrays of handles."""
@@ -40,9 +39,9 @@ def _people(people: People) -> People:
     write one row for each handle."""
     handles = np.atleast_1d(people)
     if handles.dtype != PERSON:
-        raise TypeError("people are arrays of mobil.PERSON, as spawn returns them")
+        refuse_type("people are arrays of mobil.PERSON, as spawn returns them")
     if handles.ndim != 1:
-        raise ValueError(f"people are arrays of one dimension, and this has the shape {handles.shape}; give its ravel()")
+        refuse(f"people are arrays of one dimension, and this has the shape {handles.shape}; give its ravel()")
     return np.require(handles, requirements=["C", "A"])
 
 
@@ -58,7 +57,7 @@ def _all(people: People) -> tuple[Any, int]:
 
 def _one(person: People) -> Any:
     if np.size(person) != 1:
-        raise TypeError("one person is wanted: an element of what spawn returns")
+        refuse_type("one person is wanted: an element of what spawn returns")
     people = _people(person)
     return {"index": int(people["index"][0]), "generation": int(people["generation"][0])}
 
@@ -75,23 +74,10 @@ def _out(out: Floats | None, shape: tuple[int, ...]) -> Floats:
     if fits and out.size:
         fits = out[0].flags.c_contiguous and (len(out) == 1 or out.strides[0] >= out[0].nbytes)
     if not fits or not out.flags.writeable or not out.flags.aligned:
-        raise ValueError(f"out must be a writable float32 array of shape {shape} whose rows lie together")
+        refuse(f"out must be a writable float32 array of shape {shape} whose rows lie together")
     return out
 
 
 def _stride(rows: Floats) -> int:
     """Returns the stride of rows in bytes, for a call; 0: contiguous. numpy gives a single row any stride."""
     return rows.strides[0] if rows.size and len(rows) > 1 else 0
-
-
-def _style_rows(style: Mapping[str, npt.ArrayLike] | None) -> tuple[Floats, int]:
-    """Returns one row of all style values for each person, or one for all, and their number; 0 without a style."""
-    if not style:
-        return np.zeros((1, 0), np.float32), 0
-    known = list(names.STYLE)
-    values = {number_of(name, tuple(known), "style parameter"): np.atleast_1d(v) for name, v in style.items()}
-    rows = np.array([p.usual for p in names.STYLE.values()], np.float32)
-    rows = np.tile(rows, (max(len(v) for v in values.values()), 1))
-    for column, value in values.items():
-        rows[:, column] = value
-    return rows, rows.shape[1]

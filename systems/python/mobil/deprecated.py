@@ -10,6 +10,7 @@ from ._library import lib
 from .arrays import People, _all
 from .lod import Choice
 from .surroundings import AvoidanceReport, Heights
+from .values import number, switch
 
 if TYPE_CHECKING:
     from .world import World
@@ -24,7 +25,7 @@ class OldWorld:
 
     def set_forces(self: Any, people: People, on: bool = True) -> None:
         _old("World.set_forces", 'enable(people, "forces", on)')
-        self._do(lib.mobil_set_forces(self._sim, *_all(people), int(on)))
+        self._do(lib.mobil_set_forces(self._sim, *_all(people), switch(on, "on")))
 
     def set_fat_wobble(self: Any, people: People, on: bool = True) -> None:
         _old("World.set_fat_wobble", 'enable(people, "fat", on)')
@@ -40,7 +41,7 @@ class OldWorld:
 
     def wake(self: Any, people: People, within_m: float = 0.005) -> None:
         _old("World.wake", 'set_state(people, "full")')
-        self._do(lib.mobil_wake(self._sim, *_all(people), within_m))
+        self._do(lib.mobil_wake(self._sim, *_all(people), number(within_m, "within_m")))
 
     def compact(self: Any, people: People) -> int:
         _old("World.compact", 'set_state(people, "compact")')

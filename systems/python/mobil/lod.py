@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import names
-from ._library import ffi, lib, struct, text
+from ._library import Owner, ffi, lib, struct, text
 from .arrays import People, _all, _one
-from .names import number_of
-from .structs import _fill
+from .structs import Muscles, _fill, pointer
+from .values import number_of
 
 if TYPE_CHECKING:
     from .world import World
@@ -20,17 +20,19 @@ class Choice(NamedTuple):
     cost_us: float
 
 
-class Lod:
+class Lod(Owner):
     """Level of detail of a world: World.lod. Each tick chooses the cheapest method that is accurate enough, for each
     muscle of managed people."""
+
+    _instead = "use that of a World"
 
     def __init__(self, world: World) -> None:
         self._world = world
 
     def set_options(self, *, muscles: Any = None, **options: Any) -> None:
         """Sets the fields of mobil_lod_options. muscles: mobil.muscles(…) of people who get muscles by manage."""
-        muscles = ffi.NULL if muscles is None else muscles
-        self._world._do(lib.mobil_lod_set_options(self._world._sim, _fill("lod_options", options), muscles))
+        of = pointer(muscles, Muscles)
+        self._world._do(lib.mobil_lod_set_options(self._world._sim, _fill("lod_options", options), of))
 
     def set_scene(self, **fields: Any) -> None:
         """Sets the needs of the scene: the fields of mobil_scene, with a camera if `eye` is given."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Callable, Iterable
 
 from ._library import ffi, lib, text
+from .values import integer, number_of, one_or_many
 
 SIDES = ("right", "left")
 CONSTITUTIONS = ("thin", "average", "athletic", "heavy")
@@ -80,23 +81,16 @@ STYLE = _style()
 """Parameters of a walk's style by name, in the library's order."""
 
 
-def number_of(name: str | int, names: tuple[str, ...], what: str) -> int:
-    """Returns the index of a name, or an index unchanged. Raises ValueError with a list of the names."""
-    if isinstance(name, int):
-        return name
-    try:
-        return names.index(name)
-    except ValueError:
-        raise ValueError(f"there is no {what} '{name}'; choose one of {', '.join(names)}") from None
-
-
 def muscle_bits(muscles: Iterable[str | int] | str | int) -> int:
-    """Returns a set of muscles as bits, or an int unchanged."""
-    if isinstance(muscles, int):
-        return muscles
-    if isinstance(muscles, str):
-        muscles = (muscles,)
+    """Returns a set of muscles as bits. A single integer is such bits already."""
+    given = one_or_many(muscles, "muscles")
+    if isinstance(given, (set, frozenset)):
+        given = list(given)
+    if isinstance(given, str):
+        given = [given]
+    if not isinstance(given, list):
+        return integer(given, "muscles", 0, (1 << len(MUSCLES)) - 1)
     bits = 0
-    for muscle in muscles:
+    for muscle in given:
         bits |= 1 << number_of(muscle, MUSCLES, "muscle")
     return bits

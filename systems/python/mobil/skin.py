@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import names
-from ._library import ffi, lib, struct
+from ._library import Owner, ffi, lib, struct
 from .arrays import People, _one, _people
 from .surfaces import aim, room
+from .values import integers, number_of, numbers, refuse, switch
 from .world import World
 
 DETAILS = ("hero", "near", "far", "distant")
@@ -20,7 +21,7 @@ PARTS = ("skin", "legs", "lips", "hair", "shirt", "shorts", "shoes")
 def _target(target: Any, person: People, out: npt.NDArray[np.float32], flexing: bool) -> None:
     target.size = ffi.sizeof("mobil_skin_target")
     target.id = _one(person)
-    target.sex, target.flexing = -1, flexing
+    target.sex, target.flexing = -1, switch(flexing, "flexing")
     aim(target, out)
 
 
@@ -31,8 +32,11 @@ class Skin:
     """
 
     def __init__(self, world: World, sex: str | int = "man", detail: str | int = "near") -> None:
-        self.sex = names.number_of(sex, names.SEXES, "sex")
-        self.detail = names.number_of(detail, DETAILS, "detail")
+        self.sex = number_of(sex, names.SEXES, "sex")
+        self.detail = number_of(detail, DETAILS, "detail")
+        made = lib.mobil_skin_indices(world._sim, self.sex, self.detail, ffi.new("unsigned int*"), 0, ffi.NULL)
+        if made != lib.MOBIL_ROOM:  # the mesh is made in a call that hears signals
+            world._do(made)
         self.vertex_count: int = lib.mobil_skin_vertex_count(self.sex, self.detail)
         index: npt.NDArray[np.uint32] = np.empty(lib.mobil_skin_index_count(self.sex, self.detail), np.uint32)
         first = ffi.new("unsigned int[]", len(PARTS) + 1)
@@ -61,13 +65,15 @@ class Skin:
         return out
 
 
-class CustomSkin:
+class CustomSkin(Owner):
     """A mesh of a right leg, for example from a scan, and its mirror image, which move with the body's skin.
 
     positions: (vertices, 3) in the world's axes and unit, for a person at the origin in the anatomical position,
     heading ahead. triangles: (n, 3), wound outwards. The mesh is bound to the body of one person and can be used for
     people of the same sex and similar build. shorts_stay: the body's shorts are drawn over it.
     """
+
+    _instead = "send the mesh, and bind it in each process"
 
     def __init__(
         self,
@@ -79,15 +85,16 @@ class CustomSkin:
         detail: str | int = "near",
         shorts_stay: bool = False,
     ) -> None:
-        at = np.ascontiguousarray(positions, np.float32)
-        corners = np.ascontiguousarray(triangles, np.uint32)
-        if at.ndim != 2 or at.shape[1] != 3 or corners.ndim != 2 or corners.shape[1] != 3:
-            raise ValueError("positions must be of shape (vertices, 3), triangles of shape (n, 3)")
+        at = numbers(positions, "positions")
+        corners = integers(triangles, "triangles")
+        if at.shape[1:] != (3,) or corners.shape[1:] != (3,):
+            shapes = f"{at.shape} and {corners.shape}"
+            refuse(f"positions and triangles have the shapes {shapes}; give (vertices, 3) and (n, 3)")
         mesh = struct("leg_mesh")
         mesh.positions, mesh.vertices = ffi.from_buffer("float[]", at), len(at)
         mesh.indices, mesh.index_count = ffi.from_buffer("unsigned int[]", corners), corners.size
-        mesh.detail = names.number_of(detail, DETAILS, "detail")
-        mesh.shorts_stay = shorts_stay
+        mesh.detail = number_of(detail, DETAILS, "detail")
+        mesh.shorts_stay = switch(shorts_stay, "shorts_stay")
         made = ffi.new("mobil_custom_skin**")
         world._do(lib.mobil_bind_custom_skin(world._sim, _one(like), mesh, made))
         self._skin = ffi.gc(made[0], lib.mobil_drop_custom_skin)

@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import names
-from ._library import fail, ffi, lib, text
+from ._library import Owner, fail, ffi, lib, text
 from .arrays import People, _one, _people
 from .structs import _fill
+from .values import refuse, switch
 from .world import World
 
 
@@ -19,7 +20,7 @@ def room(out: npt.NDArray[np.float32] | None, people: int, vertices: int) -> npt
     shape = (people, vertices, 6)
     out = np.empty(shape, np.float32) if out is None else out
     if not isinstance(out, np.ndarray) or out.shape != shape or out.dtype != np.float32 or not out.flags.carray:
-        raise ValueError(f"out must be a writable float32 array of shape {shape}, its numbers close together")
+        refuse(f"out must be a writable float32 array of shape {shape}, its numbers close together")
     return out
 
 
@@ -44,17 +45,17 @@ class Part(NamedTuple):
     indices: slice
 
 
-class Surfaces:
+class Surfaces(Owner):
     """Surfaces bound to the body of one person, for people of similar build.
 
-    choice: fields of mobil_surface_choice: bones, side ("right", "left" or 2 for both), muscles, cells, detail,
+    choice: fields of mobil_surface_choice: bones, side ("right", "left" or "both"), muscles, cells, detail,
     textured. contact: resolves contacts of single muscles with each other and with bones, for close views. It takes
     half a second here, and about 10 ms a person and call.
     """
 
+    _instead = "bind them in each process"
+
     def __init__(self, world: World, like: People, *, contact: bool = False, **choice: Any) -> None:
-        if "side" in choice:
-            choice["side"] = names.number_of(choice["side"], names.SIDES, "side")
         made = ffi.new("mobil_surfaces**")
         world._do(lib.mobil_bind_surfaces(world._sim, _one(like), _fill("surface_choice", choice), made))
         self._surfaces = ffi.gc(made[0], lib.mobil_drop_surfaces)
@@ -68,7 +69,7 @@ class Surfaces:
         self.vertex_count: int = lib.mobil_vertex_count(self._surfaces)
         self.parts = tuple(self._parts())
         self._contacts: Any = None
-        if contact:
+        if switch(contact, "contact"):
             found = ffi.new("mobil_contacts**")
             world._do(lib.mobil_find_contacts(world._sim, _one(like), self._surfaces, found))
             self._contacts = ffi.gc(found[0], lib.mobil_drop_contacts)

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any, Callable, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ffi, lib, struct
+from ._library import Owner, ffi, keep, lib, struct
 from .arrays import PERSON, Floats, People, _all, _floats, _ids, _people
 from .structs import _fill
+from .values import column, numbers, refuse, refuse_type, shown, spread, switch
 
 if TYPE_CHECKING:
     from .world import World
@@ -29,8 +30,10 @@ class AvoidanceReport(NamedTuple):
     """Steps on which a walker stands but wants to walk."""
 
 
-class Avoidance:
+class Avoidance(Owner):
     """Collision avoidance between walkers of a world: World.avoidance."""
+
+    _instead = "use that of a World"
 
     def __init__(self, world: World) -> None:
         self._world = world
@@ -56,22 +59,26 @@ class Avoidance:
         """Sets the desired velocities of walkers; speed 0: stand."""
         people = _people(people)
         rows = np.empty((people.size, 2), np.float32)
-        rows[:, 0] = speed_m_s
-        rows[:, 1] = heading_rad
+        rows[:, 0] = column(speed_m_s, people.size, "speed_m_s")
+        rows[:, 1] = column(heading_rad, people.size, "heading_rad")
         self._world._do(lib.mobil_avoidance_set_desired_velocity(self._world._sim, *_all(people), _floats(rows), 0))
 
     def set_walls(self, walls: npt.ArrayLike) -> None:
         """Replaces all straight walls: (n, 2, 3), both ends, in the world's axes."""
-        rows = np.ascontiguousarray(walls, np.float32).reshape(-1, 6)
+        rows = numbers(walls, "walls")
+        if rows.size and rows.shape[1:] != (2, 3):
+            refuse(f"walls have the shape {rows.shape}; give (n, 2, 3), both ends of each")
+        rows = rows.reshape(-1, 6)
         self._world._do(lib.mobil_avoidance_set_walls(self._world._sim, _floats(rows), 0, len(rows)))
 
     def set_discs(self, place: npt.ArrayLike, radius: npt.ArrayLike, velocity: npt.ArrayLike = (0.0, 0.0, 0.0)) -> None:
         """Replaces all discs (players, cars, pillars): (n, 3), (n,) and (n, 3), in the world's axes and unit."""
-        places = np.asarray(place, np.float32).reshape(-1, 3)
-        rows = np.empty((len(places), 7), np.float32)
-        rows[:, :3] = places
-        rows[:, 3:6] = velocity
-        rows[:, 6] = radius
+        places = numbers(place, "place")
+        places = places.reshape(-1, 3) if places.shape in ((0,), (3,)) else places
+        rows = np.empty((len(places) if places.ndim else 1, 7), np.float32)
+        rows[:, :3] = column(places, len(rows), "place", 3, "disc")
+        rows[:, 3:6] = column(velocity, len(rows), "velocity", 3, "disc")
+        rows[:, 6] = column(radius, len(rows), "radius", of="disc")
         self._world._do(lib.mobil_avoidance_set_discs(self._world._sim, _floats(rows), 0, len(rows)))
 
     @property
@@ -85,6 +92,15 @@ class Avoidance:
 Heights = Callable[[Floats], Any]
 
 
+def _ground(heights: npt.ArrayLike, normals: npt.ArrayLike = (0.0, 0.0, 0.0), *, count: int | None = None) -> Floats:
+    """Returns rows of height and normal; numbers that are not finite are those of unusable places."""
+    values = numbers(heights, "heights", finite=False)
+    rows = np.empty((np.size(values) if count is None else count, 4), np.float32)
+    rows[:, 0] = spread(values, len(rows), "heights", of="place")
+    rows[:, 1:] = column(normals, len(rows), "normals", 3, "place", finite=False)
+    return rows
+
+
 class TerrainReport(NamedTuple):
     """Counts of all ticks of the last advance or tick."""
 
@@ -96,8 +112,10 @@ class TerrainReport(NamedTuple):
     """Results that were not finite, or whose normal did not point up."""
 
 
-class Terrain:
+class Terrain(Owner):
     """Uneven ground of a world: World.terrain."""
+
+    _instead = "use that of a World"
 
     def __init__(self, world: World) -> None:
         self._world = world
@@ -109,28 +127,29 @@ class Terrain:
         Without normals walkers stand on level patches of that height, as on stairs. An exception ends the tick before
         any person moves, and is raised by advance or tick. The function must not use the world.
         """
-        raised = self._world._raised
-
         def answer(_: Any, places: Any, __: Any, count: int, ground: Any) -> int:
             try:
                 at = np.frombuffer(ffi.buffer(places, 12 * count), np.float32).reshape(-1, 3).copy()
                 rows = np.frombuffer(ffi.buffer(ground, 16 * count), np.float32).reshape(-1, 4)
                 answers = heights(at)
-                values, normals = answers if isinstance(answers, tuple) else (answers, 0.0)
-                rows[:, 0] = np.asarray(values, np.float32).reshape(-1)
-                rows[:, 1:] = normals
-            except BaseException as error:  # World._ran raises it
-                raised.append(error)
+                rows[:] = _ground(*(answers if isinstance(answers, tuple) else (answers,)), count=count)
+            except BaseException as error:
+                keep(error)
                 return 1
             return 0
 
-        call = ffi.NULL if heights is None else ffi.callback("mobil_heights", answer)
+        def interrupted(_: Any, error: BaseException, __: Any) -> None:
+            keep(error)
+
+        if heights is not None and not callable(heights):
+            refuse_type(f"heights is {shown(heights)}; give a function of positions, or None")
+        call = ffi.NULL if heights is None else ffi.callback("mobil_heights", answer, error=1, onerror=interrupted)
         self._world._do(lib.mobil_terrain_set_heights(self._world._sim, call, ffi.NULL))
         self._world._heights = call  # must live as long as it can be called
 
     def set_speed_scaling(self, on: bool = True) -> None:
         """Switches speed scaling: walkers slow down on slopes and stairs, but not on level ground."""
-        self._world._do(lib.mobil_terrain_set_speed_scaling(self._world._sim, on))
+        self._world._do(lib.mobil_terrain_set_speed_scaling(self._world._sim, switch(on, "on")))
 
     def manage(self, people: People) -> None:
         """Puts walkers on that ground from the next tick on."""
@@ -152,10 +171,7 @@ class Terrain:
 
     def resolve(self, heights: npt.ArrayLike, normals: npt.ArrayLike = (0.0, 0.0, 0.0)) -> int:
         """Sets the ground at the positions of the last query(). Returns the number of unusable results."""
-        values = np.asarray(heights, np.float32).reshape(-1)
-        rows = np.empty((len(values), 4), np.float32)
-        rows[:, 0] = values
-        rows[:, 1:] = normals
+        rows = _ground(heights, normals)
         unusable = ffi.new("size_t*")
         self._world._do(lib.mobil_terrain_resolve(self._world._sim, _floats(rows), 0, len(rows), unusable))
         return int(unusable[0])

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import names
+from .values import number, number_of, refuse
 from .world import World
 
 Floats = npt.NDArray[np.float32]
@@ -38,11 +39,18 @@ class Walk:
 
     def joint(self, name: str) -> Floats:
         """Returns one column of joints, rad."""
-        return self.joints[:, names.number_of(name, names.JOINTS, "joint")]
+        return self.joints[:, number_of(name, names.JOINTS, "joint")]
 
     def moment(self, name: str) -> Floats:
         """Returns one column of moments, N m."""
-        return self.moments[:, names.number_of(name, names.MOMENTS, "moment")]
+        return self.moments[:, number_of(name, names.MOMENTS, "moment")]
+
+
+def _ticks(seconds: float, what: str, tick_s: float) -> int:
+    value = number(seconds, what)
+    if not 0 <= value <= 1e6:
+        refuse(f"{what} of {value} s is out of range; choose 0 to 1000000 s")
+    return round(value / tick_s)
 
 
 def walk(*, seconds: float = 2.4, settle_s: float = 2.0, muscles: Any = None, tick_s: float = 1 / 60, **person: Any) -> Walk:
@@ -53,8 +61,8 @@ def walk(*, seconds: float = 2.4, settle_s: float = 2.0, muscles: Any = None, ti
     world = World(tick_s=tick_s)
     who = world.spawn(1, muscles=muscles, **person)
     world.enable(who, "forces")
-    world.tick(round(settle_s / tick_s))
-    ticks = round(seconds / tick_s) + 1
+    world.tick(_ticks(settle_s, "settle_s", tick_s))
+    ticks = _ticks(seconds, "seconds", tick_s) + 1
     chosen = [name for name in names.MUSCLES if muscles is not None and muscles.muscles >> names.MUSCLES.index(name) & 1]
     reported = muscles is not None and names.METHODS[muscles.method] != "none" and bool(muscles.reported)
     made = Walk(

@@ -8,13 +8,15 @@ import numpy as np
 import numpy.typing as npt
 
 from . import names
-from ._library import fail, ffi, lib, struct, text
+from ._library import Owner, fail, ffi, interrupt, lib, struct, text
 from .arrays import EVENT, PERSON, ROOT, Floats, People
-from .arrays import _all, _floats, _ids, _one, _out, _people, _stride, _style_rows
+from .arrays import _all, _floats, _ids, _one, _out, _people, _stride
 from .deprecated import OldWorld
 from .lod import Lod
-from .names import number_of
+from .requests import person_requests, walk_requests
+from .structs import Method, Muscles, pointer
 from .surroundings import Avoidance, Terrain
+from .values import column, integer, number, number_of, numbers, one_or_many, refuse, refuse_type, switch
 
 
 _STATES = {
@@ -51,23 +53,34 @@ class PhaseCost(NamedTuple):
     """In the last tick, on the calling thread."""
 
 
-class World(OldWorld):
+class World(Owner, OldWorld):
     """A world of walkers that runs in fixed ticks.
 
-    tick_s: 1e-5 to 1 s. threads: 0 for all. axes: of positions, directions and rotations: "y_up" (x left, y up, z
-    ahead), "unity", "unreal", "godot" or "z_up". units_per_m: unit of positions. Other numbers are SI, angles in rad.
-    Arguments for several people can be arrays or one value for all. A refused call raises mobil.Error with a message of
-    one line and changes nothing.
+    tick_s: 1e-5 to 1 s. max_frame_s: longest frame of advance(), tick_s to 60 s, by default 0.25 s or one tick if that
+    is longer. threads: 0 for all. axes: of positions, directions and rotations: "y_up" (x left, y up, z ahead),
+    "unity", "unreal", "godot" or "z_up". units_per_m: unit of positions. Other numbers are SI, angles in rad. An
+    argument for several people is one value for all, or an array with one for each person. A refused call raises
+    mobil.Error with a message of one line and changes nothing.
     """
 
+    _instead = "send the bytes of world.save(), and restore() them in a World with the same options"
+
     def __init__(
-        self, *, tick_s: float = 1 / 60, threads: int = 1, axes: str = "y_up", units_per_m: float = 1.0
+        self,
+        *,
+        tick_s: float = 1 / 60,
+        max_frame_s: float | None = None,
+        threads: int = 1,
+        axes: str = "y_up",
+        units_per_m: float = 1.0,
     ) -> None:
         options = struct("options")
-        options.tick_s = tick_s
-        options.threads = threads
+        options.tick_s = number(tick_s, "tick_s")
+        usual_s = max(options.max_frame_s, min(options.tick_s, 1.0))
+        options.max_frame_s = usual_s if max_frame_s is None else number(max_frame_s, "max_frame_s")
+        options.threads = integer(threads, "threads", 0, 2**31 - 1)
         options.axes = number_of(axes, names.AXES, "axes")
-        options.units_per_m = units_per_m
+        options.units_per_m = number(units_per_m, "units_per_m")
         made = ffi.new("mobil_sim**")
         line = ffi.new("char[512]")
         code = lib.mobil_create(options, made, line, 512)
@@ -75,17 +88,11 @@ class World(OldWorld):
             fail(code, text(line))
         self._sim = ffi.gc(made[0], lib.mobil_destroy)
         self._heights: Any = None  # callback of terrain
-        self._raised: list[BaseException] = []  # by the callback
+        self._do(lib.mobil_set_interrupt(self._sim, interrupt, ffi.NULL))
 
     def _do(self, code: int) -> None:
         if code < 0:
             fail(code, text(lib.mobil_message(self._sim)))
-
-    def _ran(self, code: int) -> None:
-        """Ends a call that ran ticks: raises the exception of terrain's function, if any."""
-        if self._raised:
-            raise self._raised.pop()
-        self._do(code)
 
     @property
     def lod(self) -> Lod:
@@ -111,8 +118,8 @@ class World(OldWorld):
         height_m: npt.ArrayLike = 1.75,
         mass_kg: npt.ArrayLike = 75.0,
         somatotype: npt.ArrayLike | None = None,
-        constitution: str | Sequence[str] = "average",
-        sex: str | Sequence[str] = "man",
+        constitution: str | int | Sequence[str | int] = "average",
+        sex: str | int | Sequence[str | int] = "man",
         speed_m_s: npt.ArrayLike | None = None,
         step_length_m: npt.ArrayLike | None = None,
         step_frequency_hz: npt.ArrayLike | None = None,
@@ -122,55 +129,31 @@ class World(OldWorld):
         posed: bool = False,
         muscles: Any = None,
     ) -> People:
-        """Spawns people, all or none, and returns their handles: `count`, or as many as the longest argument has.
+        """Spawns people, all or none, and returns their handles: `count`, or as many as the columns have. Empty columns
+        spawn nobody.
 
         somatotype: endo, meso, ecto. place: (…, 3) in the world's axes. style: by names.STYLE. muscles:
         mobil.muscles(…). posed: True if set_poses sets their poses; walkers have a speed of 5 km/h by default.
         """
-        columns = {
-            "height_m": height_m,
-            "mass_kg": mass_kg,
-            "speed_m_s": speed_m_s,
-            "step_length_m": step_length_m,
-            "step_frequency_hz": step_frequency_hz,
-            "heading_rad": heading_rad,
-        }
-        given = {name: np.asarray(value, np.float32) for name, value in columns.items() if value is not None}
-        places = np.asarray(place, np.float32)
-        types = None if somatotype is None else np.asarray(somatotype, np.float32)
-        builds = [constitution] if isinstance(constitution, str) else list(constitution)
-        sexes = [sex] if isinstance(sex, str) else list(sex)
-        styles, style_length = _style_rows(style)
-        if count is None:
-            lengths = [a.shape[0] for a in given.values() if a.ndim] + [len(builds), len(sexes), styles.shape[0]]
-            lengths += [a.shape[0] for a in (places, types) if a is not None and a.ndim == 2]
-            count = max(lengths)
-        bits = {"speed_m_s": lib.MOBIL_SPEED, "step_length_m": lib.MOBIL_STEP_LENGTH}
-        bits["step_frequency_hz"] = lib.MOBIL_STEP_FREQUENCY
-        people = ffi.new("mobil_person[]", count)
-        usual = struct("person")
-        usual.posed = 1 if posed else 0
-        usual.given = sum(bit for name, bit in bits.items() if name in given)
-        rows = {name: np.broadcast_to(value, (count,)) for name, value in given.items()}
-        places = np.broadcast_to(places, (count, 3))
-        types = None if types is None else np.broadcast_to(types, (count, 3))
-        styles = np.ascontiguousarray(np.broadcast_to(styles, (count, styles.shape[1])))
-        for i in range(count):
-            person = people[i]
-            ffi.memmove(ffi.addressof(people, i), usual, ffi.sizeof("mobil_person"))
-            for name, values in rows.items():
-                setattr(person, name, float(values[i]))
-            person.place = places[i].tolist()
-            if types is not None:
-                person.endo, person.meso, person.ecto = types[i].tolist()
-            person.constitution = number_of(builds[i % len(builds)], names.CONSTITUTIONS, "constitution")
-            person.sex = number_of(sexes[i % len(sexes)], names.SEXES, "sex")
-            if style_length:
-                person.style = ffi.cast("const float*", styles[i].ctypes.data)
-                person.style_count = style_length
-        ids = np.zeros(count, PERSON)
-        muscles = ffi.NULL if muscles is None else muscles
-        self._do(lib.mobil_spawn(self._sim, people, 0, count, muscles, _ids(ids)))
+        asked = person_requests(
+            count,
+            style,
+            constitution,
+            sex,
+            posed,
+            height_m=height_m,
+            mass_kg=mass_kg,
+            somatotype=somatotype,
+            speed_m_s=speed_m_s,
+            step_length_m=step_length_m,
+            step_frequency_hz=step_frequency_hz,
+            place=place,
+            heading_rad=heading_rad,
+        )
+        chosen = pointer(muscles, Muscles)
+        ids = np.zeros(asked.count, PERSON)
+        if ids.size:
+            self._do(lib.mobil_spawn(self._sim, asked.structs, 0, ids.size, chosen, _ids(ids)))
         return ids
 
     def despawn(self, people: People) -> None:
@@ -190,35 +173,33 @@ class World(OldWorld):
         self,
         people: People,
         *,
-        speed_m_s: float | None = None,
-        step_length_m: float | None = None,
-        step_frequency_hz: float | None = None,
-        style: Mapping[str, float] | None = None,
-        heading_rad: float | None = None,
+        speed_m_s: npt.ArrayLike | None = None,
+        step_length_m: npt.ArrayLike | None = None,
+        step_frequency_hz: npt.ArrayLike | None = None,
+        style: Mapping[str, npt.ArrayLike] | None = None,
+        heading_rad: npt.ArrayLike | None = None,
     ) -> None:
-        """Changes walks from the next step on. Arguments that are not given stay. A speed of 0 stops."""
-        walk = struct("walk")
-        for name, value, bit in (
-            ("speed_m_s", speed_m_s, lib.MOBIL_SPEED),
-            ("step_length_m", step_length_m, lib.MOBIL_STEP_LENGTH),
-            ("step_frequency_hz", step_frequency_hz, lib.MOBIL_STEP_FREQUENCY),
-            ("heading_rad", heading_rad, lib.MOBIL_HEADING),
-        ):
-            if value is not None:
-                setattr(walk, name, value)
-                walk.given |= bit
-        rows, length = _style_rows(style)
-        if length:
-            walk.given |= lib.MOBIL_STYLE
-            walk.style = ffi.cast("const float*", rows[0].ctypes.data)
-            walk.style_count = length
-        self._do(lib.mobil_change_walk(self._sim, *_all(people), walk))
+        """Changes walks from the next step on. Arguments that are not given stay. A speed of 0 stops. Parameters that a
+        given style does not name become usual."""
+        people = _people(people)
+        asked = walk_requests(
+            people.size,
+            style,
+            speed_m_s=speed_m_s,
+            step_length_m=step_length_m,
+            step_frequency_hz=step_frequency_hz,
+            heading_rad=heading_rad,
+        )
+        self._do(lib.mobil_change_walks(self._sim, *_all(people), asked.structs, 0))
 
     def set_poses(self, people: People, poses: npt.ArrayLike, *, jumped: bool = False) -> None:
         """Sets posed people's poses for the end of the next tick: (n, 48, 7), world position and quaternion x y z w."""
         people = _people(people)
-        rows = np.ascontiguousarray(poses, np.float32).reshape(people.size, len(names.SEGMENTS), 7)
-        self._do(lib.mobil_set_poses(self._sim, *_all(people), _floats(rows), 0, int(jumped)))
+        rows = numbers(poses, "poses")
+        shape = (people.size, len(names.SEGMENTS), 7)
+        if rows.shape not in (shape, shape[1:]) or rows.shape == shape[1:] and people.size != 1:
+            refuse(f"poses have the shape {rows.shape}; give {shape}")
+        self._do(lib.mobil_set_poses(self._sim, *_all(people), _floats(rows), 0, switch(jumped, "jumped")))
 
     def walk(self, person: People) -> dict[str, Any]:
         """Returns a walker's requested walk, as change_walk takes it; `style` has all parameters."""
@@ -252,21 +233,21 @@ class World(OldWorld):
         """Moves walkers at once, all or none, without inertia. place: (…, 3) in the world's axes."""
         people = _people(people)
         rows = np.empty((people.size, 4), np.float32)
-        rows[:, :3] = place
-        rows[:, 3] = heading_rad
+        rows[:, :3] = column(place, people.size, "place", 3)
+        rows[:, 3] = column(heading_rad, people.size, "heading_rad")
         self._do(lib.mobil_place_many(self._sim, *_all(people), _floats(rows), 0))
 
     def shift_origin(self, to: npt.ArrayLike) -> None:
         """Moves the world's origin: subtracts `to` from all positions."""
-        at = np.ascontiguousarray(to, np.float32)
+        at = numbers(to, "to")
         if at.shape != (3,):
-            raise ValueError(f"the origin moves to a place of three numbers, and this has the shape {at.shape}")
+            refuse(f"the origin moves to a place of three numbers, and this has the shape {at.shape}")
         self._do(lib.mobil_shift_origin(self._sim, _floats(at)))
 
     def enable(self, people: People, feature: str, on: bool = True) -> None:
         """Switches a feature from the next tick on: "step_events" (see events()), "fat" (wobbling, shown by Skin) or
         "forces" (ground reactions and joint moments)."""
-        self._do(lib.mobil_enable(self._sim, *_all(people), number_of(feature, names.FEATURES, "feature"), int(on)))
+        self._do(lib.mobil_enable(self._sim, *_all(people), number_of(feature, names.FEATURES, "feature"), switch(on, "on")))
 
     def set_state(self, people: People, state: str, within_m: float = 0.005) -> int:
         """Changes people to "full", "compact" or "asleep" where possible. Returns how many are in that state now.
@@ -274,8 +255,8 @@ class World(OldWorld):
         within_m: maximum error of control points of muscles that begin on waking.
         """
         count = ffi.new("size_t*")
-        number_of(state, tuple(_STATES), "state")  # raises an error that lists them
-        self._do(lib.mobil_set_state(self._sim, *_all(people), _STATES[state], within_m, count))
+        to = tuple(_STATES.values())[number_of(state, tuple(_STATES), "state")]
+        self._do(lib.mobil_set_state(self._sim, *_all(people), to, number(within_m, "within_m"), count))
         return int(count[0])
 
     def state(self, person: People) -> str:
@@ -288,11 +269,12 @@ class World(OldWorld):
 
     def set_muscles(self, people: People, muscles: Any) -> None:
         """Sets mobil.muscles(…), or removes all muscles if None."""
-        self._do(lib.mobil_set_muscles(self._sim, *_all(people), ffi.NULL if muscles is None else muscles))
+        self._do(lib.mobil_set_muscles(self._sim, *_all(people), pointer(muscles, Muscles)))
 
     def set_method(self, people: People, muscle: str, method: Any) -> None:
         """Sets mobil.method(…) of one muscle, both sides, without a jump."""
-        self._do(lib.mobil_set_method(self._sim, *_all(people), number_of(muscle, names.MUSCLES, "muscle"), method))
+        of, to = number_of(muscle, names.MUSCLES, "muscle"), pointer(method, Method, none=False)
+        self._do(lib.mobil_set_method(self._sim, *_all(people), of, to))
 
     def method(self, person: People, muscle: str) -> str:
         """Returns the name of a muscle's present method."""
@@ -304,7 +286,7 @@ class World(OldWorld):
     def set_excitation(self, people: People, muscle: str, side: str, excitation: npt.ArrayLike) -> None:
         """Sets the excitation of muscles with activation="host", clamped to 0.01 to 1."""
         people = _people(people)
-        values = np.ascontiguousarray(np.broadcast_to(np.asarray(excitation, np.float32), people.shape))
+        values = column(excitation, people.size, "excitation")
         self._do(
             lib.mobil_set_excitation(
                 self._sim,
@@ -318,7 +300,7 @@ class World(OldWorld):
 
     def prepare(self, muscles: Any) -> None:
         """Makes the shared data of these muscles, so that no later call waits for it."""
-        self._do(lib.mobil_prepare(self._sim, muscles))
+        self._do(lib.mobil_prepare(self._sim, pointer(muscles, Muscles, none=False)))
 
     def bake(self) -> bytes:
         """Returns all shared data made so far."""
@@ -335,12 +317,12 @@ class World(OldWorld):
     # Time and state
 
     def tick(self, ticks: int = 1) -> None:
-        self._ran(lib.mobil_tick(self._sim, ticks))
+        self._do(lib.mobil_tick(self._sim, integer(ticks, "ticks", 0, 2**32 - 1)))
 
     def advance(self, seconds: float) -> Ticks:
         """Adds the time of a frame, and runs as many ticks as fit into the accumulated time."""
         ticks = ffi.new("mobil_ticks*")
-        self._ran(lib.mobil_advance(self._sim, seconds, ticks))
+        self._do(lib.mobil_advance(self._sim, number(seconds, "seconds"), ticks))
         return Ticks(ticks.count, ticks.alpha, ticks.dropped_s)
 
     @property
@@ -356,7 +338,7 @@ class World(OldWorld):
         out = bytearray(lib.mobil_snapshot_bytes(self._sim))
         used = ffi.new("size_t*")
         self._do(lib.mobil_save(self._sim, ffi.from_buffer(out), len(out), used))
-        return bytes(out[: used[0]])
+        return bytes(memoryview(out)[: used[0]])
 
     def restore(self, state: bytes) -> None:
         data = ffi.from_buffer(state)
@@ -402,15 +384,17 @@ class World(OldWorld):
         """
         layout = struct("pose_layout")
         layout.form = number_of(form, names.FORMS, "form")
-        layout.ahead_s = ahead_s
-        layout.to_parent = int(to_parent)
-        chosen = range(len(names.SEGMENTS)) if segments is None else segments
-        numbers = ffi.new("int[]", [number_of(s, names.SEGMENTS, "segment") for s in chosen])
-        layout.segments = numbers
-        layout.segment_count = len(numbers)
+        layout.ahead_s = number(ahead_s, "ahead_s")
+        layout.to_parent = switch(to_parent, "to_parent")
+        chosen = one_or_many(range(len(names.SEGMENTS)) if segments is None else segments, "segments")
+        if not isinstance(chosen, list):
+            refuse_type("segments is a list of segments; give one of names or indices")
+        indices = ffi.new("int[]", [number_of(s, names.SEGMENTS, "segment") for s in chosen])
+        layout.segments = indices
+        layout.segment_count = len(indices)
         people = _people(people)
         shape = ((7,), (3, 4), (8,))[layout.form]
-        out = _out(out, (people.size, len(numbers), *shape))
+        out = _out(out, (people.size, len(indices), *shape))
         if out.size:
             self._do(lib.mobil_poses(self._sim, *_all(people), layout, _floats(out), _stride(out)))
         return out
@@ -429,7 +413,7 @@ class World(OldWorld):
         people = _people(people)
         found = np.zeros(people.size, ROOT)
         at = ffi.from_buffer("mobil_root[]", found) if found.size else ffi.NULL
-        self._do(lib.mobil_roots(self._sim, *_all(people), ahead_s, at))
+        self._do(lib.mobil_roots(self._sim, *_all(people), number(ahead_s, "ahead_s"), at))
         return found
 
     def root_motion(self, people: People, roots: People, ahead_s: float = 0.0) -> Floats:
@@ -439,12 +423,12 @@ class World(OldWorld):
         out = np.empty((people.size, 4), np.float32)
         fits = isinstance(roots, np.ndarray) and roots.dtype == ROOT and roots.shape == people.shape
         if not fits or not roots.flags.carray:
-            raise ValueError("roots must be what roots() gave of as many people")
+            refuse("roots must be what roots() gave of as many people")
         if not out.size:
             return out
         at = ffi.from_buffer("mobil_root[]", roots)
         ways = ffi.cast("mobil_motion*", out.ctypes.data)
-        self._do(lib.mobil_root_motion(self._sim, *_all(people), ahead_s, at, ways))
+        self._do(lib.mobil_root_motion(self._sim, *_all(people), number(ahead_s, "ahead_s"), at, ways))
         return out
 
     def _rows(self, what: int, people: People, out: Floats | None) -> Floats:

@@ -56,6 +56,7 @@ void run_guarded(void* context, std::size_t begin, std::size_t end) noexcept {
   assert(begin < end && end <= of.count && "a host's parallel_for gave a range outside of what was asked");
   InterruptScope* const before = InterruptScope::enter(of.interrupt);
   try {
+    check_interrupt();
     of.body(of.context, begin, end);
   } catch (...) {
     if (!of.thrown.exchange(true)) of.first = std::current_exception();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <mobil/engine/interrupt.h>
 #include "assets/fem/hexahedron_points.h"
 
 namespace mobil::inline v0_3 {
@@ -110,6 +111,7 @@ Result<StiffnessTerms> assemble(const HexahedralMesh& mesh, const Material& mate
   StiffnessTerms terms{mesh.cells, std::vector<StencilPair>(nodes * stencil_size),
                        std::vector<double>(nodes * stencil_size), std::vector<double>(nodes)};
   for (std::uint32_t e = 0; e < element_count(mesh.cells); ++e) {
+    check_interrupt();
     const Hexahedron h = element_nodes(mesh.cells, e);
     std::array<GaussPoint, 8> points;
     for (std::size_t point = 0; point < 8; ++point) {

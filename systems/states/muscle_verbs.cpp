@@ -77,6 +77,7 @@ Result<void> check_method(const Frame& frame, Entity person, Muscle muscle, cons
 static Result<void> remove_muscles(const Frame& frame, std::span<const Entity> people) {
   if (auto done = make_muscles_full(frame, people); !done) return done;
   for (const Entity person : people) {
+    check_interrupt();
     if (!has_muscles(frame.world, person)) continue;
     if (auto done = result_of("no muscles", remove_leg_muscles(frame.world, frame.jobs, person)); !done) return done;
     choose_from_now(frame.world, person);

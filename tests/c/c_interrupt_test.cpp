@@ -61,6 +61,7 @@ TEST(CInterrupt, ShortCallsDoNotAsk) {
 TEST(CInterrupt, ARepeatedPreparationContinuesWithWhatIsFinished) {
   LegMuscles choice;
   choice.method = Method::modal;
+  choice.muscles = MuscleSet(1);
   const auto checks_of = [&](Simulation& simulation, std::size_t most) {
     Countdown countdown{.left = most};
     const InterruptScope scope(countdown.each_check());
@@ -164,6 +165,7 @@ std::vector<EndedCall> ended_calls() {
       {"spawn", plain, [spawn, modal](Scene& s) { spawn(s, 20, modal); }},
       {"set_muscles", plain, [statics](Scene& s) { ASSERT_TRUE(s.simulation.set_muscles(s.people, statics)); }},
       {"set_state", asleep, [](Scene& s) { ASSERT_TRUE(s.simulation.set_state(s.people, PersonState::full, 0.001F)); }},
+      {"enable", asleep, [](Scene& s) { ASSERT_TRUE(s.simulation.enable(s.people, Feature::forces)); }},
       {"prepare", plain, [modal](Scene& s) { ASSERT_TRUE(s.simulation.muscle_library().prepare(modal)); }},
       {"manage", plain, [](Scene& s) { ASSERT_TRUE(s.simulation.lod().manage(s.people)); }},
       {"change_gait", plain,
@@ -215,6 +217,61 @@ TEST(CInterrupt, ACallEndedAtAnyCheckChangesNobodyAndCanBeRepeated) {
     scene.simulation.tick(5);
     uninterrupted.simulation.tick(5);
     EXPECT_EQ(scene.simulation.state_hash(), uninterrupted.simulation.state_hash()) << one.name;
+  }
+}
+
+TEST(CInterrupt, MusclesChangeAndGoPersonByPerson) {
+  LegMuscles statics, finer;
+  statics.muscles = finer.muscles = MuscleSet(1);
+  statics.method = Method::statics;
+  finer.method = Method::newmark;
+  for (const bool gone : {false, true}) {
+    Simulation simulation;
+    std::vector<Entity> people;
+    for (int i = 0; i < 20; ++i) people.push_back(*simulation.spawn(BodyRequest{}, GaitRequest{}));
+    ASSERT_TRUE(simulation.set_muscles(people, finer));  // makes the shared data
+    ASSERT_TRUE(simulation.set_muscles(people, statics));
+    const std::optional<LegMuscles> to = gone ? std::nullopt : std::optional(finer);
+    std::size_t ended = 0, partly = 0;
+    for (std::size_t at = 0, done = 0; done == 0; ++at) {
+      Countdown countdown{.left = at};
+      try {
+        const InterruptScope scope(countdown.each_check());
+        ASSERT_TRUE(simulation.set_muscles(people, to));
+        done = 1;
+      } catch (const Interrupted&) {
+        ++ended;
+        std::size_t changed = 0;
+        for (const Entity person : people)
+          changed +=
+              gone ? simulation.muscles(person).empty() : simulation.method(person, Muscle{}).method == Method::newmark;
+        partly += changed > 0 && changed < people.size() ? 1 : 0;
+        simulation.tick(1);
+      }
+    }
+    EXPECT_GT(ended, 5U);
+    EXPECT_GT(partly, 0U);
+    for (const Entity person : people) EXPECT_EQ(simulation.muscles(person).empty(), gone);
+  }
+}
+
+TEST(CInterrupt, ATickThatMakesBasesIsNotCut) {
+  Scene scene, plain;
+  for (Scene* const s : {&scene, &plain}) {
+    for (int i = 0; i < 5; ++i)
+      s->people.push_back(*s->simulation.spawn({.height_m = 1.6F + 0.05F * static_cast<float>(i)}, GaitRequest{}));
+    LodScene needs;
+    needs.tolerance_m = 0.0005F;
+    ASSERT_TRUE(s->simulation.lod().set_scene(needs));
+    ASSERT_TRUE(s->simulation.lod().manage(s->people));
+  }
+  for (std::uint32_t ticks = 1; ticks <= 8; ++ticks) {
+    Countdown countdown{.left = 1};
+    const InterruptScope scope(countdown.each_check());
+    EXPECT_THROW(scene.simulation.tick(1000), Interrupted);
+    EXPECT_EQ(scene.simulation.ticks(), ticks);
+    plain.simulation.tick();
+    EXPECT_EQ(scene.simulation.state_hash(), plain.simulation.state_hash());
   }
 }
 

@@ -236,7 +236,7 @@ class Scalars(Cases):
         world = mobil.World()
         people = world.spawn(2, muscles=mobil.muscles(method="modal", activation="host"))
         world.tick()
-        yield (0, 1, 3), (-1, 2**31, 2**40), lambda n: world.spawn(n)
+        yield (0, 1, 3), (-1, 10**7 + 1, 2**40), lambda n: world.spawn(n)
         yield (0, 1), (-1, 2**32, 2**40), lambda n: world.tick(n)
         yield (1, 2), (-1, 2**31), lambda n: mobil.World(threads=n)
         yield (0, 4), (-1, 5, 2**40), lambda n: mobil.World(axes=n)
@@ -363,6 +363,10 @@ class Scalars(Cases):
         self.refused(lambda: world.set_method(world.spawn(1), "quadriceps", "modal"), "mobil.method(…)", kind=TypeError)
         self.refused(lambda: world.enable(world.spawn(1), "wings"), "'wings'", "forces")
         self.refused(lambda: world.joints([1, 2]), "people", kind=TypeError)
+        self.refused(lambda: world.set_state(world.people, 1), "state", "asleep", kind=TypeError)
+        self.refused(lambda: world.method(world.people[0], b"soleus"), "a name, or an integer from 0", kind=TypeError)
+        self.refused(lambda: world.restore("abc"), "state", "give bytes", kind=TypeError)
+        self.refused(lambda: world.load_baked(np.zeros(64, np.uint8)[::2]), "baked is not contiguous")
 
 
 if __name__ == "__main__":

@@ -69,7 +69,7 @@ def person_requests(
         if len(set(lengths.values())) > 1:
             has = ", ".join(f"{length} of {name}" for name, length in lengths.items())
             refuse(f"columns have different lengths: {has}; give one value for all, or one for each person")
-    asked = Requests("person", integer(count, "count", 0, 2**31 - 1), styles)
+    asked = Requests("person", integer(count, "count", 0, 10**7), styles)
     for name, one in given.items():
         values = spread(one, asked.count, name, _WIDTHS.get(name, 0))
         if name == "somatotype":

@@ -7,7 +7,7 @@ from typing import Any, Mapping, Sequence
 import numpy as np
 
 from . import names
-from ._library import ffi, struct
+from ._library import fail, ffi, lib, struct
 from .names import muscle_bits
 from .values import integer, number, number_of, numbers, one_or_many, refuse_type, shown, switch
 
@@ -175,6 +175,9 @@ def _row_type(kind: str) -> np.dtype[Any]:
 
 def struct_rows(kind: str, count: int) -> Any:
     """Returns structs with their defaults as rows of numpy, and a pointer to them that is valid as long as they are."""
-    rows = np.zeros(count, _row_type(kind))
+    try:
+        rows = np.zeros(count, _row_type(kind))
+    except MemoryError:
+        fail(lib.MOBIL_MEMORY, f"there is no memory for {count} requests; give fewer at a time")
     rows[:] = np.frombuffer(ffi.buffer(struct(kind)), rows.dtype)
     return rows, ffi.cast(f"mobil_{kind}*", rows.ctypes.data)

@@ -14,7 +14,7 @@ from typing import Any, Iterable, NoReturn, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ._library import RefusedError, WrongTypeError, lib
+from ._library import RefusedError, WrongTypeError, ffi, lib
 
 
 def refuse(line: str) -> NoReturn:
@@ -35,14 +35,14 @@ def _is_bool(value: object) -> bool:
     return isinstance(value, (bool, np.bool_)) or (isinstance(value, np.ndarray) and value.dtype == np.bool_)
 
 
-def integer(value: Any, what: str, low: int, high: int) -> int:
+def integer(value: Any, what: str, low: int, high: int, accepted: str = "an integer") -> int:
     """Returns an integer from low to high."""
     try:
         number = None if _is_bool(value) else operator.index(value)
     except TypeError:
         number = None
     if number is None:
-        refuse_type(f"{what} is {shown(value)}; give an integer from {low} to {high}")
+        refuse_type(f"{what} is {shown(value)}; give {accepted} from {low} to {high}")
     if not low <= number <= high:
         refuse(f"{what} {number} is out of range; choose {low} to {high}")
     return number
@@ -119,10 +119,21 @@ def integers(values: Any, what: str, high: int = 2**32 - 1) -> npt.NDArray[np.ui
     return np.ascontiguousarray(array, np.uint32)
 
 
+def contents(data: Any, what: str) -> Any:
+    """Returns the bytes of a buffer for a call; its len() counts bytes."""
+    try:
+        view = memoryview(data)
+    except TypeError:
+        refuse_type(f"{what} is {shown(data)}; give bytes")
+    if not view.c_contiguous:
+        refuse(f"{what} is not contiguous; give its tobytes()")
+    return ffi.from_buffer(data)
+
+
 def number_of(name: Any, names: Sequence[str], what: str) -> int:
     """Returns the index of a name, or an index unchanged."""
     if not isinstance(name, str):
-        return integer(name, what, 0, len(names) - 1)
+        return integer(name, what, 0, len(names) - 1, "a name, or an integer")
     if name not in names:
         refuse(f"there is no {what} {shown(name)}; choose one of {', '.join(names)}")
     return list(names).index(name)

@@ -16,7 +16,19 @@ from .lod import Lod
 from .requests import person_requests, walk_requests
 from .structs import Method, Muscles, pointer
 from .surroundings import Avoidance, Terrain
-from .values import column, integer, number, number_of, numbers, one_or_many, refuse, refuse_type, switch
+from .values import (
+    column,
+    contents,
+    integer,
+    number,
+    number_of,
+    numbers,
+    one_or_many,
+    refuse,
+    refuse_type,
+    shown,
+    switch,
+)
 
 
 _STATES = {
@@ -255,6 +267,8 @@ class World(Owner, OldWorld):
         within_m: maximum error of control points of muscles that begin on waking.
         """
         count = ffi.new("size_t*")
+        if not isinstance(state, str):  # indices are not the numbers of C
+            refuse_type(f"state is {shown(state)}; give one of {', '.join(_STATES)}")
         to = tuple(_STATES.values())[number_of(state, tuple(_STATES), "state")]
         self._do(lib.mobil_set_state(self._sim, *_all(people), to, number(within_m, "within_m"), count))
         return int(count[0])
@@ -311,7 +325,7 @@ class World(Owner, OldWorld):
         return bytes(out)
 
     def load_baked(self, baked: bytes) -> None:
-        data = ffi.from_buffer(baked)  # its len() counts bytes; that of an array counts rows
+        data = contents(baked, "baked")
         self._do(lib.mobil_load_baked(self._sim, data, len(data)))
 
     # Time and state
@@ -341,7 +355,7 @@ class World(Owner, OldWorld):
         return bytes(memoryview(out)[: used[0]])
 
     def restore(self, state: bytes) -> None:
-        data = ffi.from_buffer(state)
+        data = contents(state, "state")
         self._do(lib.mobil_restore(self._sim, data, len(data)))
 
     def hash(self) -> int:

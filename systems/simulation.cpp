@@ -83,6 +83,7 @@ Simulation::Core::Core(const SimulationOptions& options, const Clock& of_clock, 
 }
 
 Result<Simulation> Simulation::make(const SimulationOptions& options) {
+  const FloatMode mode;
   const auto clock = Clock::make(options.tick_s, options.max_frame_s);
   if (!clock) return tl::unexpected(clock.error());
   std::vector<Module> modules = standard_modules();

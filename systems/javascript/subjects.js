@@ -64,15 +64,18 @@ export class Avoidance extends Subject {
     if (wishes.length !== people.count) throw new MobilError(`${wishes.length} wishes for ${people.count} people; give one each`, c.MOBIL_REFUSED);
     library.within((take) => call('avoidance_set_desired_velocity', people.ids, people.count, table(take, wishes, 2, 'wishes'), 0));
   }
-  /** Replaces all walls: arrays of six numbers, two positions. */
-  setWalls(walls) {
+  /** Replaces all walls: arrays of six numbers, two positions. `heights`, for floors above each other: arrays of two
+   * numbers, bottom and top of each. Walkers whose ground is at or above the top, or more than 2 m below the bottom, do
+   * not see it. */
+  setWalls(walls, heights = null) { this.#set('walls', walls, 6, heights); }
+  /** Replaces all discs: arrays of seven numbers, position, velocity and radius. `heights` as for walls. */
+  setDiscs(discs, heights = null) { this.#set('discs', discs, 7, heights); }
+  #set(what, rows, width, heights) {
     const { library, call, table } = this.inside;
-    library.within((take) => call('avoidance_set_walls', table(take, walls, 6, 'walls'), 0, walls.length));
-  }
-  /** Replaces all discs: arrays of seven numbers, position, velocity and radius. */
-  setDiscs(discs) {
-    const { library, call, table } = this.inside;
-    library.within((take) => call('avoidance_set_discs', table(take, discs, 7, 'discs'), 0, discs.length));
+    if (heights !== null && heights.length !== rows.length)
+      throw new MobilError(`${heights.length} heights for ${rows.length} ${what}; give one each`, c.MOBIL_REFUSED);
+    library.within((take) => call(`avoidance_set_${what}_between`, table(take, rows, width, what), 0,
+      heights === null ? 0 : table(take, heights, 2, 'heights'), 0, rows.length));
   }
   /** Counts: fields of mobil_avoidance_counts. */
   get report() { return this.counts('avoidance'); }

@@ -261,29 +261,30 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   // In a settled walk the left step is the mirrored right one.
   const bool all_even = std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; });
   if (!all_even && looking != Looking::at_changes) note_steps(walk, uneven_steps - 1, WalkPart::steady, uneven);
-  const auto note_stop = [&](WalkLooked stop, auto whose) {
-    stop.end();
-    for (int step = 0; step < stopping_steps && !stop.all_stand(); ++step) note_steps(stop, 1, WalkPart::stop, whose);
+  const auto note_stop = [&](const WalkLooked& from, auto whose) {
+    const auto stop = std::make_unique<WalkLooked>(from);
+    stop->end();
+    for (int step = 0; step < stopping_steps && !stop->all_stand(); ++step) note_steps(*stop, 1, WalkPart::stop, whose);
   };
   const auto note_changes = [&](const WalkLooked& from, auto whose) {
     for (const float rad : {turned_rad, -turned_rad}) {
-      WalkLooked turn = from;
-      turn.turn(rad);
-      note_steps(turn, turning_steps, WalkPart::turn, whose);
+      const auto turn = std::make_unique<WalkLooked>(from);
+      turn->turn(rad);
+      note_steps(*turn, turning_steps, WalkPart::turn, whose);
     }
-    WalkLooked other_speed = from;
-    other_speed.scale_speed(slowed_to);
-    note_steps(other_speed, scaled_steps, WalkPart::change_of_speed, whose);
-    other_speed.walk_as(gait);
-    note_steps(other_speed, quickening_steps, WalkPart::change_of_speed, whose);
+    const auto other_speed = std::make_unique<WalkLooked>(from);
+    other_speed->scale_speed(slowed_to);
+    note_steps(*other_speed, scaled_steps, WalkPart::change_of_speed, whose);
+    other_speed->walk_as(gait);
+    note_steps(*other_speed, quickening_steps, WalkPart::change_of_speed, whose);
   };
   const auto from_either_foot = [&](std::uint32_t lag, auto note_from) {
-    WalkLooked from(size, gait, lag);
-    from.walk();
-    note_from(from, [](std::size_t) { return true; });
+    const auto from = std::make_unique<WalkLooked>(size, gait, lag);  // too large for small stacks
+    from->walk();
+    note_from(*from, [](std::size_t) { return true; });
     if (all_even) return;
-    from.step();
-    note_from(from, uneven);
+    from->step();
+    note_from(*from, uneven);
   };
   if (looking == Looking::at_stops_too || looking == Looking::at_changes_too)
     from_either_foot(max_parts / 2, note_stop);

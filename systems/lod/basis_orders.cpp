@@ -1,6 +1,7 @@
 #include "systems/lod/basis_orders.h"
 
 #include <algorithm>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -12,7 +13,13 @@ namespace mobil::inline v0_3 {
 void BasisOrders::Work::make() {
   int waits = 0;
   if (!stage.compare_exchange_strong(waits, 1)) return;
-  made = std::make_unique<Result<BellyLibrary::Basis>>(BellyLibrary::make_basis(muscle, choice, key));
+  try {
+    made = std::make_unique<Result<BellyLibrary::Basis>>(BellyLibrary::make_basis(muscle, choice, key));
+  } catch (...) {
+    stage = 0;  // another thread can try
+    stage.notify_all();
+    throw;
+  }
   stage = 2;
   stage.notify_all();
 }
@@ -57,7 +64,10 @@ bool BasisOrders::ready(BellyLibrary& library, Muscle muscle, const LegMuscles& 
       [](void* argument) {
         const std::unique_ptr<std::shared_ptr<Work>> held(static_cast<std::shared_ptr<Work>*>(argument));
         const FloatMode mode;
-        (*held)->make();
+        try {
+          (*held)->make();
+        } catch (const std::bad_alloc&) {  // the tick that needs the basis makes it
+        }
       },
       new std::shared_ptr<Work>(work));
   return false;
@@ -71,8 +81,10 @@ void BasisOrders::take_in(BellyLibrary& library, Muscle muscle, const LegMuscles
   };
   const auto at = std::ranges::find_if(works_, is);
   if (at == works_.end()) return;
-  (*at)->make();
-  (*at)->stage.wait(1);
+  while ((*at)->stage != 2) {
+    (*at)->make();
+    (*at)->stage.wait(1);
+  }
   if (*(*at)->made && library.find_basis(muscle, choice, key) == nullptr)
     library.bases_.push_back(std::move(**(*at)->made));
   works_.erase(at);

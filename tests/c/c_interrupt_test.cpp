@@ -267,8 +267,10 @@ TEST(CInterrupt, ATickThatMakesBasesIsNotCut) {
   }
   for (std::uint32_t ticks = 1; ticks <= 8; ++ticks) {
     Countdown countdown{.left = 1};
-    const InterruptScope scope(countdown.each_check());
-    EXPECT_THROW(scene.simulation.tick(1000), Interrupted);
+    {
+      const InterruptScope scope(countdown.each_check());
+      EXPECT_THROW(scene.simulation.tick(1000), Interrupted);
+    }
     EXPECT_EQ(scene.simulation.ticks(), ticks);
     plain.simulation.tick();
     EXPECT_EQ(scene.simulation.state_hash(), plain.simulation.state_hash());

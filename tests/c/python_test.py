@@ -231,6 +231,25 @@ class Worlds(unittest.TestCase):
         self.assertLess(nearest(False), 0.2)
         self.assertGreater(nearest(True), 0.4)
 
+    def test_obstacles_of_other_floors_do_not_stop_walkers(self):
+        def goes_past(heights):
+            world = mobil.World()
+            person = world.spawn(speed_m_s=1.3)
+            world.avoidance.manage(person)
+            world.avoidance.set_walls([[[-9, 0, 2], [9, 0, 2]]], heights=heights)
+            world.avoidance.set_discs([0, 0, 2], 0.5, heights=heights)
+            world.tick(300)
+            return world.roots(person)["place"][0, 2] > 4
+
+        self.assertFalse(goes_past(None))
+        self.assertFalse(goes_past([0, 3]))
+        self.assertTrue(goes_past([2.5, 4]))
+        self.assertTrue(goes_past([[-np.inf, 0]]))
+        with self.assertRaisesRegex(mobil.Error, "top must be above"):
+            goes_past([3, 2])
+        with self.assertRaisesRegex(mobil.Error, "heights"):
+            goes_past([[1, 2], [3, 4]])
+
     def test_walkers_stand_on_the_ground_that_python_tells_of(self):
         world = mobil.World(axes="unreal", units_per_m=100)
         people = crowd(world, 4)

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <memory>
 
+#include <mobil/engine/error.h>
 #include "demo/lab/rivals/block.h"
 #include "demo/lab/rivals/timing.h"
 

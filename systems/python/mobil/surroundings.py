@@ -63,23 +63,43 @@ class Avoidance(Owner):
         rows[:, 1] = column(heading_rad, people.size, "heading_rad")
         self._world._do(lib.mobil_avoidance_set_desired_velocity(self._world._sim, *_all(people), _floats(rows), 0))
 
-    def set_walls(self, walls: npt.ArrayLike) -> None:
-        """Replaces all straight walls: (n, 2, 3), both ends, in the world's axes."""
+    def set_walls(self, walls: npt.ArrayLike, heights: npt.ArrayLike | None = None) -> None:
+        """Replaces all straight walls: (n, 2, 3), both ends, in the world's axes.
+
+        heights: (n, 2), bottom and top of each, if floors lie above each other. Walkers whose ground is at or above the
+        top, or more than 2 m below the bottom, do not see it. By default a wall has all heights.
+        """
         rows = numbers(walls, "walls")
         if rows.size and rows.shape[1:] != (2, 3):
             refuse(f"walls have the shape {rows.shape}; give (n, 2, 3), both ends of each")
         rows = rows.reshape(-1, 6)
-        self._world._do(lib.mobil_avoidance_set_walls(self._world._sim, _floats(rows), 0, len(rows)))
+        self._set_obstacles(lib.mobil_avoidance_set_walls_between, rows, heights, "wall")
 
-    def set_discs(self, place: npt.ArrayLike, radius: npt.ArrayLike, velocity: npt.ArrayLike = (0.0, 0.0, 0.0)) -> None:
-        """Replaces all discs (players, cars, pillars): (n, 3), (n,) and (n, 3), in the world's axes and unit."""
+    def set_discs(
+        self,
+        place: npt.ArrayLike,
+        radius: npt.ArrayLike,
+        velocity: npt.ArrayLike = (0.0, 0.0, 0.0),
+        heights: npt.ArrayLike | None = None,
+    ) -> None:
+        """Replaces all discs (players, cars, pillars): (n, 3), (n,) and (n, 3), in the world's axes and unit.
+
+        heights: as for walls.
+        """
         places = numbers(place, "place")
         places = places.reshape(-1, 3) if places.shape in ((0,), (3,)) else places
         rows = np.empty((len(places) if places.ndim else 1, 7), np.float32)
         rows[:, :3] = column(places, len(rows), "place", 3, "disc")
         rows[:, 3:6] = column(velocity, len(rows), "velocity", 3, "disc")
         rows[:, 6] = column(radius, len(rows), "radius", of="disc")
-        self._world._do(lib.mobil_avoidance_set_discs(self._world._sim, _floats(rows), 0, len(rows)))
+        self._set_obstacles(lib.mobil_avoidance_set_discs_between, rows, heights, "disc")
+
+    def _set_obstacles(self, call: Any, rows: Floats, heights: npt.ArrayLike | None, of: str) -> None:
+        ranges = np.empty((len(rows), 2), np.float32)
+        if heights is not None:
+            ranges[:] = column(heights, len(rows), "heights", 2, of, finite=False)
+        between = ffi.NULL if heights is None else _floats(ranges)
+        self._world._do(call(self._world._sim, _floats(rows), 0, between, 0, len(rows)))
 
     @property
     def report(self) -> AvoidanceReport:

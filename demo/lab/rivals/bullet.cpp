@@ -14,7 +14,6 @@
 #include <cmath>
 #include <memory>
 
-#include <mobil/engine/error.h>
 #include "demo/lab/rivals/block.h"
 #include "demo/lab/rivals/timing.h"
 
@@ -166,7 +165,7 @@ Rival bullet(double dt_s, double limit_s) {
     }
     const Eigen::Vector2d rest = world.far_mean();
     rival.check = "settled displacement of the far face along the block against trilinear hexahedra (sideways " +
-                  decimal(rest[1] / expected[1]) + " of theirs)";
+                  std::to_string(rest[1] / expected[1]) + " of theirs)";
     rival.check_error = std::abs(rest[0] / expected[0] - 1);
     rival.holds = rival.check_error < 0.2;
     rival.far_z_m = rest[0];

@@ -36,12 +36,12 @@ if [ -x "$scratch/prefix/bin/mobil" ]; then
   diff <("$scratch/prefix/bin/mobil" completion bash) "$share/bash-completion/completions/mobil"
   diff <("$scratch/prefix/bin/mobil" man walk) "$share/man/man1/mobil-walk.1"
 fi
-# Every header compiles with any flags of a host, and with the macros of windows.h.
+# Every header compiles with any flags of a host, and with macros of windows.h. (Its near and far must be undefined.)
 for header in "$scratch"/prefix/include/mobil/*.h; do echo "#include <mobil/${header##*/}>"; done >"$scratch/all.cpp"
-printf '#include <%s>\n' algorithm chrono filesystem functional limits map memory_resource optional span string \
-  tl/expected.hpp vector >"$scratch/macros.cpp"
-printf '#define %s\n' 'min(a, b) ((a) < (b) ? (a) : (b))' 'max(a, b) ((a) > (b) ? (a) : (b))' near far IN OUT \
-  'small char' 'ERROR 0' >>"$scratch/macros.cpp"
+grep -rh '^#include <' "$scratch/prefix/include/mobil" --include='*.h' | grep -vE '<(mobil|hwy|EGL|GLES)' | sort -u \
+  >"$scratch/macros.cpp"
+printf '#define %s\n' 'min(a, b) ((a) < (b) ? (a) : (b))' 'max(a, b) ((a) > (b) ? (a) : (b))' IN OUT 'ERROR 0' \
+  >>"$scratch/macros.cpp"
 cat "$scratch/all.cpp" >>"$scratch/macros.cpp"
 "${CXX:-c++}" -std=c++20 -fsyntax-only -I"$scratch/prefix/include" "$scratch/macros.cpp"
 "${CXX:-c++}" -std=c++20 -fno-exceptions -fno-rtti -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror \

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -445,8 +444,8 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
     in_parallel(jobs, (people.size() + of_block - 1) / of_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin * of_block; first < std::min(end * of_block, people.size()); first += of_block) {
         const auto some = people.subspan(first, std::min(of_block, people.size() - first));
-        const auto block = std::make_unique<StyleLimitSearch>(sizes, gaits, some, looking, lanes_each);
-        look_at(some, *block);
+        StyleLimitSearch block(sizes, gaits, some, looking, lanes_each);
+        look_at(some, block);
       }
     });
   };

@@ -117,6 +117,8 @@ constexpr int turning_steps = 6, scaled_steps = 3, quickening_steps = 5;
 /// Heights of the pelvis of sixteen walks at successive instants.
 using Heights = std::array<Lanes<float>, 2 * max_parts>;
 
+#define MOBIL_NOT_INLINE __attribute__((noinline))
+
 /// Sixteen walks, advanced step by step and examined `lag` times in difference_s.
 class WalkLooked {
  public:
@@ -261,30 +263,32 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   // In a settled walk the left step is the mirrored right one.
   const bool all_even = std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; });
   if (!all_even && looking != Looking::at_changes) note_steps(walk, uneven_steps - 1, WalkPart::steady, uneven);
-  const auto note_stop = [&](const WalkLooked& from, auto whose) {
-    const auto stop = std::make_unique<WalkLooked>(from);
-    stop->end();
-    for (int step = 0; step < stopping_steps && !stop->all_stand(); ++step) note_steps(*stop, 1, WalkPart::stop, whose);
+  // Each copy of the walks has 12 kB. In functions of their own, two of them are on the stack at once.
+  const auto note_stop = [&](WalkLooked stop, auto whose) MOBIL_NOT_INLINE {
+    stop.end();
+    for (int step = 0; step < stopping_steps && !stop.all_stand(); ++step) note_steps(stop, 1, WalkPart::stop, whose);
   };
-  const auto note_changes = [&](const WalkLooked& from, auto whose) {
-    for (const float rad : {turned_rad, -turned_rad}) {
-      const auto turn = std::make_unique<WalkLooked>(from);
-      turn->turn(rad);
-      note_steps(*turn, turning_steps, WalkPart::turn, whose);
-    }
-    const auto other_speed = std::make_unique<WalkLooked>(from);
-    other_speed->scale_speed(slowed_to);
-    note_steps(*other_speed, scaled_steps, WalkPart::change_of_speed, whose);
-    other_speed->walk_as(gait);
-    note_steps(*other_speed, quickening_steps, WalkPart::change_of_speed, whose);
+  const auto note_turn = [&](WalkLooked turn, float rad, auto whose) MOBIL_NOT_INLINE {
+    turn.turn(rad);
+    note_steps(turn, turning_steps, WalkPart::turn, whose);
   };
-  const auto from_either_foot = [&](std::uint32_t lag, auto note_from) {
-    const auto from = std::make_unique<WalkLooked>(size, gait, lag);  // too large for small stacks
-    from->walk();
-    note_from(*from, [](std::size_t) { return true; });
+  const auto note_other_speed = [&](WalkLooked other, auto whose) MOBIL_NOT_INLINE {
+    other.scale_speed(slowed_to);
+    note_steps(other, scaled_steps, WalkPart::change_of_speed, whose);
+    other.walk_as(gait);
+    note_steps(other, quickening_steps, WalkPart::change_of_speed, whose);
+  };
+  const auto note_changes = [&](const WalkLooked& from, auto whose) MOBIL_NOT_INLINE {
+    for (const float rad : {turned_rad, -turned_rad}) note_turn(from, rad, whose);
+    note_other_speed(from, whose);
+  };
+  const auto from_either_foot = [&](std::uint32_t lag, auto note_from) MOBIL_NOT_INLINE {
+    WalkLooked from(size, gait, lag);
+    from.walk();
+    note_from(from, [](std::size_t) { return true; });
     if (all_even) return;
-    from->step();
-    note_from(*from, uneven);
+    from.step();
+    note_from(from, uneven);
   };
   if (looking == Looking::at_stops_too || looking == Looking::at_changes_too)
     from_either_foot(max_parts / 2, note_stop);

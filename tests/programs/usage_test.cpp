@@ -79,20 +79,6 @@ TEST(Usage, HelpAtEveryLevelIsComplete) {
   EXPECT_TRUE(contents(folder.path).empty());
 }
 
-TEST(BadOutput, StandardOutputIsFull) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  for (const std::string arguments : {"--help", "--version", "walk --help", "walk --list-parameters",
-                                      "walk --seconds 0.1 --out out", "muscle --seconds 0.01"}) {
-    for (const std::string sink : {">/dev/full", ">&-"}) {
-      const TemporaryFolder folder;
-      const Ran ran = run_shell("{ '" MOBIL_PROGRAM "' " + arguments + " " + sink + "; }", folder.path);
-      EXPECT_EQ(ran.status, 1) << arguments << sink;
-      EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
-      EXPECT_TRUE(ran.err.starts_with("mobil")) << ran.err;
-    }
-  }
-}
-
 TEST(BadOutput, AFileIsInTheWay) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "taken") << "mine";

@@ -7,8 +7,6 @@
 
 #include <mobil/engine/status.h>
 
-/// The layout of standard containers, which host and library share. A host that differs fails to link, and the linker
-/// names this symbol.
 #if defined(_LIBCPP_VERSION)
 #define MOBIL_CONTAINERS library_is_built_with_libcxx
 #elif defined(_GLIBCXX_DEBUG)
@@ -21,7 +19,10 @@
 
 namespace mobil::inline v0_3 {
 
+/// The layout of standard containers, which host and library share. A host that differs fails to link, and the linker
+/// names this symbol.
 extern const char MOBIL_CONTAINERS;
+/// A reference to the symbol from every file of a host.
 [[gnu::used]] static const char* const containers = &MOBIL_CONTAINERS;
 
 /// Reason of a failed call: one line of text and a status code.

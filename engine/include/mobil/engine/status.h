@@ -6,6 +6,7 @@
 
 #if defined(Status)
 #error "X11 has made Status a macro: write #undef Status between its headers and those of mobil"
+#undef Status
 #endif
 
 namespace mobil::inline v0_3 {

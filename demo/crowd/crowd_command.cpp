@@ -93,9 +93,9 @@ Result<void> run(const CrowdOptions& options) {
   show("");
   if (!measured) return tl::unexpected(measured.error());
   write_output(crowd_text(*measured, memory, scene));
+  if (auto done = write_report(options, crowd_json(*measured, memory, scene, options)); !done) return done;
   if (auto done = take_pictures(options, scene); !done) return done;
-  if (auto done = export_crowd(options, scene); !done) return done;
-  return write_report(options, crowd_json(*measured, memory, scene, options));
+  return export_crowd(options, scene);
 }
 
 /// Checks output paths before minutes of work.

@@ -131,7 +131,7 @@ Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, co
   double live_s = wall_now_s();
   for (std::size_t i = 0; i < ticks; ++i) {
     if (auto done = measured_tick(scene, run); !done) return tl::unexpected(done.error());
-    if (hashes && (i + 1) % hash_every == 0) run.hashes.push_back(simulation.state_hash());
+    if (hashes && ((i + 1) % hash_every == 0 || i + 1 == ticks)) run.hashes.push_back(simulation.state_hash());
     if (!live || wall_now_s() < live_s) continue;
     run.muscles_by_level = scene.muscles_by_level();
     live(run, ticks);

@@ -1,6 +1,7 @@
 #include "demo/program/units.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <span>
 
@@ -58,16 +59,13 @@ std::string_view base_unit(Quantity quantity) {
   return known.empty() ? std::string_view() : known.front().name;
 }
 
-Result<double> parse_quantity(const std::string& text, Quantity quantity) {
+Result<double> parse_quantity(const std::string& asked, Quantity quantity) {
   std::string known;
   for (const auto& unit : units(quantity)) known += fmt::format("{}{}", known.empty() ? "" : ", ", unit.name);
-  std::size_t used = 0;
-  double value = NAN;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
+  const std::string text = asked.substr(0, asked.find_last_not_of(" \t\r") + 1);
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const auto used = static_cast<std::size_t>(end - text.c_str());
   if (used == 0 || !std::isfinite(value)) {
     return fail(fmt::format("'{}' is not a finite number; write one {}", text,
                             known.empty() ? "without a unit" : fmt::format("with an optional unit ({})", known)));

@@ -70,7 +70,9 @@ Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& nam
     if (path.filename() != path) {
       return fail(fmt::format("--export {}: is written into the folder of --out; give a name without folders", name));
     }
-    const auto* const ending = std::ranges::find(endings, path.extension().string());
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto* const ending = std::ranges::find(endings, extension);
     if (ending == std::end(endings)) {
       std::string known;
       for (const auto& one : endings) known += fmt::format("{}{}", known.empty() ? "" : ", ", one);

@@ -113,6 +113,13 @@ int stream_of(Line& line, void* memory, std::size_t stride, std::size_t bytes, s
   return MOBIL_OK;
 }
 
+int same_handedness(mobil_sim& sim, bool bound_mirrored) {
+  if (bound_mirrored == sim.axes.mirrored()) return MOBIL_OK;
+  return sim.line.refuse(MOBIL_REFUSED,
+                         "bound in axes of the other handedness, so the triangles would be inside out; bind it in this "
+                         "simulation");
+}
+
 void wind(std::span<const std::uint32_t> index, bool mirrored, unsigned int* out) {
   for (std::size_t i = 0; i < index.size(); ++i) {
     const std::size_t corner = i % 3;

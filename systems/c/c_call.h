@@ -217,6 +217,9 @@ int row_stride(Line& line, const void* rows, std::size_t count, std::size_t floa
 /// Makes a stream in the caller's memory, empty if null. With stride 0 vertices are `close` bytes apart.
 int stream_of(Line& line, void* memory, std::size_t stride, std::size_t bytes, std::size_t close, const char* name,
               VertexStream& to);
+/// Refuses to write what was bound in axes of the other handedness: its triangles would be inside out.
+int same_handedness(mobil_sim& sim, bool bound_mirrored);
+
 /// Writes triangles for the host. For mirrored axes the second and third corners are swapped.
 void wind(std::span<const std::uint32_t> index, bool mirrored, unsigned int* out);
 /// Converts vertices [begin, end) of a written stream to the host's axes.
@@ -315,6 +318,8 @@ int call(const mobil_sim* asked, const char* name, F f) noexcept {
   } catch (const Interrupted&) {
     return sim->line.refuse(MOBIL_INTERRUPTED, "ended by the function of mobil_set_interrupt");
   } catch (const std::bad_alloc&) {
+    return sim->line.refuse(MOBIL_MEMORY, status_text(Status::no_memory));
+  } catch (const std::length_error&) {  // a count beyond any memory
     return sim->line.refuse(MOBIL_MEMORY, status_text(Status::no_memory));
   } catch (const Stopped& host) {
     return sim->line.refuse(MOBIL_REFUSED, host.what());

@@ -144,6 +144,7 @@ int mobil_write_custom_skin(mobil_sim* sim, const mobil_custom_skin* skin, const
                             size_t stride, size_t count) {
   return call(sim, "mobil_write_custom_skin", [&](mobil_sim& s) {
     if (skin == nullptr) return s.line.refuse_null("skin");
+    if (const int code = same_handedness(s, skin->mirrored)) return code;
     if (const int code = struct_stride(s.line, targets, count, "targets", stride)) return code;
     const std::size_t vertices = skin->own.vertex.size(), three = 3 * sizeof(float);
     std::vector<Following> following(count, {{}, Vertices(skin->bare.rest.size()), Vertices(vertices)});

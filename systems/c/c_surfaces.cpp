@@ -132,6 +132,7 @@ int mobil_write_surfaces(mobil_sim* sim, const mobil_surface_target* targets, si
     for (std::size_t i = 0; i < count; ++i) {
       if (const int code = read_struct(s.line, row_at(targets, i, stride, 0), "targets", all[i].as)) return code;
       if (const int code = request_of(s, all[i], requests[i])) return code;
+      if (const int code = same_handedness(s, all[i].as.surfaces->mirrored)) return code;
     }
     const auto done = s.surfaces->write(s.world().world(), requests, s.jobs);
     if (!done) return s.line.refuse(done.error());

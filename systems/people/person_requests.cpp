@@ -163,7 +163,7 @@ Result<Gait<float>> new_gait(const World& world, Entity person, const GaitReques
 Result<Gait<float>> turned_gait(const World& world, Entity person, float heading_rad) {
   if (auto walks = is_walker(world, person, "turn_to", "turn the pose instead"); !walks)
     return tl::unexpected(walks.error());
-  if (!(std::fabs(heading_rad) < 1e4F))
+  if (!(std::fabs(heading_rad) <= 1e4F))
     return fail(fmt::format("turn_to: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
   Gait<float> gait = *gait_of(world, person);
   gait.heading_rad = heading_rad;
@@ -192,9 +192,9 @@ Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m
 
 Result<void> check_place(const World& world, const PlaceRequest& to) {
   if (auto walks = is_walker(world, to.person, "place", "hand it another pose"); !walks) return walks;
-  if (!(std::fabs(to.x_m) < farthest_m && std::fabs(to.z_m) < farthest_m))
+  if (!(std::fabs(to.x_m) <= farthest_m && std::fabs(to.z_m) <= farthest_m))
     return fail(fmt::format("place: ({}, {}) m is not within ±1000000 m; shift the world's origin", to.x_m, to.z_m));
-  if (!(std::fabs(to.heading_rad) < 1e4F))
+  if (!(std::fabs(to.heading_rad) <= 1e4F))
     return fail(fmt::format("place: a heading of {} rad is not within ±10000; give an angle about +Y", to.heading_rad));
   return {};
 }
@@ -282,7 +282,7 @@ Result<void> check_pose(const World& world, Entity person, const Pose<float>& po
     const auto& [x, y, z] = pose.position_m[s];
     const auto& [qx, qy, qz, qw] = pose.rotation[s];
     // Comparisons with NaN are false.
-    if (!(std::fabs(x) < farthest_m && std::fabs(y) < farthest_m && std::fabs(z) < farthest_m))
+    if (!(std::fabs(x) <= farthest_m && std::fabs(y) <= farthest_m && std::fabs(z) <= farthest_m))
       return fail(fmt::format("set_pose: {} is at ({}, {}, {}) m; give a finite place within 1000 km", segment_name[s],
                               x, y, z));
     if (!is_rotation(pose.rotation[s]))

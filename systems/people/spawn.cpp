@@ -23,7 +23,8 @@ namespace mobil::inline v0_3 {
 namespace {
 
 Result<void> check_place(const SpawnRequest& request) {
-  if (std::fabs(request.x_m) < 1e6F && std::fabs(request.z_m) < 1e6F && std::fabs(request.heading_rad) < 1e4F) {
+  if (std::fabs(request.x_m) <= farthest_m && std::fabs(request.z_m) <= farthest_m &&
+      std::fabs(request.heading_rad) <= 1e4F) {
     return {};
   }
   return fail(fmt::format("a place of {} and {} m or a heading of {} rad is not within ±1000000 m and ±10000 rad",

@@ -22,8 +22,10 @@ bool opaque(const Image& image) {
 
 /// Writes the picture to a file. libpng fails by longjmp, so no local object has a destructor.
 bool encode(std::FILE* file, const Image& image, bool with_opacity, PngEffort effort) {
-  png_structp png =
-      png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, [](png_structp, png_const_charp) {});
+  // libpng's own functions print to stderr.
+  png_structp png = png_create_write_struct(
+      PNG_LIBPNG_VER_STRING, nullptr, [](png_structp of, png_const_charp) { png_longjmp(of, 1); },
+      [](png_structp, png_const_charp) {});
   if (png == nullptr) return false;
   png_infop info = png_create_info_struct(png);
   if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {

@@ -168,7 +168,8 @@ VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 VideoWriter::~VideoWriter() = default;
 
 Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int height, double pictures_per_second) {
-  if (!path.ends_with(".mp4") || path.size() <= 4) {
+  const std::string ending = path.size() > 4 ? path.substr(path.size() - 4) : std::string();
+  if (ending != ".mp4" && ending != ".MP4") {
     return fail(fmt::format("{}: a film's name must end in .mp4", path));
   }
   if (width < 2 || height < 2 || width > 8192 || height > 8192 || width % 2 != 0 || height % 2 != 0) {

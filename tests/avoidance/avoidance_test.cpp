@@ -413,6 +413,10 @@ TEST(Avoidance, RefusalsNameTheMistake) {
   EXPECT_NE(line(avoidance.set_walls({&wall, 1})).find("wall"), std::string::npos);
   const Disc disc = {{0, 0}, -1};
   EXPECT_NE(line(avoidance.set_discs({&disc, 1})).find("radius"), std::string::npos);
+  const Disc rocket = {{0, 50}, 1, 0, -1001};
+  EXPECT_NE(line(avoidance.set_discs({&rocket, 1})).find("velocity"), std::string::npos);
+  const Wall far = {{-1e6F, 0}, {1e6F, 0}};
+  EXPECT_TRUE(avoidance.set_walls({&far, 1})) << "at the bound";
 }
 
 }  // namespace

@@ -401,6 +401,19 @@ class Worlds(unittest.TestCase):
         self.assertTrue(why.why)
         self.assertTrue(any(cost.entities for cost in world.cost()))
 
+    def test_surfaces_of_the_other_handedness_are_refused(self):
+        left, right = mobil.World(axes="unity"), mobil.World()
+        people = [world.spawn(muscles=mobil.muscles(method="static")) for world in (left, right)]
+        surfaces = mobil.Surfaces(right, people[1], detail=0.3)
+        surfaces.vertices(right, people[1])
+        with self.assertRaisesRegex(mobil.Error, "other handedness"):
+            surfaces.vertices(left, people[0])
+
+    def test_a_python_without_docstrings_is_refused_in_one_line(self):
+        ran = subprocess.run([sys.executable, "-OO", "-c", "import mobil"], capture_output=True, text=True)
+        self.assertEqual(ran.stderr.splitlines()[-1], "ImportError: mobil: python -OO removes docstrings, which cffi's "
+                         "parser needs; use -O")
+
     def test_surfaces_are_as_tall_as_the_person(self):
         world = mobil.World()
         people = world.spawn(2, height_m=1.7, mass_kg=65, muscles=mobil.muscles(method="modal"))

@@ -172,6 +172,17 @@ TEST(PersonStates, MatchTheTableAfterEachCall) {
   }
 }
 
+TEST(PersonStates, HandlesOfMusclesAreRefused) {
+  Simulation simulation;
+  const Entity person = *simulation.spawn({});
+  ASSERT_TRUE(simulation.set_muscles(person));
+  const std::vector<Entity> both = {person, simulation.muscles(person).front().entity[0]};
+  const std::uint64_t before = simulation.state_hash();
+  for (const PersonState state : {PersonState::full, PersonState::compact, PersonState::asleep})
+    EXPECT_TRUE(simulation.set_state(both, state) == Status::stale_entity);
+  EXPECT_EQ(simulation.state_hash(), before);
+}
+
 /// The ticks after each call run correctly for all people.
 TEST(PersonStates, ContinueAfterEachCall) {
   for (const auto& [name, call] : calls()) {

@@ -48,7 +48,7 @@ class Simulation;
 
 /// Time, threads, memory and modules of a simulation.
 struct SimulationOptions {
-  double tick_s = 1.0 / 60;    // 1e-5 to 1
+  double tick_s = 1.0 / 60;    // 1e-5 to 1; above 0.25 fast walkers lose distance (one step a tick at most)
   double max_frame_s = 0.25;   // one tick to 60 s; the excess of a longer frame is dropped
   int threads = 1;             // size of the built-in pool; 0: one for each hardware thread
   std::optional<Jobs> jobs{};  // the host's job system, used instead of the pool

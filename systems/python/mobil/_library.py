@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import pathlib
 import re
+import sys
 import threading
 from typing import Any
 
@@ -87,6 +88,8 @@ def _find() -> pathlib.Path | str:
     return beside if beside.exists() else _NAME
 
 
+if sys.flags.optimize > 1:
+    raise ImportError("mobil: python -OO removes docstrings, which cffi's parser needs; use -O")
 ffi = cffi.FFI()
 ffi.cdef(_declarations(_HERE / "mobil.h"))
 try:

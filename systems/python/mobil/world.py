@@ -68,8 +68,9 @@ class PhaseCost(NamedTuple):
 class World(Owner, OldWorld):
     """A world of walkers that runs in fixed ticks.
 
-    tick_s: 1e-5 to 1 s. max_frame_s: longest frame of advance(), tick_s to 60 s, by default 0.25 s or one tick if that
-    is longer. threads: 0 for all. axes: of positions, directions and rotations: "y_up" (x left, y up, z ahead),
+    tick_s: 1e-5 to 1 s; above 0.25 s fast walkers lose distance, because one step begins in a tick at most.
+    max_frame_s: longest frame of advance(), tick_s to 60 s, by default 0.25 s or one tick if that is longer. threads: 0
+    for all. axes: of positions, directions and rotations: "y_up" (x left, y up, z ahead),
     "unity", "unreal", "godot" or "z_up". units_per_m: unit of positions. Other numbers are SI, angles in rad. An
     argument for several people is one value for all, or an array with one for each person. A refused call raises
     mobil.Error with a message of one line and changes nothing.

@@ -117,7 +117,7 @@ typedef struct mobil_memory {
 /* Options of a simulation; mobil_defaults writes the defaults. */
 typedef struct mobil_options {
   size_t size;
-  double tick_s;       /* 1e-5 to 1; default 1/60 */
+  double tick_s;       /* 1e-5 to 1; default 1/60. Above 0.25 fast walkers lose distance: one step a tick at most */
   double max_frame_s;  /* tick_s to 60, default 0.25; the time of a frame beyond it is dropped */
   int threads;         /* of the built-in pool, default 1; 0: one for each hardware thread */
   int axes;            /* MOBIL_AXES_… */

@@ -26,28 +26,33 @@ namespace fs = std::filesystem;
 constexpr int max_links = 40;  // as in the kernel
 constexpr std::string_view advice = "choose a folder that exists, is writable and has space";
 
+constexpr std::string_view hidden_start = ".mobil-", hidden_end = ".partial";
+
 /// Short, so that it fits wherever the final name does; hidden, so that it is not taken for a result.
 fs::path temporary_in(const fs::path& folder) {
   static std::atomic<unsigned> count{0};
-  return folder / fmt::format(".mobil-{}-{}.partial", ::getpid(), count++);
+  return folder / fmt::format("{}{}-{}{}", hidden_start, ::getpid(), count++, hidden_end);
 }
 
 fs::path folder_of_file(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Returns the target of the path's links, which need not exist.
+/// Returns the target of the path's links, which need not exist. A path to a device or a pipe stays: links to those in
+/// /proc are not paths.
 Result<fs::path> followed(const fs::path& path) {
   fs::path at = path;
   std::error_code error;
+  if (fs::is_other(fs::status(path, error))) return at;
+  error.clear();
   for (int links = 0; fs::is_symlink(fs::symlink_status(at, error)); ++links) {
-    if (links == max_links) return fail(fmt::format("{}: its links go round in a circle; name a file", path.string()));
+    if (links == max_links) return fail(fmt::format("{}: its links go round in a circle; name a file", shown_path(path).string()));
     const fs::path next = fs::read_symlink(at, error);
     if (error) break;
     at = next.is_absolute() ? next : folder_of_file(at) / next;
   }
   if (error && error != std::errc::no_such_file_or_directory) {
-    return fail(fmt::format("{}: cannot be written ({}); {}", path.string(), error.message(), advice));
+    return fail(fmt::format("{}: cannot be written ({}); {}", shown_path(path).string(), error.message(), advice));
   }
   return at;
 }
@@ -85,22 +90,23 @@ Result<void> move_file(const fs::path& from, OutputFile& place) {
 }  // namespace
 
 Result<OutputFile> OutputFile::at(const fs::path& path) {
+  const std::string shown = shown_path(path).string();
   auto target = followed(path);
   if (!target) return tl::unexpected(target.error());
   std::error_code error;
   const fs::file_status there = fs::status(*target, error);
-  if (fs::is_directory(there)) return fail(fmt::format("{}: a folder has that name; choose another", path.string()));
+  if (fs::is_directory(there)) return fail(fmt::format("{}: a folder has that name; choose another", shown));
   const fs::path folder = folder_of_file(*target);
   if (!fs::is_directory(folder, error)) {
     return fail(
-        fmt::format("{}: cannot be written, there is no folder {}; {}", path.string(), folder.string(), advice));
+        fmt::format("{}: cannot be written, there is no folder {}; {}", shown, folder.string(), advice));
   }
   const bool replaces = fs::exists(there), in_place = replaces && !fs::is_regular_file(there);
   if ((!in_place && ::access(folder.c_str(), W_OK) != 0) || (replaces && ::access(target->c_str(), W_OK) != 0)) {
-    return fail(fmt::format("{}: cannot be written ({}); {}", path.string(), std::strerror(errno), advice));
+    return fail(fmt::format("{}: cannot be written ({}); {}", shown, std::strerror(errno), advice));
   }
   OutputFile file;
-  file.path_ = path;
+  file.path_ = shown;
   file.target_ = std::move(*target);
   file.temporary_ = in_place ? file.target_ : temporary_in(folder);
   file.open_ = !in_place;
@@ -143,6 +149,15 @@ OutputFile::~OutputFile() {
   forget_unfinished(temporary_);
 }
 
+fs::path shown_path(const fs::path& path) {
+  fs::path shown;
+  for (const fs::path& part : path) {
+    const std::string& name = part.native();
+    if (!name.starts_with(hidden_start) || !name.ends_with(hidden_end)) shown /= part;
+  }
+  return shown;
+}
+
 Result<void> write_file(const fs::path& path, std::string_view text) {
   auto file = OutputFile::at(path);
   if (!file) return tl::unexpected(file.error());
@@ -152,7 +167,7 @@ Result<void> write_file(const fs::path& path, std::string_view text) {
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.flush();
     if (!out) {
-      return fail(fmt::format("{}: cannot be written ({}); {}", path.string(),
+      return fail(fmt::format("{}: cannot be written ({}); {}", file->path().string(),
                               errno != 0 ? std::strerror(errno) : "unknown reason", advice));
     }
   }
@@ -164,6 +179,10 @@ Result<OutputFolder> OutputFolder::make(const fs::path& folder) {
   OutputFolder made;
   made.path_ = folder;
   for (fs::path at = folder; !at.empty() && !fs::exists(at, error) && !error; at = at.parent_path()) {
+    if (fs::is_symlink(fs::symlink_status(at, error))) {
+      return fail(fmt::format("{}: leads nowhere, because the link {} has no target; choose another with --out",
+                              folder.string(), at.string()));
+    }
     made.made_ = at;
     if (at == at.parent_path()) break;
   }

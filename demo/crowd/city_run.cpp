@@ -56,7 +56,7 @@ void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::opt
     const auto found = where.find(number);
     if (found == where.end()) continue;
     const auto legs = makes.of(*found->second.first, found->second.second, number);
-    if (!legs) ranks.stop("mobil crowd: --capture: " + legs.error().message);
+    if (!legs) ranks.stop("mobil city: --capture: " + legs.error().message);
     ranks.alive();
     const auto packed = pack_legs(**legs);
     own_legs.put(number);
@@ -70,7 +70,7 @@ void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::opt
       reader.take(number);
       reader.take(size);
       auto one = unpack_legs(reader.take_many<std::byte>(static_cast<std::size_t>(size)));
-      if (!one) ranks.stop("mobil crowd: --capture: " + one.error().message);
+      if (!one) ranks.stop("mobil city: --capture: " + one.error().message);
       legs.emplace(number, std::move(*one));
     }
   }
@@ -80,7 +80,7 @@ void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::opt
   Image image;
   auto done = pictures->draw(camera, seen, drawn, image);
   if (done) done = write_png(file.string(), image, PngEffort::small);
-  if (!done) ranks.stop("mobil crowd: --capture: " + done.error().message);
+  if (!done) ranks.stop("mobil city: --capture: " + done.error().message);
   show("");
   say_written(file);
 }
@@ -120,7 +120,7 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
   std::optional<CrowdCamera> pictures;
   if (!options.capture.empty() && ranks.first()) {
     auto made = CrowdCamera::create();
-    if (!made) ranks.stop("mobil crowd: --capture: " + made.error().message);
+    if (!made) ranks.stop("mobil city: --capture: " + made.error().message);
     pictures = std::move(*made);
   }
   while (cluster.ticks() < run.first_tick + ticks) {
@@ -220,7 +220,7 @@ Result<void> run_city(const CrowdOptions& asked, Ranks& ranks) {
   if (options.cluster.resume && ranks.first()) {
     PlainReader reader(cluster->restored_host());
     reader.take(host);
-    if (!reader.whole()) ranks.stop("mobil crowd: the snapshot is of another version");
+    if (!reader.whole()) ranks.stop("mobil city: the snapshot is of another version");
   }
   if (host.first_tick == Host::unknown) host.first_tick = cluster->ticks();
 
@@ -241,7 +241,7 @@ Result<void> run_city(const CrowdOptions& asked, Ranks& ranks) {
   add_state(*cluster, run, own);
   for (const auto& bytes : ranks.gather(pack(own))) {
     auto part = unpack_part(bytes);
-    if (!part) ranks.stop("mobil crowd: " + part.error().message);
+    if (!part) ranks.stop("mobil city: " + part.error().message);
     run.parts.push_back(std::move(*part));
   }
   Result<void> written;

@@ -314,6 +314,7 @@ int call(const mobil_sim* asked, const char* name, F f) noexcept {
   sim->line.call = name;
   try {
     const InterruptScope interruptible(sim->interrupt);
+    const FloatMode mode;
     return f(*sim);
   } catch (const Interrupted&) {
     return sim->line.refuse(MOBIL_INTERRUPTED, "ended by the function of mobil_set_interrupt");

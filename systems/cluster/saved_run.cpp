@@ -71,14 +71,17 @@ std::vector<std::uint32_t> snapshot_ticks(const fs::path& folder) {
 Result<void> write_whole(const fs::path& path, std::span<const std::byte> bytes) {
   fs::path meanwhile = path;
   meanwhile += ".new";
+  errno = 0;
   std::ofstream out(meanwhile, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   out.close();
-  std::error_code error;
+  std::error_code error(errno, std::generic_category());
   if (out) fs::rename(meanwhile, path, error);
   if (out && !error) return {};
+  const std::string reason = error ? error.message() : "unknown reason";
   fs::remove(meanwhile, error);
-  return fail(fmt::format("{}: cannot be written; choose a folder that is writable and has space", path.string()));
+  return fail(
+      fmt::format("{}: cannot be written ({}); choose a folder that is writable and has space", path.string(), reason));
 }
 
 /// Removes the files of a snapshot, and its folder if that is then empty.

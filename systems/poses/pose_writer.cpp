@@ -180,7 +180,6 @@ void PoseWriter::Work::write_block(std::size_t b) const {
   const auto* pose = own ? &own.at(table, block) : nullptr;
   Pose<Lanes<float>> then;
   if (TableColumn<GaitState>(table) && (ahead_s > 0 || pose == nullptr)) {
-    const FloatMode mode;
     if (ahead_s > 0) {
       walk_on(table, block, ahead_s, then);
     } else {
@@ -219,6 +218,7 @@ PoseWriter::PoseWriter(std::pmr::memory_resource* memory) : places_(memory), blo
 
 Result<void> PoseWriter::write(const World& world, std::span<const Entity> people, double ahead_s,
                                const PoseLayout& layout, const PoseTarget& target, const Jobs& jobs) {
+  const FloatMode mode;
   if (!(ahead_s >= 0 && ahead_s <= furthest_ahead_s))
     return fail(fmt::format("poses: {} s after the last tick; 0 to {} s", ahead_s, furthest_ahead_s));
   if (!(std::fabs(layout.units_per_m) > 1e-6F && std::fabs(layout.units_per_m) < 1e6F))

@@ -61,7 +61,7 @@ Result<void> write_png(const std::string& path, const Image& image, PngEffort ef
     const int reason = errno;
     return fail(
         fmt::format("{}: cannot {} this picture ({}); name a file in a folder that exists, is writable and has room",
-                    path, what, reason != 0 ? std::strerror(reason) : "unknown reason"));
+                    shown_path(path).string(), what, reason != 0 ? std::strerror(reason) : "unknown reason"));
   };
   errno = 0;
   std::FILE* file = std::fopen(place->temporary().c_str(), "wb");

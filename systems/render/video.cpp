@@ -127,6 +127,7 @@ struct VideoWriter::Encoder {
   int width = 0, height = 0, pictures = 0;
   Descriptor pictures_in, log;
   pid_t process = 0;
+  int signal = 0;  // that ended ffmpeg
 
   ~Encoder() {
     if (process <= 0) return;
@@ -142,6 +143,7 @@ struct VideoWriter::Encoder {
     do ended = waitpid(process, &status, 0);
     while (ended < 0 && errno == EINTR);
     forget_started(process);
+    if (ended == process && WIFSIGNALED(status)) signal = WTERMSIG(status);
     const bool content = ended == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     process = 0;
     return content;
@@ -158,7 +160,7 @@ struct VideoWriter::Encoder {
     return fail(
         fmt::format("{}: ffmpeg could not write this film ({}); name a file in a folder that exists, is writable "
                     "and has room",
-                    path, said.empty() ? "it stopped without a word" : said));
+                    path, !said.empty() ? said : signal != 0 ? strsignal(signal) : "it stopped without a word"));
   }
 };
 
@@ -184,7 +186,7 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
   auto place = OutputFile::at(path);
   if (!place) return tl::unexpected(place.error());
   auto encoder = std::make_unique<Encoder>();
-  encoder->path = path;
+  encoder->path = shown_path(path).string();
   encoder->place = std::move(*place);
   encoder->width = width;
   encoder->height = height;

@@ -85,6 +85,7 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
 }
 
 Result<void> SkinWriter::write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs) {
+  const FloatMode mode;
   std::size_t frames = 0;
   for (std::size_t r = 0; r < requests.size(); ++r) {
     if (auto done = check_skin(world, requests[r]); !done)

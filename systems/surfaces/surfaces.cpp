@@ -202,6 +202,7 @@ void SurfaceWriter::write_pieces(void* context, std::size_t begin, std::size_t e
 }
 
 Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceRequest> requests, const Jobs& jobs) {
+  const FloatMode mode;
   person_.clear();
   line_.clear();
   std::size_t pieces = 0, nodes = 0, places = 0;

@@ -87,6 +87,37 @@ TEST_F(Output, ALinkIsFollowedAndStays) {
   }
 }
 
+TEST_F(Output, ALinkWithoutTargetStaysAndIsNamed) {
+  fs::create_symlink(folder / "not mounted", folder / "link");
+  for (const fs::path& path : {folder / "link", folder / "link" / "below" / "more"}) {
+    const auto made = OutputFolder::make(path);
+    ASSERT_FALSE(made.has_value());
+    EXPECT_NE(made.error().message.find("has no target"), std::string::npos) << made.error().message;
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(entries(), 1);
+  }
+}
+
+TEST_F(Output, APipeWithoutANameIsWrittenTo) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  EXPECT_TRUE(write_file("/proc/self/fd/" + std::to_string(ends[1]), "through").has_value());
+  ::close(ends[1]);
+  char got[16] = {};
+  EXPECT_EQ(::read(ends[0], got, sizeof got), 7);
+  EXPECT_STREQ(got, "through");
+  ::close(ends[0]);
+}
+
+TEST_F(Output, MessagesDoNotNameTheHiddenFolder) {
+  auto results = OutputFolder::make(folder / "out");
+  ASSERT_TRUE(results.has_value());
+  const auto refused = write_file(results->inside() / "missing" / "a.txt", "text");
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_TRUE(refused.error().message.starts_with((folder / "out" / "missing" / "a.txt").string()))
+      << refused.error().message;
+}
+
 TEST_F(Output, APipeIsWrittenToAndStays) {
   const fs::path pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -8,6 +8,7 @@
 #include <mobil/avoidance.h>
 #include <mobil/lod.h>
 #include <mobil/muscle_library.h>
+#include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
 #include <mobil/terrain.h>
 #include "tests/labels.h"
@@ -79,6 +80,14 @@ std::vector<std::uint64_t> play() {
   EXPECT_TRUE(other.set_state(all[0], PersonState::full));
   other.tick(5);
   hashes.push_back(other.state_hash());
+  for (const PoseForm form : {PoseForm::place_and_quaternion, PoseForm::matrix, PoseForm::dual_quaternion}) {
+    std::vector<std::byte> poses(sizeof(float) * 16 * segment_count);
+    PoseWriter writer;
+    EXPECT_TRUE(writer.write(other.world(), {&all[1], 1}, 0.01,
+                             {.form = form, .axes = PoseAxes::z_up, .units_per_m = 39.37F, .to_parent = true}, {poses}));
+    for (const std::byte byte : poses)
+      hashes.back() = play::mixed(2, hashes.back() & 0xffffff, static_cast<std::uint64_t>(byte));
+  }
   LegMuscles choice;
   choice.muscles = MuscleSet{3};
   choice.method = Method::modal;

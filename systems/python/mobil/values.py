@@ -101,6 +101,8 @@ def column(
 def spread(array: npt.NDArray[Any], count: int, what: str, width: int = 0, of: str = "person") -> npt.NDArray[Any]:
     """Returns a column of `count` values or rows from an array of one, or of as many."""
     shape = (count, width) if width else (count,)
+    if count == 0 and array.size == 0:
+        return np.empty(shape, array.dtype)
     if array.shape not in (shape[1:], shape):
         wanted = f"the shape {shape}" if width else f"{count}"
         has = f"the shape {array.shape}" if width or array.ndim != 1 else f"{len(array)} values"

@@ -35,6 +35,9 @@ class OutputFile {
   bool open_ = false;                                // not put yet: the destructor removes the temporary file
 };
 
+/// Returns a path as messages name it: without the hidden folder of results that are not complete.
+std::filesystem::path shown_path(const std::filesystem::path& path);
+
 /// Writes the text through an OutputFile. Fails as that does, if not writable or if the disk is full; nothing is left.
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 

@@ -66,18 +66,18 @@ bool all_empty(std::span<const std::string> cells) {
   return std::ranges::all_of(cells, [](const std::string& own) { return own.empty(); });
 }
 
-/// Returns the separator with which the header has the required columns, or else most cells.
-char separator_of(std::string_view header, std::span<const std::string_view> required) {
+/// Returns the separator with which the text's header has the required columns, or else most cells.
+char separator_of(std::string_view whole, std::span<const std::string_view> required) {
   char best = ',';
   std::size_t most = 0;
   for (const char separator : {',', ';', '\t'}) {
-    std::string_view text = header;
+    std::string_view text = whole;
     const auto record = take_record(text, separator);
     if (!record) continue;
     const bool complete = std::ranges::all_of(required, [&](std::string_view wanted) {
       return std::ranges::find(record->cells, wanted) != record->cells.end();
     });
-    const std::size_t cells = record->cells.size() + (complete && !required.empty() ? header.size() : 0);
+    const std::size_t cells = record->cells.size() + (complete && !required.empty() ? whole.size() : 0);
     if (cells > most) {
       most = cells;
       best = separator;
@@ -97,9 +97,10 @@ std::string with_point(std::string text) {
   return text;
 }
 
-/// Takes "sep=;" away, with which a spreadsheet's table can begin.
+/// Takes "sep=;" away, with which a spreadsheet's table can begin, also in quotes.
 std::optional<char> take_separator(std::string_view& text) {
-  const auto line = trimmed(text.substr(0, text.find('\n')));
+  auto line = trimmed(text.substr(0, text.find('\n')));
+  if (line.size() > 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
   if ((!line.starts_with("sep=") && !line.starts_with("SEP=")) || line.size() > 5) return std::nullopt;
   text.remove_prefix(std::min(text.find('\n'), text.size()));
   return line.size() == 5 ? line[4] : '\t';
@@ -116,6 +117,11 @@ std::optional<std::size_t> column(const CsvTable& table, std::string_view name) 
 std::string_view cell(const CsvTable& table, std::size_t row, std::string_view name) {
   const auto at = column(table, name);
   return at ? std::string_view(table.row[row][*at]) : std::string_view();
+}
+
+std::string number_cell(const CsvTable& table, std::size_t row, std::string_view name) {
+  std::string text(cell(table, row, name));
+  return table.decimal_comma ? with_point(std::move(text)) : text;
 }
 
 std::optional<double> number(std::string_view text) {
@@ -137,8 +143,7 @@ Result<CsvTable> parse_csv(std::string_view bytes, std::string_view name, std::s
   std::size_t header_line = 0;
   for (std::size_t line = 1; !text.empty();) {
     const std::size_t own_line = line;
-    const auto ahead = text.substr(0, text.find('\n'));
-    if (!separator && !trimmed(ahead).empty()) separator = separator_of(ahead, required);
+    if (!separator && !trimmed(text.substr(0, text.find('\n'))).empty()) separator = separator_of(text, required);
     auto record = take_record(text, separator.value_or(','));
     if (!record) return fail(fmt::format("{} line {}: a quote is never closed; close it", name, own_line));
     line += record->lines;
@@ -159,12 +164,10 @@ Result<CsvTable> parse_csv(std::string_view bytes, std::string_view name, std::s
                               : *separator == ';' ? "semicolons"
                                                   : "tabs"));
     }
-    if (*separator != ',') {
-      for (auto& own : cells) own = with_point(std::move(own));
-    }
     table.row.push_back(std::move(cells));
     table.line.push_back(own_line);
   }
+  table.decimal_comma = separator.value_or(',') != ',';
   for (const auto column_name : required) {
     if (table.header.empty() || column(table, column_name)) continue;
     return fail(fmt::format("{} line {}: no column '{}'; the header needs {}", name, header_line, column_name,

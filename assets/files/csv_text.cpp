@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace mobil::inline v0_3 {
@@ -43,6 +44,24 @@ std::string from_utf16(std::string_view bytes, bool big) {
   return text;
 }
 
+/// Returns the length of a text's part that is UTF-8.
+std::size_t utf8_length(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto first = static_cast<unsigned char>(text[at]);
+    const std::size_t length = first < 0x80   ? 1
+                               : first < 0xC2 ? 0
+                               : first < 0xE0 ? 2
+                               : first < 0xF0 ? 3
+                               : first < 0xF5 ? 4
+                                              : 0;
+    const auto tail = text.substr(at, length).substr(std::min<std::size_t>(length, 1));
+    const auto is_tail = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; };
+    if (length == 0 || tail.size() + 1 != length || !std::ranges::all_of(tail, is_tail)) return at;
+    at += length;
+  }
+  return text.size();
+}
+
 std::string with_line_feeds(std::string_view text) {
   std::string lines;
   lines.reserve(text.size());
@@ -67,13 +86,20 @@ Result<std::string> csv_text(std::string_view bytes, std::string_view name) {
   } else {
     text = bytes;
   }
+  text.resize(text.find_last_not_of(std::string_view("\0\x1A", 2)) + 1);
   const bool workbook = bytes.starts_with("PK\x03\x04") || bytes.starts_with("\xD0\xCF\x11\xE0");
   if (workbook || text.find('\0') != std::string::npos) {
     return fail(fmt::format(
         "{}: {}; save it as CSV in UTF-8", name,
         workbook ? "a spreadsheet's own format" : "zero bytes in it: no text, or UTF-16 or UTF-32 without its mark"));
   }
-  return with_line_feeds(text);
+  text = with_line_feeds(text);
+  if (const std::size_t good = utf8_length(text); good < text.size()) {
+    return fail(fmt::format("{} line {}: not UTF-8 but another encoding, such as Windows-1252; save it as CSV UTF-8",
+                            name,
+                            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(good), '\n')));
+  }
+  return text;
 }
 
 }  // namespace mobil::inline v0_3

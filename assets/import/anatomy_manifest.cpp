@@ -125,6 +125,15 @@ std::optional<AnatomyKind> kind_of(std::string_view name) {
   return std::nullopt;
 }
 
+/// Returns what a spreadsheet means by a word in any case; an empty cell is a no.
+std::optional<bool> yes_or_no(std::string_view cell) {
+  constexpr std::array<std::string_view, 8> yes = {"yes", "y", "true", "1", "wahr", "ja", "vrai", "oui"};
+  constexpr std::array<std::string_view, 9> no = {"no", "n", "false", "0", "falsch", "nein", "faux", "non", ""};
+  const auto is_cell = [&](std::string_view word) { return same_word(cell, word); };
+  if (std::ranges::any_of(yes, is_cell)) return true;
+  return std::ranges::any_of(no, is_cell) ? std::optional(false) : std::nullopt;
+}
+
 bool wanted(const AnatomyPart& part, const AnatomyOptions& options) {
   if (part.kind == AnatomyKind::bone || part.group) return true;
   if (part.kind == AnatomyKind::skin) return options.skin;
@@ -134,8 +143,8 @@ bool wanted(const AnatomyPart& part, const AnatomyOptions& options) {
 /// Returns a point of three columns PREFIX_x, _y, _z; nothing if the columns or all three cells are empty.
 Result<std::optional<Vec3<float>>> point(const CsvTable& table, std::size_t row, const std::string& prefix,
                                          const MeshFrame& frame) {
-  const std::array<std::string_view, 3> text = {cell(table, row, prefix + "_x"), cell(table, row, prefix + "_y"),
-                                                cell(table, row, prefix + "_z")};
+  std::array<std::string, 3> text;
+  for (std::size_t i = 0; i < 3; ++i) text[i] = number_cell(table, row, prefix + "_" + "xyz"[i]);
   if (text[0].empty() && text[1].empty() && text[2].empty()) return std::optional<Vec3<float>>();
   const auto x = number(text[0]), y = number(text[1]), z = number(text[2]);
   if (!x || !y || !z) {
@@ -171,7 +180,8 @@ using LandmarkPoint = std::array<double, 3>;
 Result<std::optional<LandmarkPoint>> landmark(const CsvTable& table, std::string_view name, std::string_view side) {
   for (std::size_t row = 0; row < table.row.size(); ++row) {
     if (cell(table, row, "name") != name || cell(table, row, "side") != side) continue;
-    const auto x = number(cell(table, row, "x")), y = number(cell(table, row, "y")), z = number(cell(table, row, "z"));
+    const auto x = number(number_cell(table, row, "x")), y = number(number_cell(table, row, "y")),
+               z = number(number_cell(table, row, "z"));
     if (!x || !y || !z) {
       return fail(fmt::format("{} line {}: {} is not three finite numbers; write x, y and z with decimal points",
                               table.path, table.line[row], name));
@@ -276,16 +286,22 @@ Result<std::optional<ManifestRow>> read_row(const CsvTable& table, std::size_t r
   } else if (auto done = read_attachments(table, row, *frame, read.part); !done) {
     return tl::unexpected(done.error());
   }
-  const auto triangles = cell(table, row, "triangles");
+  const auto triangles = number_cell(table, row, "triangles");
   if (!triangles.empty()) {
     const auto count = number(triangles);
-    if (!count || *count < 1 || *count > 1e9) {
-      return fail(fmt::format("{}: triangles '{}' is not a count; write a number from 1, or leave it empty", read.where,
-                              triangles));
+    if (!count || *count < 1 || *count > 1e9 || *count != std::floor(*count)) {
+      return fail(fmt::format("{}: triangles '{}' is not a count; write a whole number from 1, or leave it empty",
+                              read.where, triangles));
     }
     read.triangles = static_cast<std::size_t>(*count);
   }
-  read.watertight = cell(table, row, "watertight") == "yes";
+  const auto watertight = cell(table, row, "watertight");
+  const auto closed = yes_or_no(watertight);
+  if (!closed) {
+    return fail(fmt::format("{}: watertight '{}' is not known; valid: yes, no, true, false, 1, 0, or empty", read.where,
+                            watertight));
+  }
+  read.watertight = *closed;
   return std::optional(std::move(read));
 }
 

@@ -97,7 +97,7 @@ Result<WalkScript> from_table(const CsvTable& table) {
     const auto refuse = [&](const std::string& what) {
       return fail(fmt::format("{} line {}: {}", table.path, table.line[r], what));
     };
-    const auto time_text = cell(table, r, script_columns[0]);
+    const auto time_text = number_cell(table, r, script_columns[0]);
     const auto time = number(time_text);
     if (!time || *time < 0) {
       return refuse(
@@ -108,7 +108,7 @@ Result<WalkScript> from_table(const CsvTable& table) {
                                 script.row.back().time_s));
     }
     std::string parameter(cell(table, r, script_columns[1]));
-    const auto value = read_row_value(parameter, std::string(cell(table, r, script_columns[2])));
+    const auto value = read_row_value(parameter, number_cell(table, r, script_columns[2]));
     if (!value) return refuse(value.error().message);
     if (parameter == "speed" && *value == 0) parameter = "stop";
     for (auto above = script.row.rbegin(); above != script.row.rend() && above->time_s == *time; ++above) {

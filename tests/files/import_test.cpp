@@ -238,6 +238,49 @@ TEST(BadAnatomy, OpenMeshCalledWatertight) {
   expect_refused(folder, {"bones/femur_right.obj", "4 open edges", "watertight"});
 }
 
+TEST(AnatomyFolder, WatertightIsAYesOrNoOfASpreadsheet) {
+  const Folder folder;
+  std::string text = obj(leg.at("bones/femur_right"));
+  text.resize(text.rfind("f "));
+  folder.write("bones/femur_right.obj", text);
+  const auto load = [&](const std::string& word) {
+    folder.write("manifest.csv",
+                 "file,name,side,kind,group,watertight\nbones/femur_right.obj,Femur,right,bone,," + word + "\n");
+    return folder.load();
+  };
+  for (const std::string word : {"yes", "Yes", "y", "TRUE", "True", "1", "WAHR", "ja", "VRAI", "Oui"})
+    EXPECT_TRUE(is_refused(load(word), "bones/femur_right.obj", "4 open edges")) << word;
+  for (const std::string word : {"no", "No", "N", "FALSE", "0", "FALSCH", "nein", "FAUX", "non", ""})
+    EXPECT_TRUE(load(word).has_value()) << word;
+  for (const std::string word : {"perhaps", "2", "yess", "-"})
+    EXPECT_TRUE(is_refused(load(word), "manifest.csv line 2: watertight '" + word + "'", "yes, no")) << word;
+}
+
+TEST(AnatomyFolder, TrianglesAreAWholeNumberInTheTablesSpelling) {
+  const Folder folder;
+  const auto load = [&](const std::string& count) {
+    folder.write("manifest.csv", "file;name;side;kind;group;triangles\nbones/femur_right.obj;;right;bone;;" + count);
+    return folder.load();
+  };
+  for (const std::string count : {"12", "12.0", "12,0", "1.2E+01", "1,2e1", ""}) EXPECT_TRUE(load(count)) << count;
+  for (const std::string count : {"12.7", "12,7", "0", "-12", "12,", "many"})
+    EXPECT_TRUE(is_refused(load(count), "manifest.csv line 2: triangles", "whole number")) << count;
+}
+
+TEST(AnatomyFolder, FileNamesKeepTheirCommas) {
+  const Folder folder;
+  folder.write("1,5 soleus.obj", obj(leg.at("muscles/soleus_right")));
+  for (const std::string file : {"1,5 soleus.obj", "\"1,5 soleus.obj\""}) {
+    folder.write("manifest.csv", "file;name;side;kind;group;origin_x;origin_y;origin_z\n" + file +
+                                     ";1,5 soleus;right;muscle;triceps_surae;-80,5;-40,0;290\n");
+    const auto anatomy = folder.load();
+    ASSERT_TRUE(anatomy.has_value()) << anatomy.error().message;
+    EXPECT_EQ(anatomy->part[0].mesh.name, "1,5 soleus");
+    ASSERT_TRUE(anatomy->part[0].origin_m.has_value());
+    EXPECT_FLOAT_EQ(anatomy->part[0].origin_m->x, -0.0805F);
+  }
+}
+
 TEST(BadAnatomy, Landmarks) {
   const Folder folder;
   const std::string head = "name,side,x,y,z\n", hip = "hip_joint_centre,right,-82,-93,820\n",

@@ -92,7 +92,7 @@ class Tables {
 
 /// Returns a cell that must be a number.
 double value(const CsvTable& table, std::size_t row, std::string_view name) {
-  if (const auto read = number(cell(table, row, name))) return *read;
+  if (const auto read = number(number_cell(table, row, name))) return *read;
   throw Stopped(
       fmt::format("{}:{}: {} '{}' is not a number", table.path, table.line[row], name, cell(table, row, name)));
 }
@@ -111,7 +111,7 @@ std::vector<std::size_t> rows_of_class(const CsvTable& table, std::string_view c
     if (cell(table, r, column_name) == class_name) rows.push_back(r);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (number(cell(table, rows[i], "percent_gait")) != 2.0 * static_cast<double>(i)) rows.clear();
+    if (number(number_cell(table, rows[i], "percent_gait")) != 2.0 * static_cast<double>(i)) rows.clear();
   }
   if (rows.size() == cycle_points) return rows;
   throw Stopped(fmt::format("{}: {} {} needs the {} rows of percent_gait 0, 2, … 100 in order", table.path, column_name,

@@ -18,7 +18,7 @@ Result<ForceHistory> from_table(const CsvTable& table) {
   for (std::size_t r = 0; r < table.row.size(); ++r) {
     std::array<double, 4> value{};
     for (std::size_t c = 0; c < value.size(); ++c) {
-      const auto text = cell(table, r, force_columns[c]);
+      const auto text = number_cell(table, r, force_columns[c]);
       const auto read = number(text);
       if (!read) {
         return fail(fmt::format("{} line {}: {} '{}' is not a finite number; write one", table.path, table.line[r],

@@ -19,13 +19,14 @@ struct CsvTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> row;
   std::vector<std::size_t> line;
+  bool decimal_comma = false;  // numbers can have one
 };
 
 /// Reads cells between commas, semicolons or tabs, whichever give the header its columns; between the latter two,
-/// numbers can have a decimal comma, which becomes a point. Cells in double quotes can have separators, line ends and
-/// doubled quotes inside. Reads UTF-8, UTF-16 with a mark, and lines that end with LF, CRLF or CR; skips rows without
-/// any text. Fails on other bytes, a table without rows, a missing column of `required`, an open quote, or a row that
-/// is not as wide as the header.
+/// numbers can have a decimal comma. Cells in double quotes can have separators, line ends and doubled quotes inside.
+/// Reads UTF-8, UTF-16 with a mark, and lines that end with LF, CRLF or CR; skips rows without any text. Fails on other
+/// bytes, a table without rows, a missing column of `required`, an open quote, or a row that is not as wide as the
+/// header.
 Result<CsvTable> parse_csv(std::string_view bytes, std::string_view name, std::span<const std::string_view> required);
 
 /// Reads a table from a file. Also fails if the file cannot be read.
@@ -37,7 +38,10 @@ std::optional<std::size_t> column(const CsvTable& table, std::string_view name);
 /// Returns the cell, or nothing if the column is absent.
 std::string_view cell(const CsvTable& table, std::size_t row, std::string_view name);
 
-/// Returns the whole cell as a finite number, with or without a sign, or nothing.
+/// Returns the cell with a point for the decimal comma that the number at its beginning can have.
+std::string number_cell(const CsvTable& table, std::size_t row, std::string_view name);
+
+/// Returns the whole text as a finite number, with or without a sign, or nothing.
 std::optional<double> number(std::string_view text);
 
 }  // namespace mobil::inline v0_3

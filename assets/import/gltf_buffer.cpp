@@ -72,14 +72,20 @@ std::string data_of_uri(const GltfItem& item, std::string_view uri) {
 }
 
 std::string bytes_of_file(const GltfFile& file, const GltfItem& item, std::string_view uri, std::size_t length) {
-  const std::string name = without_percents(uri);
+  std::string name = without_percents(uri);
   if (file.folder.empty()) {
     gltf_fault(item,
                fmt::format("its data is in {}; read it from a file, or export it as .glb", shown(name, name_length)));
   }
-  const auto path = file_below(file.folder, name);
+  auto path = file_below(file.folder, name);
   if (!path) gltf_fault(item, path.error().message);
   std::error_code error;
+  if (!fs::is_regular_file(*path, error)) {  // some exporters write a name as it is
+    if (auto raw = file_below(file.folder, uri); raw && fs::is_regular_file(*raw, error)) {
+      path = std::move(raw);
+      name = uri;
+    }
+  }
   if (!fs::is_regular_file(*path, error)) {
     gltf_fault(item, fmt::format("no file {} in the mesh's folder; put it there, or export the mesh as .glb",
                                  shown(name, name_length)));

@@ -48,6 +48,10 @@ std::string_view json_chunk(std::string_view bytes, GltfFile& file) {
     throw GltfFault{
         fmt::format("{} bytes where its head says {}; the file is cut short: copy it again", bytes.size(), length)};
   }
+  if (length < glb_head + chunk_head) {
+    throw GltfFault{fmt::format("its head says {} bytes in all; valid: {} to the file's {}: export it again", length,
+                                glb_head + chunk_head, bytes.size())};
+  }
   bytes = bytes.substr(0, length);
   std::optional<std::string_view> text;
   for (std::size_t at = glb_head; at + chunk_head <= bytes.size();) {

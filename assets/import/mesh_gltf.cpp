@@ -123,6 +123,7 @@ struct Shown {
   const json& attributes;
   const GltfItem& mesh;
   std::vector<Vector3d> place;
+  std::vector<bool> mirrored;  // for each vertex
 };
 
 std::optional<std::size_t> attribute(const Shown& shown, const std::string& name) {
@@ -156,38 +157,49 @@ void add_targets(GltfFile& file, const GltfItem& node, const json& primitive, Sh
   }
 }
 
-/// Moves the vertices with their joints. Returns whether these mirror the mesh.
-bool move_with_joints(GltfFile& file, const std::vector<Affine3d>& matrix, Shown& shown) {
-  std::vector<Vector3d> sum(shown.place.size(), Vector3d::Zero());
-  std::vector<double> whole(shown.place.size());  // sums of weights, 1 within rounding
-  bool mirrored = false;
-  for (std::size_t set = 0;; ++set) {
-    const auto joints = attribute(shown, fmt::format("JOINTS_{}", set));
-    const auto weights = attribute(shown, fmt::format("WEIGHTS_{}", set));
+/// Four joints of each vertex, and their weights.
+struct Influences {
+  std::vector<float> weight;
+  std::vector<std::uint32_t> joint;
+};
+
+/// Moves each vertex with the weighted mean of its joints' matrices, which decides whether it is mirrored.
+void move_with_joints(GltfFile& file, const std::vector<Affine3d>& matrix, Shown& shown) {
+  std::vector<Influences> sets;
+  for (;;) {
+    const auto joints = attribute(shown, fmt::format("JOINTS_{}", sets.size()));
+    const auto weights = attribute(shown, fmt::format("WEIGHTS_{}", sets.size()));
     if (!joints || !weights) break;
-    const auto weight = vertex_floats(file, shown, *weights, 4);
-    const auto joint = gltf_indices(file, *joints, 4);
-    if (joint.size() != weight.size()) gltf_fault(shown.mesh, different_counts);
-    for (std::size_t i = 0; i < joint.size(); ++i) {
-      if (weight[i] == 0) continue;
-      if (joint[i] >= matrix.size()) {
-        gltf_fault(shown.mesh,
-                   fmt::format("joint {}; valid: below {}, as its skin has: export it again", joint[i], matrix.size()));
+    sets.push_back({vertex_floats(file, shown, *weights, 4), gltf_indices(file, *joints, 4)});
+    if (sets.back().joint.size() != sets.back().weight.size()) gltf_fault(shown.mesh, different_counts);
+  }
+  shown.mirrored.assign(shown.place.size(), false);
+  for (std::size_t v = 0; v < shown.place.size(); ++v) {
+    Affine3d sum = Affine3d::Identity();
+    sum.affine().setZero();
+    double whole = 0;  // 1 within rounding
+    for (const Influences& set : sets) {
+      for (std::size_t i = 4 * v; i < 4 * v + 4; ++i) {
+        if (set.weight[i] == 0) continue;
+        const std::size_t joint = set.joint[i];
+        if (joint >= matrix.size()) {
+          gltf_fault(shown.mesh,
+                     fmt::format("joint {}; valid: below {}, as its skin has: export it again", joint, matrix.size()));
+        }
+        const auto share = static_cast<double>(set.weight[i]);
+        sum.affine() += share * matrix[joint].affine();
+        whole += share;
       }
-      const auto share = static_cast<double>(weight[i]);
-      sum[i / 4] += share * (matrix[joint[i]] * shown.place[i / 4]);
-      whole[i / 4] += share;
-      mirrored = matrix[joint[i]].linear().determinant() < 0;
     }
+    if (!(whole > 0)) continue;
+    sum.affine() /= whole;
+    shown.place[v] = sum * shown.place[v];
+    shown.mirrored[v] = sum.linear().determinant() < 0;
   }
-  for (std::size_t v = 0; v < sum.size(); ++v) {
-    if (whole[v] > 0) shown.place[v] = sum[v] / whole[v];
-  }
-  return mirrored;
 }
 
-/// Adds the triangles of a primitive, whose vertices begin at `first`.
-void add_triangles(const Shown& shown, std::vector<std::uint32_t> corner, std::size_t mode, bool turned, RawMesh& raw) {
+/// Adds the triangles of a primitive. A triangle is turned if most of its corners are mirrored.
+void add_triangles(const Shown& shown, std::vector<std::uint32_t> corner, std::size_t mode, RawMesh& raw) {
   constexpr std::size_t triangles = 4, strip = 5;
   if (mode == triangles && corner.size() % 3 != 0) {
     gltf_fault(shown.mesh,
@@ -215,8 +227,11 @@ void add_triangles(const Shown& shown, std::vector<std::uint32_t> corner, std::s
       raw.triangle.insert(raw.triangle.end(), {corner[c - 1], corner[c], corner[0]});
     }
   }
-  for (std::size_t t = begin; turned && t < raw.triangle.size(); t += 3)
-    std::swap(raw.triangle[t], raw.triangle[t + 1]);
+  for (std::size_t t = begin; t < raw.triangle.size(); t += 3) {
+    int mirrored = 0;
+    for (std::size_t c = t; c < t + 3; ++c) mirrored += shown.mirrored[raw.triangle[c] - first] ? 1 : 0;
+    if (mirrored >= 2) std::swap(raw.triangle[t], raw.triangle[t + 1]);
+  }
 }
 
 /// A node, the place of its mesh, and the matrices of its skin.
@@ -233,7 +248,7 @@ void add_primitive(GltfFile& file, const ShownNode& by, const GltfItem& mesh, co
   const auto mode = *gltf_whole(item, "mode", 4);
   if (mode > 6) gltf_fault(mesh, fmt::format("a primitive of mode {}; valid: 0 to 6: export it again", mode));
   if (mode < 4 || attributes == nullptr) return;  // points and lines
-  Shown shown{*attributes, mesh, {}};
+  Shown shown{*attributes, mesh, {}, {}};
   const auto positions = attribute(shown, "POSITION");
   if (!positions) return;
   const json* extensions = gltf_member(primitive, "extensions");
@@ -251,12 +266,11 @@ void add_primitive(GltfFile& file, const ShownNode& by, const GltfItem& mesh, co
     shown.place.push_back(Eigen::Map<const Eigen::Vector3f>(&values[3 * v]).cast<double>());
   }
   add_targets(file, by.node, primitive, shown);
-  bool turned = false;
   if (by.joints != nullptr) {
-    turned = move_with_joints(file, *by.joints, shown);
+    move_with_joints(file, *by.joints, shown);
   } else {
     for (auto& p : shown.place) p = by.world * p;
-    turned = by.world.linear().determinant() < 0;
+    shown.mirrored.assign(count, by.world.linear().determinant() < 0);
   }
   std::vector<std::uint32_t> corner;
   if (const auto indices = gltf_whole(item, "indices")) {
@@ -264,7 +278,7 @@ void add_primitive(GltfFile& file, const ShownNode& by, const GltfItem& mesh, co
   } else {
     for (std::uint32_t v = 0; v < count; ++v) corner.push_back(v);
   }
-  add_triangles(shown, std::move(corner), mode, turned, raw);
+  add_triangles(shown, std::move(corner), mode, raw);
   for (std::size_t v = 0; v < count; ++v) {
     const auto p = shown.place[v].cast<float>().eval();
     if (!p.allFinite()) {
@@ -276,7 +290,8 @@ void add_primitive(GltfFile& file, const ShownNode& by, const GltfItem& mesh, co
   }
 }
 
-RawMesh read_scene(GltfFile& file) {
+/// Adds a line to `said` if a node stands for several copies of its mesh.
+RawMesh read_scene(GltfFile& file, std::vector<std::string>& said) {
   const GltfNodes nodes = place_nodes(file);
   RawMesh raw;
   std::vector<std::vector<Affine3d>> joints(gltf_count(file, "skins"));
@@ -286,6 +301,11 @@ RawMesh read_scene(GltfFile& file) {
     const auto shown = gltf_whole(node, "mesh"), skinned = gltf_whole(node, "skin");
     if (!shown) continue;
     const GltfItem mesh = gltf_item(file, "meshes", *shown);
+    const json* extensions = gltf_member(node.value, "extensions");
+    if (said.empty() && extensions != nullptr && gltf_member(*extensions, "EXT_mesh_gpu_instancing") != nullptr) {
+      said.push_back(
+          fmt::format("nodes[{}] has copies of its mesh by EXT_mesh_gpu_instancing, which are not read", index));
+    }
     if (skinned) {
       const GltfItem skin = gltf_item(file, "skins", *skinned);
       if (joints[*skinned].empty()) joints[*skinned] = joint_matrices(file, nodes, skin);
@@ -303,14 +323,17 @@ RawMesh read_scene(GltfFile& file) {
 
 Result<MeshFile> read_gltf(std::string_view bytes, std::string_view path, const std::filesystem::path& folder) try {
   GltfFile file = open_gltf(bytes, folder);
-  RawMesh raw = read_scene(file);
+  std::vector<std::string> said;
+  RawMesh raw = read_scene(file, said);
   if (raw.triangle.empty()) {
     return fail(
         fmt::format("{}: its scene shows no triangle; export it with nodes, and triangles rather than points, "
                     "lines or curves",
                     path));
   }
-  return join_mesh(std::move(raw), path);
+  auto joined = join_mesh(std::move(raw), path);
+  if (joined) joined->said.insert(joined->said.end(), said.begin(), said.end());
+  return joined;
 } catch (const GltfFault& fault) {
   return fail(fmt::format("{}: {}", path, fault.line));
 } catch (const nlohmann::json::exception&) {

@@ -125,6 +125,38 @@ TEST(GltfReader, SkinnedMeshFollowsItsJointsAndNotItsNode) {
   expect_refused(without, "nodes[9] is missing");
 }
 
+/// Two boxes, of which each follows a joint of its own; a weight of the other one comes last.
+TEST(GltfReader, JointsThatMirrorOneSideTurnItsTrianglesOnly) {
+  for (const bool first : {false, true}) {
+    test::TestMesh mesh = test::box();
+    for (const auto& p : test::box().position) mesh.position.emplace_back(p.x() - 1, p.y(), p.z());
+    for (auto t : test::box().triangle) mesh.triangle.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+    Gltf file = test::gltf_of(mesh);
+    std::string joints, weights;
+    for (std::uint8_t v = 0; v < 16; ++v) {
+      for (const int joint : {v / 8, 0, 0, 1 - v / 8}) test::put(joints, static_cast<std::uint8_t>(joint));
+      for (const float weight : {0.75F, 0.0F, 0.0F, 0.25F}) test::put(weights, weight);
+    }
+    file.add(joints, R"("componentType":5121,"count":16,"type":"VEC4")");
+    file.add(weights, R"("componentType":5126,"count":16,"type":"VEC4")");
+    const std::string plain = "{}", mirror = R"({"scale":[1,1,-1]})";
+    file.nodes = R"({"mesh":0,"skin":0,"children":[1,2]},)" + (first ? mirror + "," + plain : plain + "," + mirror);
+    file.primitive = R"("attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1)";
+    file.more = R"(,"skins":[{"joints":[1,2]}])";
+    expect_box(file, 672, {-590, 710, 0});  // half of 1344, as z is halved
+  }
+}
+
+TEST(GltfReader, CopiesThatAreNotReadAreReported) {
+  Gltf file = with_nodes(R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}})");
+  file.more = R"(,"extensionsUsed":["EXT_mesh_gpu_instancing"])";
+  const auto read = read_mesh_bytes(file.text(), "a.gltf");
+  expect_box(read);
+  ASSERT_EQ(read->said.size(), 1U);
+  EXPECT_EQ(read->said[0], "nodes[0] has copies of its mesh by EXT_mesh_gpu_instancing, which are not read");
+  EXPECT_TRUE(read_mesh_bytes(box_file().text(), "a.gltf")->said.empty());
+}
+
 TEST(GltfReader, MorphTargetsHaveTheirDefaultWeights) {
   Gltf file = box_file();
   std::string moved;
@@ -267,6 +299,12 @@ TEST(GltfReader, BuffersAreFoundInTheFolderByTheirDecodedName) {
     Gltf outside = file;
     EXPECT_TRUE(is_refused(read_mesh_bytes(outside.json(uri), "a.gltf"), "buffers[0]", "export it as .glb"));
   }
+  for (const char* name : {"a%20b.bin", "100%ab.bin"}) {  // also as they are, if no decoded one is there
+    folder.write(name, file.bytes);
+    expect_box(read_mesh(folder.write("a.gltf", file.json(name))));
+  }
+  folder.write("a b.bin", std::string(file.bytes.size(), '\0'));
+  EXPECT_TRUE(is_refused(read_mesh(folder.write("a.gltf", file.json("a%20b.bin"))), "no triangle"));
   fs::create_directory_symlink(folder.path / "parts", folder.path / "linked");
   expect_box(read_mesh(folder.write("a.gltf", file.json("linked/b.bin"))));
 }
@@ -403,6 +441,9 @@ TEST(GltfReaderRefuses, DeepAndWideJsonAndCutChunks) {
   std::string old = glb;
   old[4] = 1;
   refused(old, "GLB version 1");
+  std::string unsized_glb = glb;
+  unsized_glb.replace(8, 4, std::string(4, '\0'));
+  refused(unsized_glb, fmt::format("its head says 0 bytes in all; valid: 20 to the file's {}", glb.size()));
   // Few bytes that name the same numbers many times.
   Gltf many;
   many.accessors = R"({"componentType":5126,"count":1000000,"type":"VEC3"})";

@@ -17,7 +17,7 @@ namespace mobil::inline v0_3 {
 struct MeshFile {
   SurfaceMesh mesh;
   std::size_t triangles_in_file = 0;
-  std::vector<std::string> said;  // a line about faces that cross themselves
+  std::vector<std::string> said;  // lines about faces that cross themselves, and copies that are not read
 };
 
 /// Maximum size and number of triangles of a file.

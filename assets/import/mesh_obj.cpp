@@ -40,7 +40,7 @@ bool pass_over(MeshText& text) {
     const std::size_t before = text.at;
     if (!next_line(text)) return false;
     auto line = text.bytes.substr(before, text.at - before);
-    line = line.substr(0, line.find_last_not_of("\r\n") + 1);
+    line = line.substr(0, line.find_last_not_of(" \t\r\n") + 1);
     MeshText ahead = text;
     const auto word = next_word(ahead);
     continues = line.ends_with('\\') && !word.empty() && word.front() != '#' &&
@@ -137,7 +137,7 @@ Result<void> read_obj_face(ObjReader& reader) {
 }  // namespace
 
 Result<MeshFile> read_obj(std::string_view bytes, std::string_view path) {
-  ObjReader reader{.text = mesh_text(bytes, true), .path = path, .raw = {}, .corner = {}};
+  ObjReader reader{.text = mesh_text(without_filling(bytes), true), .path = path, .raw = {}, .corner = {}};
   for (bool more = true; more;) {
     const auto word = next_word(reader.text);
     Result<void> done;

@@ -251,10 +251,11 @@ Result<void> check_elements(const PlyHeader& header, PlyReader& reader) {
 }  // namespace
 
 Result<MeshFile> read_ply(std::string_view bytes, std::string_view path) {
-  PlyReader reader{.text = {bytes}, .path = path, .raw = {}, .value = {}, .corner = {}};
+  PlyReader reader{.text = mesh_text(bytes), .path = path, .raw = {}, .value = {}, .corner = {}};
   const auto header = read_ply_header(reader.text, path);
   if (!header) return tl::unexpected(header.error());
   reader.format = header->format;
+  if (reader.format == PlyFormat::ascii) reader.text.bytes = without_filling(bytes);
   if (auto done = check_elements(*header, reader); !done) return tl::unexpected(done.error());
   bool first = true;
   for (const auto& element : header->element) {

@@ -36,14 +36,23 @@ std::size_t counted_facets(std::string_view bytes) {
   return bytes.size() < stl_head ? 0 : little_endian(bytes, stl_head - 4);
 }
 
+/// Returns the next word of any line; `#` begins a comment, which some programs write.
+std::string_view next_stl_word(MeshText& text) {
+  for (;;) {
+    const auto word = next_word_of_any_line(text);
+    if (!word.starts_with('#')) return word;
+    if (!next_line(text)) return {};
+  }
+}
+
 /// Binary files can begin with "solid", too. Their count of facets fits their size, while four characters of a text
 /// count more facets than a file can have. A damaged count does not fit; bytes that no text has then decide.
 bool is_text_stl(std::string_view bytes) {
   const std::size_t facets = counted_facets(bytes);
   if (facets > 0 && stl_head + stl_facet * facets <= bytes.size()) return false;
-  MeshText text = mesh_text(bytes);
-  const bool solid = same_word(next_word_of_any_line(text), "solid");
-  return solid && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
+  MeshText text = mesh_text(without_filling(bytes));
+  const bool solid = same_word(next_stl_word(text), "solid");
+  return solid && text.bytes.substr(0, 1024).find('\0') == std::string_view::npos;
 }
 
 Result<MeshFile> read_binary_stl(std::string_view bytes, std::string_view path) {
@@ -97,7 +106,7 @@ struct StlReader {
 
 /// Reads a word of the grammar; line ends do not matter.
 Result<void> expect(StlReader& reader, std::string_view wanted) {
-  const auto word = next_word_of_any_line(reader.text);
+  const auto word = next_stl_word(reader.text);
   if (same_word(word, wanted)) return {};
   return fault_in_line(reader.path, reader.text.line,
                        word.empty()
@@ -110,7 +119,7 @@ Result<void> expect(StlReader& reader, std::string_view wanted) {
 Result<void> read_facet(StlReader& reader) {
   if (auto done = expect(reader, "normal"); !done) return done;
   for (int i = 0; i < 3; ++i) {
-    const auto word = next_word_of_any_line(reader.text);
+    const auto word = next_stl_word(reader.text);
     if (!is_number(word)) {
       return fault_in_line(reader.path, reader.text.line,
                            fmt::format("{} in a normal is not a number; export the mesh again", shown(word)));
@@ -122,7 +131,7 @@ Result<void> read_facet(StlReader& reader) {
   for (auto& p : corner) {
     if (auto done = expect(reader, "vertex"); !done) return done;
     for (float* value : {&p.x, &p.y, &p.z}) {
-      const auto word = next_word_of_any_line(reader.text);
+      const auto word = next_stl_word(reader.text);
       const auto number = coordinate(word);
       if (!number) {
         return fault_in_line(
@@ -140,13 +149,33 @@ Result<void> read_facet(StlReader& reader) {
   return {};
 }
 
-/// Reads from after "solid" to the end of the line of "endsolid".
+/// Moves past a solid's name: to the next line, or to a facet on the same one. Returns whether there is one.
+bool pass_name(MeshText& text) {
+  for (MeshText ahead = text;;) {
+    const MeshText before = ahead;
+    MeshText facet = ahead;
+    if (next_word(ahead).empty()) break;
+    bool begins = true;
+    for (const std::string_view wanted : {"facet", "normal", "", "", "", "outer"}) {
+      const auto own = begins ? next_word(facet) : std::string_view();
+      begins = wanted.empty() ? is_number(own) : same_word(own, wanted);
+    }
+    if (!begins) continue;
+    text = before;
+    return true;
+  }
+  next_line(text);
+  return false;
+}
+
+/// Reads from after "solid" to the end of the line of "endsolid", or of several solids on one line.
 Result<void> read_solid(StlReader& reader) {
-  next_line(reader.text);  // the rest of the line is a name
+  pass_name(reader.text);
   for (;;) {
-    const auto word = next_word_of_any_line(reader.text);
-    if (same_word(word, "endsolid")) {
-      next_line(reader.text);
+    const auto word = next_stl_word(reader.text);
+    MeshText ahead = reader.text;
+    if (same_word(word, "endsolid") || (same_word(word, "end") && same_word(next_word(ahead), "solid"))) {
+      if (pass_name(reader.text)) continue;
       return {};
     }
     if (!same_word(word, "facet")) {
@@ -165,8 +194,8 @@ Result<void> read_solid(StlReader& reader) {
 
 Result<MeshFile> read_stl(std::string_view bytes, std::string_view path) {
   if (!is_text_stl(bytes)) return read_binary_stl(bytes, path);
-  StlReader reader{.text = mesh_text(bytes), .path = path, .raw = {}};
-  for (auto word = next_word_of_any_line(reader.text); !word.empty(); word = next_word_of_any_line(reader.text)) {
+  StlReader reader{.text = mesh_text(without_filling(bytes)), .path = path, .raw = {}};
+  for (auto word = next_stl_word(reader.text); !word.empty(); word = next_stl_word(reader.text)) {
     if (!same_word(word, "solid")) {
       return fault_in_line(path, reader.text.line,
                            fmt::format("{} after 'endsolid'; take it away, or export the mesh again", shown(word)));

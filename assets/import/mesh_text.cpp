@@ -1,5 +1,6 @@
 #include "assets/import/mesh_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -20,14 +21,13 @@ std::size_t end_length(std::string_view bytes, std::size_t at) {
   return bytes[at] == '\r' && at + 1 < bytes.size() && bytes[at + 1] == '\n' ? 2 : 1;
 }
 
-/// Skips a backslash and the end of its line, if lines can continue.
-bool skip_continuation(MeshText& text) {
-  if (!text.continued || text.at >= text.bytes.size() || text.bytes[text.at] != '\\') return false;
-  const std::size_t end = end_length(text.bytes, text.at + 1);
-  if (end == 0) return false;
-  text.at += 1 + end;
-  ++text.line;
-  return true;
+/// Returns the bytes of a backslash at the end of its line, with that end, or 0.
+std::size_t continuation_length(const MeshText& text) {
+  if (!text.continued || text.bytes[text.at] != '\\') return 0;
+  std::size_t end = text.at + 1;
+  while (end < text.bytes.size() && is_blank(text.bytes[end])) ++end;
+  const std::size_t length = end_length(text.bytes, end);
+  return length == 0 ? 0 : end + length - text.at;
 }
 
 /// from_chars takes no plus sign.
@@ -43,14 +43,21 @@ MeshText mesh_text(std::string_view bytes, bool continued) {
   return {bytes, bytes.starts_with(mark) ? mark.size() : 0, 1, continued};
 }
 
+std::string_view without_filling(std::string_view bytes) {
+  return bytes.substr(0, bytes.find_last_not_of(std::string_view("\0\x1A", 2)) + 1);
+}
+
 std::string_view next_word(MeshText& text) {
   const auto& bytes = text.bytes;
-  while (text.at < bytes.size() && (is_blank(bytes[text.at]) || skip_continuation(text))) {
-    if (text.at < bytes.size() && is_blank(bytes[text.at])) ++text.at;
+  while (text.at < bytes.size()) {
+    const std::size_t continuation = continuation_length(text);
+    if (continuation == 0 && !is_blank(bytes[text.at])) break;
+    text.at += std::max<std::size_t>(continuation, 1);
+    text.line += continuation > 0 ? 1 : 0;
   }
   const std::size_t first = text.at;
   while (text.at < bytes.size() && !is_blank(bytes[text.at]) && !ends_line(bytes[text.at])) {
-    if (text.continued && bytes[text.at] == '\\' && end_length(bytes, text.at + 1) > 0) break;
+    if (continuation_length(text) > 0) break;
     ++text.at;
   }
   return bytes.substr(first, text.at - first);

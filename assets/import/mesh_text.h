@@ -13,11 +13,14 @@ struct MeshText {
   std::string_view bytes;
   std::size_t at = 0;
   std::size_t line = 1;
-  bool continued = false;  // a backslash before a line's end continues the words that are read
+  bool continued = false;  // a backslash at a line's end continues the words that are read
 };
 
 /// Returns the text after a UTF-8 mark at the beginning, if there is one.
 MeshText mesh_text(std::string_view bytes, bool continued = false);
+
+/// Returns the text without the zeros and Ctrl-Z with which some programs end or fill a file.
+std::string_view without_filling(std::string_view bytes);
 
 /// Returns the next word of the current line; empty at its end.
 std::string_view next_word(MeshText& text);

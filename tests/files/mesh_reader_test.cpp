@@ -143,7 +143,7 @@ RC_GTEST_PROP(MeshReader, ObjIsReadInEverySpellingOfItsGrammar, ()) {
   const int corner_form = *rc::gen::inRange(0, 4);
   const bool backwards = *rc::gen::arbitrary<bool>(), continued = *rc::gen::arbitrary<bool>();
   const std::string extra = *rc::gen::element<std::string>("", " 1", " 0.5 .25 1e-3", " 1 0 0 +0.5", " # a vertex");
-  const std::string on = continued ? " \\" + end : gap;
+  const std::string on = continued ? " \\" + *rc::gen::element<std::string>("", " ", "\t ") + end : gap;
   std::string text = "\xEF\xBB\xBF# made up" + end + "mtllib a.mtl" + end + "o thing" + end;
   for (const auto& p : mesh.position) {
     text += "v" + gap + fmt::format("{}", p.x()) + on + fmt::format("{}", p.y()) + gap + fmt::format("{:e}", p.z()) +
@@ -252,6 +252,50 @@ TEST(MeshReader, BinaryStlIsKnownByItsSizeAndTextByItsWords) {
   expect_refused("a.stl", "\xFF\xFEs\0", "UTF-16");
 }
 
+TEST(MeshReader, TextStlIsReadInEverySpellingOfItsGrammar) {
+  const TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 3, 5);
+  const std::string text = test::stl_text(mesh);
+  const auto replaced = [](std::string whole, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = whole.find(from, at)) != std::string::npos; at += to.size())
+      whole.replace(at, from.size(), to);
+    return whole;
+  };
+  const std::string one_line = replaced(text, "\n", " ");
+  for (const std::string& spelling :
+       {one_line, one_line + "\n", replaced(text, "endsolid", "end solid"), replaced(one_line, "endsolid", "END SOLID"),
+        "# made up\n" + text, "#\n\n # cut short\r\n" + text + "# end", replaced(text, "\n", "\n# facet normal\n"),
+        replaced(text, "\n", " # solid\n"), replaced(text, "solid", "solid facet normal")}) {
+    const auto read = read_mesh_bytes(spelling, "a.stl");
+    ASSERT_TRUE(read.has_value()) << read.error().message << spelling.substr(0, 200);
+    EXPECT_EQ(largest_difference(corners(*read), corners(mesh)), 0.0) << spelling.substr(0, 200);
+  }
+  EXPECT_EQ(read_mesh_bytes(one_line + one_line, "a.stl")->triangles_in_file, 2 * mesh.triangle.size());
+  expect_refused("a.stl", one_line.substr(0, one_line.find("endsolid")), "no 'endsolid'");
+}
+
+TEST(MeshReader, ZerosAndCtrlZBehindTextAreIgnored) {
+  const TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 3, 5);
+  for (const std::string& tail : {std::string("\x1A"), std::string("\0\0\0", 3), std::string("\n\x1A\0", 3)}) {
+    for (const auto& [path, bytes] :
+         {std::pair{"a.obj", test::obj_text(mesh)}, std::pair{"a.stl", test::stl_text(mesh)},
+          std::pair{"a.ply", test::ply_text(mesh)}}) {
+      const auto read = read_mesh_bytes(bytes + tail, path);
+      ASSERT_TRUE(read.has_value()) << read.error().message;
+      EXPECT_EQ(largest_difference(corners(*read), corners(mesh)), 0.0) << path;
+    }
+  }
+}
+
+TEST(MeshReader, EveryTextCanBeginWithAUtf8Mark) {
+  const TestMesh mesh = test::capsule({0, 0, 0}, 10, 40, 3, 5);
+  for (const auto& [path, bytes] : every_format(mesh)) {
+    if (path == "b.STL") continue;
+    const auto read = read_mesh_bytes("\xEF\xBB\xBF" + bytes, path);
+    ASSERT_TRUE(read.has_value()) << read.error().message;
+    EXPECT_EQ(largest_difference(corners(*read), corners(mesh)), 0.0) << path;
+  }
+}
+
 /// Two boxes of 672 cm³; the first corner of the second follows a line that ends in a backslash.
 std::string two_boxes(const std::string& line) {
   std::string text;
@@ -268,7 +312,8 @@ TEST(MeshReader, ObjLinesThatArePassedOverEndWithTheirLine) {
   for (const std::string line :
        {"# from C:\\bones\\\n", "#\\\n", "g C:\\bones\\\n", "o a \\\n", "mtllib C:\\bones\\\r\n", "usemtl \\\n",
         "s \\\n", "g a \\\n b c \\\n d\n", "parm u 0 1 \\\n 2 3\n", "vt 0 \\\n 0\n", "vn 0 \\\n0 1 \\\n", "l 1 2 \\\n",
-        "p 1\n", "v 0 0 0 # 1 2 3 \\\n", "f 1 1 2 # \\\n", "curv2 1 \\\n# \\\n", "cstype bezier\ndeg 3\n"}) {
+        "p 1\n", "v 0 0 0 # 1 2 3 \\\n", "f 1 1 2 # \\\n", "curv2 1 \\\n# \\\n", "vt 0 \\ \t\n 0\n", "g C:\\bones\\ \n",
+        "cstype bezier\ndeg 3\n"}) {
     const auto read = read_mesh_bytes(two_boxes(line), "a.obj");
     ASSERT_TRUE(read.has_value()) << read.error().message << line;
     EXPECT_NEAR(enclosed_volume(read->mesh), 0.001344, 2e-9) << line;

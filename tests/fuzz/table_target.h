@@ -17,7 +17,7 @@ inline void fuzz_table(Input input) {
     promise(table->line.size() == table->row.size(), "every row has its line");
     for (std::size_t row = 0; row < table->row.size(); ++row) {
       promise(table->row[row].size() == table->header.size(), "every row is as wide as the header");
-      for (const auto column : needed) (void)number(cell(*table, row, column));
+      for (const auto column : needed) (void)number(number_cell(*table, row, column));
     }
   }
   (void)number(text);

@@ -179,7 +179,8 @@ Result<OutputFolder> OutputFolder::make(const fs::path& folder) {
   OutputFolder made;
   made.path_ = folder;
   for (fs::path at = folder; !at.empty() && !fs::exists(at, error) && !error; at = at.parent_path()) {
-    if (fs::is_symlink(fs::symlink_status(at, error))) {
+    std::error_code nothing_there;
+    if (fs::is_symlink(fs::symlink_status(at, nothing_there))) {
       return fail(fmt::format("{}: leads nowhere, because the link {} has no target; choose another with --out",
                               folder.string(), at.string()));
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -441,11 +442,15 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
   const auto in_blocks = [&](std::span<const std::size_t> people, Looking looking, std::size_t lanes_each,
                              auto look_at) {
     const std::size_t of_block = lane_count / lanes_each;
+    work.searches.prepare((sizeof(StyleLimitSearch) + sizeof(float) - 1) / sizeof(float), jobs.threads);
     in_parallel(jobs, (people.size() + of_block - 1) / of_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin * of_block; first < std::min(end * of_block, people.size()); first += of_block) {
         const auto some = people.subspan(first, std::min(of_block, people.size() - first));
-        StyleLimitSearch block(sizes, gaits, some, looking, lanes_each);
-        look_at(some, block);
+        const ScratchLease room(&work.searches);
+        auto* const block =
+            std::construct_at(reinterpret_cast<StyleLimitSearch*>(room.data()), sizes, gaits, some, looking, lanes_each);
+        const std::unique_ptr<StyleLimitSearch, void (*)(StyleLimitSearch*)> ends(block, &std::destroy_at);
+        look_at(some, *block);
       }
     });
   };

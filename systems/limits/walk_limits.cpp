@@ -235,8 +235,7 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
                    WalkExtremes& extremes) {
   check_interrupt();
   const bool seldom = looking == Looking::roughly || looking == Looking::at_changes;
-  WalkLooked walk(size, gait, seldom ? 1 : max_parts);
-  const Lanes<std::uint32_t> settled = walk.settled();
+  Lanes<std::uint32_t> settled{};
   const auto note = [&](const WalkLooked& looked, WalkPart part, auto whose) {
     WalkReach& reach = part == WalkPart::steady || part == WalkPart::stop ? extremes.steady : extremes.changing;
     for (std::size_t b = 0; b < bound_count; ++b)
@@ -254,16 +253,22 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
     }
   };
   const auto uneven = [&settled](std::size_t l) { return settled[l] == 0; };
-  walk.walk();
-  for (WalkReach* const reach : {&extremes.steady, &extremes.changing}) {
-    std::ranges::fill(reach->value, in_every_lane<Lanes<float>>(min_bound));
-    for (auto& of_bound : reach->part) of_bound.fill(WalkPart::steady);
-  }
-  std::ranges::copy(walk.bounds().value, extremes.steady.value);
-  // In a settled walk the left step is the mirrored right one.
-  const bool all_even = std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; });
-  if (!all_even && looking != Looking::at_changes) note_steps(walk, uneven_steps - 1, WalkPart::steady, uneven);
-  // Each copy of the walks has 12 kB. In functions of their own, two of them are on the stack at once.
+  bool all_even = true;
+  const auto walk_steadily = [&]() MOBIL_NOT_INLINE {
+    WalkLooked walk(size, gait, seldom ? 1 : max_parts);
+    settled = walk.settled();
+    walk.walk();
+    for (WalkReach* const reach : {&extremes.steady, &extremes.changing}) {
+      std::ranges::fill(reach->value, in_every_lane<Lanes<float>>(min_bound));
+      for (auto& of_bound : reach->part) of_bound.fill(WalkPart::steady);
+    }
+    std::ranges::copy(walk.bounds().value, extremes.steady.value);
+    // In a settled walk the left step is the mirrored right one.
+    all_even = std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; });
+    if (!all_even && looking != Looking::at_changes) note_steps(walk, uneven_steps - 1, WalkPart::steady, uneven);
+  };
+  walk_steadily();
+  // The walks have 24 kB. In functions of their own, two of them are on the stack at once.
   const auto note_stop = [&](WalkLooked stop, auto whose) MOBIL_NOT_INLINE {
     stop.end();
     for (int step = 0; step < stopping_steps && !stop.all_stand(); ++step) note_steps(stop, 1, WalkPart::stop, whose);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/engine/jobs.h>
+#include <mobil/engine/scratch.h>
 #include <mobil/systems/gait/step_bounds.h>
 #include <mobil/systems/limits/walk_limits.h>
 
@@ -32,6 +34,7 @@ std::string described(const StyleChange& change);
 struct StyleLimitWork {
   std::vector<std::size_t> near, far, farther;  // checked walkers; far: stops also; farther: changes also
   std::vector<std::uint8_t> breaks;
+  ScratchPool searches{std::pmr::get_default_resource()};  // each is too large for small stacks
 };
 
 /// Corrects step lengths and styles of resolved gaits (resolve_gait) so that the steady walk at that speed keeps all

@@ -174,7 +174,7 @@ mobil_method usual() {
   const ModalOptions& r = as.modal;
   return {sizeof(mobil_method),
           static_cast<int>(as.method),
-          static_cast<int>(r.modes),
+          {static_cast<int>(r.modes)},
           r.moving,
           r.corrected,
           r.control_points,

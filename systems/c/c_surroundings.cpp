@@ -161,8 +161,8 @@ int mobil_avoidance_set_discs_between(mobil_sim* sim, const float* discs, size_t
 int mobil_avoidance_report(mobil_sim* sim, mobil_avoidance_counts* out) {
   return call(sim, "mobil_avoidance_report", [&](mobil_sim& s) {
     const AvoidanceReport& did = s.world().avoidance().report();
-    const mobil_avoidance_counts to = {sizeof to,   did.people, did.chose, did.kept_reservation,
-                                       did.yielded, did.waiting};
+    const mobil_avoidance_counts to = {sizeof to,     did.people, did.chose, {did.kept_reservation},
+                                       {did.yielded}, did.waiting};
     return write_struct(s.line, to, out, "out");
   });
 }

@@ -12,6 +12,7 @@
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
 #include <mobil/engine/interrupt.h>
+#include <mobil/engine/world.h>
 #include <mobil/rows.h>
 #include <mobil/systems/limits/style_limits.h>
 #include <mobil/systems/people/person_requests.h>

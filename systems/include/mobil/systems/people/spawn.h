@@ -11,6 +11,7 @@
 #include <mobil/components/gait.h>
 #include <mobil/components/leg_muscles.h>
 #include <mobil/engine/archetype.h>
+#include <mobil/engine/entity.h>
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 

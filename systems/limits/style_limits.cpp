@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
-#include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -447,10 +446,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
       for (std::size_t first = begin * of_block; first < std::min(end * of_block, people.size()); first += of_block) {
         const auto some = people.subspan(first, std::min(of_block, people.size() - first));
         const ScratchLease room(&work.searches);
-        auto* const block =
-            std::construct_at(reinterpret_cast<StyleLimitSearch*>(room.data()), sizes, gaits, some, looking, lanes_each);
-        const std::unique_ptr<StyleLimitSearch, void (*)(StyleLimitSearch*)> ends(block, &std::destroy_at);
-        look_at(some, *block);
+        look_at(some, *new (room.data()) StyleLimitSearch(sizes, gaits, some, looking, lanes_each));  // owns nothing
       }
     });
   };

@@ -34,7 +34,7 @@ std::string described(const StyleChange& change);
 struct StyleLimitWork {
   std::vector<std::size_t> near, far, farther;  // checked walkers; far: stops also; farther: changes also
   std::vector<std::uint8_t> breaks;
-  ScratchPool searches{std::pmr::get_default_resource()};  // each is too large for small stacks
+  ScratchPool searches{std::pmr::new_delete_resource()};  // each is too large for small stacks
 };
 
 /// Corrects step lengths and styles of resolved gaits (resolve_gait) so that the steady walk at that speed keeps all

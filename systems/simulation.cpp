@@ -242,8 +242,8 @@ Result<void> Simulation::step_aside(Entity person, float left_m, float ahead_m) 
 
 Result<std::size_t> Simulation::set_state(std::span<const Entity> people, PersonState state, float within_m) {
   const FloatMode mode;
-  const auto is_of_world = [&](Entity person) { return mobil::is_person(core_->world, person); };
-  if (!core_->world.alive_once(people) || !std::ranges::all_of(people, is_of_world)) return not_there("set_state");
+  if (!core_->world.alive_once(people) || !std::ranges::all_of(people, [&](Entity one) { return is_person(one); }))
+    return not_there("set_state");
   return named("set_state", mobil::set_state(core_->frame, people, state, within_m));
 }
 

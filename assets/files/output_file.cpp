@@ -40,19 +40,19 @@ fs::path folder_of_file(const fs::path& path) {
 
 /// Returns the target of the path's links, which need not exist. A path to a device or a pipe stays: links to those in
 /// /proc are not paths.
-Result<fs::path> followed(const fs::path& path) {
+Result<fs::path> followed(const fs::path& path, const std::string& shown) {
   fs::path at = path;
   std::error_code error;
   if (fs::is_other(fs::status(path, error))) return at;
   error.clear();
   for (int links = 0; fs::is_symlink(fs::symlink_status(at, error)); ++links) {
-    if (links == max_links) return fail(fmt::format("{}: its links go round in a circle; name a file", shown_path(path).string()));
+    if (links == max_links) return fail(fmt::format("{}: its links go round in a circle; name a file", shown));
     const fs::path next = fs::read_symlink(at, error);
     if (error) break;
     at = next.is_absolute() ? next : folder_of_file(at) / next;
   }
   if (error && error != std::errc::no_such_file_or_directory) {
-    return fail(fmt::format("{}: cannot be written ({}); {}", shown_path(path).string(), error.message(), advice));
+    return fail(fmt::format("{}: cannot be written ({}); {}", shown, error.message(), advice));
   }
   return at;
 }
@@ -91,15 +91,14 @@ Result<void> move_file(const fs::path& from, OutputFile& place) {
 
 Result<OutputFile> OutputFile::at(const fs::path& path) {
   const std::string shown = shown_path(path).string();
-  auto target = followed(path);
+  auto target = followed(path, shown);
   if (!target) return tl::unexpected(target.error());
   std::error_code error;
   const fs::file_status there = fs::status(*target, error);
   if (fs::is_directory(there)) return fail(fmt::format("{}: a folder has that name; choose another", shown));
   const fs::path folder = folder_of_file(*target);
   if (!fs::is_directory(folder, error)) {
-    return fail(
-        fmt::format("{}: cannot be written, there is no folder {}; {}", shown, folder.string(), advice));
+    return fail(fmt::format("{}: cannot be written, there is no folder {}; {}", shown, folder.string(), advice));
   }
   const bool replaces = fs::exists(there), in_place = replaces && !fs::is_regular_file(there);
   if ((!in_place && ::access(folder.c_str(), W_OK) != 0) || (replaces && ::access(target->c_str(), W_OK) != 0)) {

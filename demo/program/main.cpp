@@ -1,6 +1,6 @@
 // `mobil`, `mobil-crowd` and `mobil-lab`, the command-line interface of the library.
-// Exit status: 0 done, or the reader of stdout has gone (`| head`); 1 a bound did not hold, or standard output could
-// not be written; 2 bad usage or input (one line on stderr with cause and remedy).
+// Exit status: 0 done, or the reader of stdout has gone (`| head`); 1 a bound did not hold, or requested output
+// could not be written; 2 bad usage or input (one line on stderr with cause and remedy).
 
 #include "demo/program/commands.h"
 #include "demo/program/console.h"

@@ -211,7 +211,7 @@ Result<void> Avoidance::set_walls(std::span<const Wall> walls) {
   const FloatMode mode;
   for (const Wall& wall : walls) {
     for (const GroundPoint& at : {wall.from, wall.to}) {
-      if (!(std::fabs(at.x_m) <= 1e6F && std::fabs(at.z_m) <= 1e6F))
+      if (!(std::fabs(at.x_m) <= farthest_m && std::fabs(at.z_m) <= farthest_m))
         return fail(fmt::format("Avoidance: a wall's end at ({}, {}) m is not within 1000 km", at.x_m, at.z_m));
     }
     if (auto good = check_height(wall.height); !good) return good;
@@ -225,8 +225,8 @@ Result<void> Avoidance::set_walls(std::span<const Wall> walls) {
 Result<void> Avoidance::set_discs(std::span<const Disc> discs) {
   const FloatMode mode;
   for (const Disc& disc : discs) {
-    if (!(std::fabs(disc.at.x_m) <= 1e6F && std::fabs(disc.at.z_m) <= 1e6F && disc.radius_m >= 0 &&
-          disc.radius_m <= 1e6F))
+    if (!(std::fabs(disc.at.x_m) <= farthest_m && std::fabs(disc.at.z_m) <= farthest_m && disc.radius_m >= 0 &&
+          disc.radius_m <= farthest_m))
       return fail(fmt::format("Avoidance: a disc at ({}, {}) m with a radius of {} m; give a place within 1000 km and a "
                               "radius of 0 to 1000 km",
                               disc.at.x_m, disc.at.z_m, disc.radius_m));

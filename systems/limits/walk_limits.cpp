@@ -1,6 +1,7 @@
 #include <mobil/systems/limits/walk_limits.h>
 
 #include <fmt/format.h>
+#include <hwy/base.h>
 
 #include <algorithm>
 #include <array>
@@ -116,8 +117,6 @@ constexpr int turning_steps = 6, scaled_steps = 3, quickening_steps = 5;
 
 /// Heights of the pelvis of sixteen walks at successive instants.
 using Heights = std::array<Lanes<float>, 2 * max_parts>;
-
-#define MOBIL_NOT_INLINE __attribute__((noinline))
 
 /// Sixteen walks, advanced step by step and examined `lag` times in difference_s.
 class WalkLooked {
@@ -254,7 +253,7 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   };
   const auto uneven = [&settled](std::size_t l) { return settled[l] == 0; };
   bool all_even = true;
-  const auto walk_steadily = [&]() MOBIL_NOT_INLINE {
+  const auto walk_steadily = [&]() HWY_NOINLINE {
     WalkLooked walk(size, gait, seldom ? 1 : max_parts);
     settled = walk.settled();
     walk.walk();
@@ -269,25 +268,25 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   };
   walk_steadily();
   // The walks have 24 kB. In functions of their own, two of them are on the stack at once.
-  const auto note_stop = [&](WalkLooked stop, auto whose) MOBIL_NOT_INLINE {
+  const auto note_stop = [&](WalkLooked stop, auto whose) HWY_NOINLINE {
     stop.end();
     for (int step = 0; step < stopping_steps && !stop.all_stand(); ++step) note_steps(stop, 1, WalkPart::stop, whose);
   };
-  const auto note_turn = [&](WalkLooked turn, float rad, auto whose) MOBIL_NOT_INLINE {
+  const auto note_turn = [&](WalkLooked turn, float rad, auto whose) HWY_NOINLINE {
     turn.turn(rad);
     note_steps(turn, turning_steps, WalkPart::turn, whose);
   };
-  const auto note_other_speed = [&](WalkLooked other, auto whose) MOBIL_NOT_INLINE {
+  const auto note_other_speed = [&](WalkLooked other, auto whose) HWY_NOINLINE {
     other.scale_speed(slowed_to);
     note_steps(other, scaled_steps, WalkPart::change_of_speed, whose);
     other.walk_as(gait);
     note_steps(other, quickening_steps, WalkPart::change_of_speed, whose);
   };
-  const auto note_changes = [&](const WalkLooked& from, auto whose) MOBIL_NOT_INLINE {
+  const auto note_changes = [&](const WalkLooked& from, auto whose) HWY_NOINLINE {
     for (const float rad : {turned_rad, -turned_rad}) note_turn(from, rad, whose);
     note_other_speed(from, whose);
   };
-  const auto from_either_foot = [&](std::uint32_t lag, auto note_from) MOBIL_NOT_INLINE {
+  const auto from_either_foot = [&](std::uint32_t lag, auto note_from) HWY_NOINLINE {
     WalkLooked from(size, gait, lag);
     from.walk();
     note_from(from, [](std::size_t) { return true; });

@@ -92,7 +92,7 @@ Result<void> Lod::set_options(const LodOptions& options) {
   if (auto ok = check(options); !ok) return ok;
   LodWork& to = work();
   to.options = options;
-  std::construct_at(&to.lod_table, options.table != nullptr ? *options.table : accuracy_table());  // 150 kB
+  std::construct_at(&to.lod_table, options.table != nullptr ? *options.table : accuracy_table());  // too large for small stacks
   to.orders.make_by(options.background, options.making_ticks);
   return {};
 }

@@ -1,6 +1,5 @@
 #include "demo/lab/effects/accuracy_active.h"
 
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::string_view exit_status =
     ".SH EXIT STATUS\n"
-    "0: done. 1: it ran, but something that is promised did not hold, or standard output could not be written.\n"
+    "0: done. 1: it ran, but something that is promised did not hold, or requested output could not be written.\n"
     "2: bad usage or input; one line on standard error says what, and how to mend it.\n";
 
 /// Returns the UTF-8 character that begins at `at`, and moves `at` behind it.

@@ -82,8 +82,8 @@ class Avoidance {
   /// speed out of the gait's range, a heading not within ±10000.
   Result<void> set_desired_velocity(std::span<const DesiredVelocity> wishes);
 
-  /// Replaces all walls or discs. Errors: a position not within 1000 km; a top that is not above the bottom; a disc whose radius is negative or not finite,
-  /// or whose velocity exceeds 1000 m/s.
+  /// Replaces all walls or discs. Errors: a position not within 1000 km; a top that is not above the bottom; a disc
+  /// whose radius is negative or not finite, or whose velocity exceeds 1000 m/s.
   Result<void> set_walls(std::span<const Wall> walls);
   Result<void> set_discs(std::span<const Disc> discs);
 

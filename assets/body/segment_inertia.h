@@ -20,10 +20,6 @@ namespace mobil::inline v0_3 {
 using UnitInertia = std::array<Vec3<double>, segment_count>;
 constexpr UnitInertia make_unit_inertia();
 
-/// Returns the inertia about the segment's centre of mass in its own axes, kg m². Fat and muscle do not thicken a
-/// segment: inertia grows with mass and with the square of height, as in the sources' regressions.
-Vec3<double> segment_inertia_kg_m2(const Body& body, Segment segment);
-
 /// Returns the position of a segment's joint in the anatomical position, the body standing at x = z = 0, m.
 Vec3<double> joint_centre_m(const Body& body, Segment segment);
 

@@ -124,7 +124,8 @@ void add_ground(OpensimTable& table, const WalkRecording& recording) {
     add(before[side] + "ground_force_p", [side](const auto& ground) { return in_opensim(ground.centre_m[side]); });
   }
   for (const std::size_t side : {0U, 1U}) {
-    add(before[side] + "ground_torque_", [](const auto&) { return OpensimVector{0, 0, 0}; });
+    add(before[side] + "ground_torque_",
+        [side](const auto& ground) { return in_opensim(Vec3<float>{0, ground.free_moment_nm[side], 0}); });
   }
 }
 

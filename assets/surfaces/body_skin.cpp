@@ -1,8 +1,11 @@
 #include <mobil/assets/surfaces/body_skin.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <span>
+#include <utility>
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/interrupt.h>
@@ -15,6 +18,8 @@ namespace {
 using namespace geometry;
 using form::BodyForm;
 using form::TrunkFit;
+
+using SkinMeshes = std::array<SkinMesh, skin_details>;
 
 constexpr double min_fit = 0.7, max_fit = 1.4, min_thighs = 0.9;  // limits of a plausible body
 
@@ -68,14 +73,14 @@ SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, 
   return mesh;
 }
 
-std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
+SkinMeshes make_meshes(Sex sex) {
   const Body body = *make_body(skin_body(sex));
   const BodyForm form(body);
   const SurfaceMesh surface = mesh_form(form);
   constexpr std::array<double, skin_details> share = {1, 0.14, 0.035, 0.012}, coarseness = {1, 1.8, 3.5, 6};
   // Flat skin bends as well: a coarser mesh must not have edges from the knee to the middle of the thigh.
   constexpr std::array<double, skin_details> longest_m = {1, 0.042, 0.07, 1};
-  std::array<SkinMesh, skin_details> mesh;
+  SkinMeshes mesh;
   for (std::size_t d = 0; d < skin_details; ++d) {
     check_interrupt();
     SurfaceMesh light = can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]);
@@ -83,6 +88,41 @@ std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
     mesh[d] = make_mesh(form, body, std::move(light), static_cast<SkinDetail>(d));
   }
   return mesh;
+}
+
+/// Meshes of one sex, made at first use unless they were given before.
+class SharedMeshes {
+ public:
+  const SkinMesh& of(Sex sex, SkinDetail detail) {
+    const auto d = static_cast<std::size_t>(detail);
+    if (const SkinMesh* const made = made_[d].load(std::memory_order_acquire)) return *made;
+    const std::lock_guard lock(making_);
+    if (made_[d].load(std::memory_order_relaxed) == nullptr) {
+      SkinMeshes all = make_meshes(sex);
+      for (std::size_t each = 0; each < skin_details; ++each) keep(each, std::move(all[each]));
+    }
+    return kept_[d];
+  }
+  void give(SkinDetail detail, SkinMesh mesh) {
+    const std::lock_guard lock(making_);
+    keep(static_cast<std::size_t>(detail), std::move(mesh));
+  }
+
+ private:
+  void keep(std::size_t d, SkinMesh mesh) {
+    if (made_[d].load(std::memory_order_relaxed) != nullptr) return;
+    kept_[d] = std::move(mesh);
+    made_[d].store(&kept_[d], std::memory_order_release);
+  }
+
+  std::mutex making_;
+  SkinMeshes kept_;
+  std::array<std::atomic<const SkinMesh*>, skin_details> made_{};
+};
+
+SharedMeshes& shared_meshes(Sex sex) {
+  static std::array<SharedMeshes, 2> meshes;
+  return meshes[static_cast<std::size_t>(sex)];
 }
 
 TrunkFit part_of(const TrunkFit& fit, double share) {
@@ -192,13 +232,11 @@ SkinBuild skin_build(const BodyRequest& body, float index_step) {
 }
 
 const SkinMesh& skin_mesh(Sex sex, SkinDetail detail) {
-  const auto d = static_cast<std::size_t>(detail);
-  if (sex == Sex::woman) {
-    static const std::array<SkinMesh, skin_details> women = make_meshes(Sex::woman);
-    return women[d];
-  }
-  static const std::array<SkinMesh, skin_details> men = make_meshes(Sex::man);
-  return men[d];
+  return shared_meshes(sex).of(sex, detail);
+}
+
+void give_skin_mesh(Sex sex, SkinDetail detail, SkinMesh mesh) {
+  shared_meshes(sex).give(detail, std::move(mesh));
 }
 
 TrunkFit fit_trunk(const Body& body) {

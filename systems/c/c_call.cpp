@@ -127,6 +127,16 @@ void wind(std::span<const std::uint32_t> index, bool mirrored, unsigned int* out
   }
 }
 
+int write_baked(Line& line, std::span<const std::byte> baked, void* out, std::size_t room, std::size_t* bytes) {
+  if (bytes != nullptr) *bytes = baked.size();
+  if (out == nullptr && bytes != nullptr) return MOBIL_OK;
+  if (out == nullptr) return line.refuse_null("out");
+  if (room < baked.size())
+    return line.refuse(MOBIL_ROOM, fmt::format("{} bytes are needed, and there are {}", baked.size(), room));
+  std::memcpy(out, baked.data(), baked.size());
+  return MOBIL_OK;
+}
+
 int muscle_set(Line& line, unsigned int bits, MuscleSet& out) {
   const std::size_t known = muscles().size();
   out = MuscleSet(bits);
@@ -288,6 +298,20 @@ mobil_skin_target usual() {
   target.detail = MOBIL_NEAR;
   target.sex = -1;
   return target;
+}
+template <>
+mobil_segment usual() {
+  mobil_segment segment{};
+  segment.size = sizeof segment;
+  return segment;
+}
+template <>
+mobil_skin_binding usual() {
+  mobil_skin_binding binding{};
+  binding.size = sizeof binding;
+  binding.detail = MOBIL_NEAR;
+  binding.sex = -1;
+  return binding;
 }
 template <>
 mobil_leg_mesh usual() {

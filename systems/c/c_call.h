@@ -56,11 +56,7 @@ class HostMemory final : public std::pmr::memory_resource {
 };
 
 /// Axes and unit of length of the host. Converts positions and directions from and to them.
-struct HostAxes {
-  PoseAxes axes = PoseAxes::y_up;
-  float units_per_m = 1;
-
-  bool ours() const { return axes == PoseAxes::y_up && units_per_m == 1; }
+struct HostAxes : VertexAxes {
   bool mirrored() const { return axes_of[static_cast<std::size_t>(axes)].mirrored() < 0; }
   Vec3<float> place_from(const float* theirs) const { return from(theirs, units_per_m); }
   Vec3<float> direction_from(const float* theirs) const { return from(theirs, 1); }
@@ -131,6 +127,10 @@ template <>
 mobil_skin_target usual();
 template <>
 mobil_leg_mesh usual();
+template <>
+mobil_segment usual();
+template <>
+mobil_skin_binding usual();
 template <>
 mobil_avoidance_options usual();
 template <>
@@ -246,6 +246,9 @@ void write_vertices(std::span<const Vec3<float>> from, const VertexStream& to, c
   }
 }
 
+/// Writes baked bytes to the caller's memory, and their number to `bytes` unless it is null. A null `out` asks for the
+/// number only.
+int write_baked(Line& line, std::span<const std::byte> baked, void* out, std::size_t room, std::size_t* bytes);
 int muscle_set(Line& line, unsigned int bits, MuscleSet& out);
 int muscle_number(Line& line, int muscle, Muscle& out);
 int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& out);

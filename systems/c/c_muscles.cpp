@@ -84,14 +84,7 @@ int mobil_prepare(mobil_sim* sim, const mobil_muscles* muscles) {
 
 int mobil_bake(mobil_sim* sim, void* out, size_t room, size_t* bytes) {
   return call(sim, "mobil_bake", [&](mobil_sim& s) {
-    const std::vector<std::byte> baked = s.world().muscle_library().bake();
-    if (bytes != nullptr) *bytes = baked.size();
-    if (out == nullptr && bytes != nullptr) return int{MOBIL_OK};
-    if (out == nullptr) return s.line.refuse_null("out");
-    if (room < baked.size())
-      return s.line.refuse(MOBIL_ROOM, fmt::format("{} bytes are needed, and there are {}", baked.size(), room));
-    std::memcpy(out, baked.data(), baked.size());
-    return int{MOBIL_OK};
+    return write_baked(s.line, s.world().muscle_library().bake(), out, room, bytes);
   });
 }
 

@@ -62,6 +62,14 @@ void put(const JointMoments<float>& moments, FloatWriter& to) {
   to.put(moments.knee_nm);
   to.put(moments.ankle_nm);
 }
+/// The parts of a ground reaction and of moments that rows of interface 4 added.
+void put_free_moments(const GroundReaction<float>& ground, FloatWriter& to) {
+  to.put(ground.free_moment_nm);
+}
+void put_hip(const JointMoments<float>& moments, FloatWriter& to) {
+  to.put(moments.hip_abduction_nm);
+  to.put(moments.hip_rotation_nm);
+}
 void put(const LineOfAction<float>& line, FloatWriter& to) {
   for (const float value : {line.length_m, line.rest_length_m, line.stiffness_n_per_m, line.force_n}) to.put(value);
 }
@@ -88,19 +96,21 @@ struct RowKind {
   int floats;
   Result<void> (*read)(const Simulation&, Entity, FloatWriter&);
 };
-template <template <class> class C>
+template <template <class> class C, void (*write)(const C<float>&, FloatWriter&) = put>
 constexpr RowKind row_kind(int floats) {
   return {floats, [](const Simulation& world, Entity entity, FloatWriter& to) -> Result<void> {
             const auto row = world.get<C>(entity);
             if (!row) return tl::unexpected(row.error());
-            put(*row, to);
+            write(*row, to);
             return {};
           }};
 }
 // In the order of the enumerations from MOBIL_JOINTS and MOBIL_LINE.
 constexpr std::array<RowKind, MOBIL_ROWS> row_kinds = {row_kind<JointAngles>(13),    row_kind<Feet>(20),
                                                        row_kind<CentreOfMass>(3),    row_kind<GaitState>(3),
-                                                       row_kind<GroundReaction>(12), row_kind<JointMoments>(6)};
+                                                       row_kind<GroundReaction>(12), row_kind<JointMoments>(6),
+                                                       row_kind<GroundReaction, put_free_moments>(2),
+                                                       row_kind<JointMoments, put_hip>(4)};
 constexpr std::array<RowKind, MOBIL_NODES> muscle_row_kinds = {row_kind<LineOfAction>(4), row_kind<LineMotion>(4),
                                                                row_kind<BellyReport>(5), row_kind<Activation>(2),
                                                                row_kind<Musculotendon>(5)};

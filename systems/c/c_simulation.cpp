@@ -32,7 +32,7 @@ int make(mobil_sim& sim, const mobil_options* given) {
         MOBIL_REFUSED, fmt::format("units_per_m of {} is out of range; choose 0.001 to 1000000", options.units_per_m));
   if (options.threads < 0)
     return sim.line.refuse(MOBIL_REFUSED, fmt::format("{} threads; choose 0 (all) or more", options.threads));
-  sim.axes = {*axes, options.units_per_m};
+  sim.axes = {{*axes, options.units_per_m}};
   SimulationOptions as;
   as.tick_s = options.tick_s;
   as.max_frame_s = options.max_frame_s;
@@ -106,6 +106,10 @@ int mobil_defaults(int which, void* filled, size_t size) {
       return fill<mobil_avoidance_counts>(filled, size);
     case MOBIL_TERRAIN_COUNTS:
       return fill<mobil_terrain_counts>(filled, size);
+    case MOBIL_SEGMENT:
+      return fill<mobil_segment>(filled, size);
+    case MOBIL_SKIN_BINDING:
+      return fill<mobil_skin_binding>(filled, size);
     default:
       return MOBIL_REFUSED;
   }

@@ -15,22 +15,6 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-/// Returns a skin mesh; null for an unknown sex or detail.
-const SkinMesh* mesh_of(int sex, int detail) {
-  if (sex < 0 || sex > static_cast<int>(Sex::woman) || detail < 0 || detail >= static_cast<int>(skin_details))
-    return nullptr;
-  return &skin_mesh(static_cast<Sex>(sex), static_cast<SkinDetail>(detail));
-}
-
-/// Returns a count of a skin mesh; 0 for an unknown mesh or without memory.
-template <class Count>
-std::size_t count_of(int sex, int detail, Count count) noexcept try {
-  const SkinMesh* const mesh = mesh_of(sex, detail);
-  return mesh == nullptr ? 0 : count(*mesh);
-} catch (const std::bad_alloc&) {
-  return 0;
-}
-
 int request_of(mobil_sim& s, const mobil_skin_target& as, PosedSkin& posed, SkinRequest& to) {
   SkinDetail detail{};
   if (const int code = one_of(s.line, as.detail, SkinDetail::distant, "detail", detail)) return code;
@@ -52,21 +36,26 @@ int mobil::c::skin_streams(mobil_sim& s, const mobil_skin_target& as, VertexStre
   return stream_of(s.line, as.normals, as.normal_stride, as.normal_bytes, three, "normals", normals);
 }
 
+int mobil::c::same_sex(mobil_sim& s, int sex, const BodyRequest& body) {
+  if (sex < 0 || sex == static_cast<int>(body.sex)) return MOBIL_OK;
+  return s.line.refuse(MOBIL_REFUSED, "the person is of the other sex, whose triangles are others");
+}
+
 int mobil::c::skin_person(mobil_sim& s, const mobil_skin_target& as, int sex, PosedSkin& posed, SkinRequest& to) {
   to.person = entity_of(as.id);
   if (!s.world().is_person(to.person)) return s.line.refuse(Error{{}, Status::stale_entity});
   const BodyRequest body = body_request(s.world().world(), to.person);
-  if (sex >= 0 && sex != static_cast<int>(body.sex))
-    return s.line.refuse(MOBIL_REFUSED, "the person is of the other sex, whose triangles are others");
+  if (const int code = same_sex(s, sex, body)) return code;
   if (as.flexing != 0) {
     const auto table = s.skin_tables.of(body);
     if (!table) return s.line.refuse(table.error());
     to.table = *table;
   }
-  const auto pose = s.world().get<Pose>(to.person);
-  if (!pose) return s.line.refuse(pose.error());
-  posed.pose = *pose;
-  to.pose = &posed.pose;
+  to.ahead_s = as.ahead_s;
+  if (s.world().state(to.person) == PersonState::asleep) {
+    posed.pose = *s.world().get<Pose>(to.person);
+    to.pose = &posed.pose;
+  }
   to.origin_m = s.axes.place_from(as.origin);
   for (std::size_t side = 0; side < 2; ++side) {
     if (as.muscles[side] == nullptr) continue;
@@ -81,27 +70,27 @@ int mobil::c::skin_person(mobil_sim& s, const mobil_skin_target& as, int sex, Po
 }
 
 size_t mobil_skin_vertex_count(int sex, int detail) {
-  return count_of(sex, detail, [](const SkinMesh& mesh) { return mesh.vertex.size(); });
+  return skin_count(sex, detail, [](Sex of, SkinDetail at) { return skin_mesh(of, at).vertex.size(); });
 }
 
 size_t mobil_skin_index_count(int sex, int detail) {
-  return count_of(sex, detail, [](const SkinMesh& mesh) { return mesh.triangle.size(); });
+  return skin_count(sex, detail, [](Sex of, SkinDetail at) { return skin_mesh(of, at).triangle.size(); });
 }
 
 int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, size_t room, unsigned int* first) {
   static_assert(skin_parts == MOBIL_SKIN_PARTS);
   return call(sim, "mobil_skin_indices", [&](mobil_sim& s) {
-    const SkinMesh* const mesh = mesh_of(sex, detail);
-    if (mesh == nullptr) {
+    if (!is_skin(sex, detail)) {
       return s.line.refuse(MOBIL_REFUSED,
                            fmt::format("sex {}, detail {}; choose 0 or 1, and 0 to {}", sex, detail, skin_details - 1));
     }
     if (out == nullptr) return s.line.refuse_null("out");
-    const auto& index = mesh->triangle;
+    const SkinMesh& mesh = skin_mesh(static_cast<Sex>(sex), static_cast<SkinDetail>(detail));
+    const auto& index = mesh.triangle;
     if (room < index.size())
       return s.line.refuse(MOBIL_ROOM, fmt::format("room for {} indices; {} are needed", room, index.size()));
     wind(index, s.axes.mirrored(), out);
-    if (first != nullptr) std::copy(mesh->first_triangle.begin(), mesh->first_triangle.end(), first);
+    if (first != nullptr) std::copy(mesh.first_triangle.begin(), mesh.first_triangle.end(), first);
     return int{MOBIL_OK};
   });
 }
@@ -116,17 +105,6 @@ int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t st
       if (const int code = read_struct(s.line, row_at(targets, i, stride, 0), "targets", as)) return code;
       if (const int code = request_of(s, as, posed[i], requests[i])) return code;
     }
-    const auto done = s.skin_writer.write(s.world().world(), requests, s.jobs);
-    if (!done) return s.line.refuse(done.error());
-    if (s.axes.ours()) return int{MOBIL_OK};
-    in_parallel(s.jobs, count, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const SkinRequest& request = requests[i];
-        const std::size_t vertices = request.shape.skin->rest.size();
-        turn_vertices(request.positions, 0, vertices, 3, [&](float* v) { s.axes.place_to({v[0], v[1], v[2]}, v); });
-        turn_vertices(request.normals, 0, vertices, 3, [&](float* v) { s.axes.direction_to({v[0], v[1], v[2]}, v); });
-      }
-    });
-    return int{MOBIL_OK};
+    return code_of(s.line, s.skin_writer.write(s.world().world(), requests, s.jobs, s.axes));
   });
 }

@@ -28,6 +28,7 @@ int request_of(mobil_sim& s, Target& target, SurfaceRequest& to) {
   to.surfaces = &as.surfaces->bound;
   to.fit = &target.fit;
   to.origin_m = s.axes.place_from(as.origin);
+  to.ahead_s = as.ahead_s;
   constexpr std::size_t three = 3 * sizeof(float), four = 4 * sizeof(float);
   if (const int code =
           stream_of(s.line, as.positions, as.position_stride, as.position_bytes, three, "positions", to.positions))
@@ -35,18 +36,6 @@ int request_of(mobil_sim& s, Target& target, SurfaceRequest& to) {
   if (const int code = stream_of(s.line, as.normals, as.normal_stride, as.normal_bytes, three, "normals", to.normals))
     return code;
   return stream_of(s.line, as.tangents, as.tangent_stride, as.tangent_bytes, four, "tangents", to.tangents);
-}
-
-void turn_all(const HostAxes& axes, const Jobs& jobs, const SurfaceRequest& request) {
-  const float handed = axes.mirrored() ? -1.0F : 1.0F;
-  in_parallel(jobs, request.surfaces->vertices, [&](std::size_t begin, std::size_t end) {
-    turn_vertices(request.positions, begin, end, 3, [&](float* v) { axes.place_to({v[0], v[1], v[2]}, v); });
-    turn_vertices(request.normals, begin, end, 3, [&](float* v) { axes.direction_to({v[0], v[1], v[2]}, v); });
-    turn_vertices(request.tangents, begin, end, 4, [&](float* v) {
-      axes.direction_to({v[0], v[1], v[2]}, v);
-      v[3] *= handed;
-    });
-  });
 }
 
 }  // namespace
@@ -134,10 +123,6 @@ int mobil_write_surfaces(mobil_sim* sim, const mobil_surface_target* targets, si
       if (const int code = request_of(s, all[i], requests[i])) return code;
       if (const int code = same_handedness(s, all[i].as.surfaces->mirrored)) return code;
     }
-    const auto done = s.surfaces->write(s.world().world(), requests, s.jobs);
-    if (!done) return s.line.refuse(done.error());
-    if (s.axes.ours()) return int{MOBIL_OK};
-    for (const SurfaceRequest& request : requests) turn_all(s.axes, s.jobs, request);
-    return int{MOBIL_OK};
+    return code_of(s.line, s.surfaces->write(s.world().world(), requests, s.jobs, s.axes));
   });
 }

@@ -17,6 +17,8 @@ namespace contact {
 constexpr float high_m = 0.03F;
 /// A point bears full load up to the first speed and no load from the second one.
 constexpr float still_m_s = 0.3F, moving_m_s = 1.2F;
+/// Largest free moment of a foot over its load: friction 0.8 times a mean distance of 6 cm from the centre of pressure.
+constexpr float twist_m = 0.05F;
 }  // namespace contact
 
 /// A vector in a vertical plane.
@@ -44,9 +46,10 @@ struct Plane {
   HWY_INLINE Flat of(const WideVec& v) const { return {fma(v.x, x, v.z * z), v.y}; }
 };
 
-/// Forces on the feet and centres of pressure, in the frame of the stance foothold.
+/// Forces on the feet, centres of pressure and free moments there, in the frame of the stance foothold.
 struct Support {
   WideVec force[2], centre[2];
+  Wide free_moment[2];
 };
 
 /// A foot on the ground: position of the ankle of the flat foot, pointing direction, reach of the bearing part from
@@ -167,6 +170,22 @@ HWY_INLINE void press(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes
   }
 }
 
+/// Gives the feet free moments that balance the motion about the vertical, in proportion to their loads.
+HWY_NOINLINE void put_free_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                                   Support& ground) {
+  Wide lacking = load(size.mass_kg) * load(motion.moment_per_kg.y), lift = wide(1.0F);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const WideVec &f = ground.force[side], &c = ground.centre[side];
+    lacking = lacking - fma(c.z, f.x, -(c.x * f.z));
+    lift = lift + f.y;
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Wide& load_n = ground.force[side].y;
+    const Wide most = contact::twist_m * load_n;
+    ground.free_moment[side] = min(max(lacking * (load_n / lift), -most), most);
+  }
+}
+
 /// Computes the total ground force on walkers, its split and the points where it acts.
 HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                           const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
@@ -197,6 +216,7 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
     out.force[side] = of_side(force, side);
     out.centre[side] = of_side(centre, side);
   }
+  put_free_moments(size, motion, out);
 }
 
 /// Part of a foot's lowest points that is near the ground and at rest, 0 to 1, and height of the lowest point.
@@ -262,6 +282,7 @@ HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMo
   };
   const Wide pivot = forces::pivot_height * max(load(motion.centre_height_m), 0.1F * height);
   press(size, motion, total, soles, split, split, zero, pivot, out.force, out.centre);
+  put_free_moments(size, motion, out);
 }
 
 /// Computes hip, knee and ankle moments of one leg, from the foot up.
@@ -301,6 +322,37 @@ HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMoti
   hip_knee_ankle[0] = turning;
 }
 
+/// Returns the whole moment of the pelvis on the leg at the hip, by the same rods in three dimensions.
+HWY_NOINLINE WideVec hip_moment(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                                const Support& ground, std::size_t side) {
+  const Wide mass = load(size.mass_kg), zero = wide(0.0F);
+  WideVec at[leg_points], push[leg_points];  // positions, and accelerations minus gravity
+  for (std::size_t p = 0; p < leg_points; ++p) {
+    const std::size_t i = leg_point(side, static_cast<LegPoint>(p));
+    at[p] = load(motion.place_m[i]);
+    push[p] = load(motion.acceleration[i]);
+    push[p].y = push[p].y + wide(forces::gravity);
+  }
+  auto mass_of = [&](const forces::Rod& rod) {
+    return mass * fma(load(size.extra_fat), wide(rod.mass_per_extra_fat), wide(rod.mass));
+  };
+  const WideVec hip = at[hip_point];
+  const WideVec none = {zero, zero, zero};
+  WideVec moment = cross(at[foot_centre_point] - hip, fma(mass_of(forces::foot), push[foot_centre_point], none)) -
+                   cross(ground.centre[side] - hip, ground.force[side]);
+  auto add = [&](const forces::Rod& rod, std::size_t upper, std::size_t lower, bool has_weight) {
+    const WideVec along = at[lower] - at[upper], faster = push[lower] - push[upper];
+    moment = fma(mass_of(rod) * wide(rod.gyration * rod.gyration), cross(along, faster), moment);
+    if (!has_weight) return;
+    const WideVec centre = fma(wide(rod.centre), along, at[upper]), own = fma(wide(rod.centre), faster, push[upper]);
+    moment = fma(mass_of(rod), cross(centre - hip, own), moment);
+  };
+  add(forces::foot, ankle_point, ball_point, false);
+  add(forces::shank, knee_point, ankle_point, true);
+  add(forces::thigh, hip_point, knee_point, true);
+  return moment - WideVec{zero, ground.free_moment[side], zero};
+}
+
 void put_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion, const Support& ground,
                  JointMoments<Lanes<float>>& moments) {
   for (std::size_t side = 0; side < 2; ++side) {
@@ -309,6 +361,11 @@ void put_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<floa
     store(joint[0], moments.hip_nm[side]);
     store(joint[1], moments.knee_nm[side]);
     store(joint[2], moments.ankle_nm[side]);
+    const WideVec whole = hip_moment(size, motion, ground, side);
+    const Wide outward = wide(side == Side::left ? 1.0F : -1.0F);
+    store(outward * fma(whole.x, load(motion.facing_x), whole.z * load(motion.facing_z)),
+          moments.hip_abduction_nm[side]);
+    store(-outward * whole.y, moments.hip_rotation_nm[side]);
   }
 }
 
@@ -351,6 +408,7 @@ void forces_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<flo
     store(WideVec{fma(f.x, c, f.z * s), f.y, fnma(f.x, s, f.z * c)}, reaction.force_n[side]);
     store(WideVec{line_x + fma(p.x, c, p.z * s), uneven ? floor + p.y : p.y, line_z + fnma(p.x, s, p.z * c)},
           reaction.centre_m[side]);
+    store(ground.free_moment[side], reaction.free_moment_nm[side]);
   }
   put_moments(size, motion, ground, moments);
 }
@@ -363,6 +421,7 @@ void posed_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<floa
   for (std::size_t side = 0; side < 2; ++side) {
     store(ground.force[side], reaction.force_n[side]);
     store(ground.centre[side], reaction.centre_m[side]);
+    store(ground.free_moment[side], reaction.free_moment_nm[side]);
   }
   put_moments(size, motion, ground, moments);
 }

@@ -100,20 +100,13 @@ HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQ
 HWY_NOINLINE void pose_column(const WideQuat& facing, const Wide& turned_back, const Wide& lean,
                               const Skeleton& skeleton) {
   constexpr std::size_t first = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
-  // The sacrum's plate faces up in a standing person, whose pelvis is tilted in laboratory measurements.
-  constexpr HalfAngle level = half_of(-neutral_tilt);
-  const WideQuat base = skeleton.rotation(Segment::pelvis) * turn_x(level);
+  const WideQuat base = skeleton.rotation(Segment::pelvis);
   const WideQuat chest = facing * (turn_y(turned_back) * turn_x(lean));
   for (std::size_t s = first; s <= shoulders; ++s) {
     constexpr ColumnParts parts = column_parts();
     const auto part = static_cast<float>(parts[s - first]);
     const WideQuat turned = part_way(base, chest, wide(part));
-    if (s == first) {
-      const WideVec offset = scaled(unit_skeleton.joint_offset[s], skeleton.height);
-      skeleton.put(static_cast<Segment>(s), skeleton.position(Segment::pelvis) + rotate(base, offset), turned);
-    } else {
-      skeleton.hang(static_cast<Segment>(s), turned);
-    }
+    skeleton.hang(static_cast<Segment>(s), turned);
   }
   for (std::size_t s = shoulders + 1; s <= head; ++s) {
     const float part = static_cast<float>(s - shoulders) / static_cast<float>(head - shoulders);

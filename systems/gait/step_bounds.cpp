@@ -65,8 +65,7 @@ HWY_NOINLINE Wide leg_bounds(const StepNow& now, std::size_t side, const Wide& h
 /// Notes the bounds of the chest relative to the pelvis. The column between them bends about an axis of its own.
 HWY_NOINLINE void trunk_bounds(const PelvisMotion& motion, const Wide& turned, const Wide& lean,
                                const Furthest& furthest) {
-  constexpr HalfAngle level = half_of(-neutral_tilt);
-  const WideQuat base = motion.turn * turn_x(level);
+  const WideQuat& base = motion.turn;
   const WideQuat bent = WideQuat{-base.x, -base.y, -base.z, base.w} * (turn_y(turned) * turn_x(lean));
   const auto angle = [](const Wide& half_sine) HWY_ATTR {  // of less than a right angle
     return half_sine * fma(half_sine * half_sine, wide(1.0F / 3), wide(2.0F));

@@ -7,6 +7,7 @@
 #define MOBIL_SYSTEMS_KINEMATICS_STEP_NOW_INL_H_
 #endif
 
+#include "assets/body/column.h"
 #include "assets/gait/on_line-inl.h"
 #include "assets/gait/uneven-inl.h"
 #include "systems/gait/kinematics_wide-inl.h"
@@ -15,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// Present motion of the pelvis, seen from the right: its rotation, and the hips relative to their middle, in its
-/// heading.
+/// Present motion of the pelvis, seen from the right, and the hips relative to their middle, in its heading. `tilt` is
+/// that of gait laboratories, `turn` is from the anatomical position.
 struct PelvisMotion {
   Wide rotation, list, tilt;
   WideQuat turn;
@@ -29,7 +30,7 @@ HWY_NOINLINE inline PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& pla
   m.rotation = sign * pelvis_rotation(plan, w, eased);
   m.list = sign * pelvis_list(plan, w, eased);
   m.tilt = pelvis_tilt(plan, w, eased);
-  m.turn = turn_yzx(m.rotation, -m.list, m.tilt);
+  m.turn = turn_yzx(m.rotation, -m.list, m.tilt - static_cast<float>(neutral_tilt));
   for (std::size_t side = 0; side < 2; ++side)
     m.hip[side] =
         rotate(m.turn, scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));

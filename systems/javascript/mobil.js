@@ -36,6 +36,12 @@ class Mobil {
       return listed((i) => (x.mobil_style(i, at) === 0 ? library.object('mobil_style_number', at, ['name', 'unit', 'meaning']) : null));
     });
   }
+  /** Returns the segment of each bone of a host's skeleton, or null, by its name or the end of it (person_7_head):
+   *  programs number bones in another order. */
+  segmentsOf(bones) {
+    const own = (bone) => this.segments.find((name) => bone === name || (bone.endsWith(name) && !/[A-Za-z0-9]/.test(bone.at(-name.length - 1))));
+    return bones.map((bone) => (own(bone) === undefined ? null : this.segments.indexOf(own(bone))));
+  }
   /** Returns the levels of detail of a muscle with measurements: {name, method, modes, moving, error_m, cost_us}. */
   levels(muscle, { speed_m_s = 1.4, height_m = 1.8, inertia = false, pulling = false } = {}) {
     return this.library.within((take) => {

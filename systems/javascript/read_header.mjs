@@ -42,7 +42,7 @@ export function readHeader(text) {
         put(called[1], 'pointer', 4, 0);
         continue;
       }
-      const [, type, list] = /^((?:const |struct )*(?:unsigned int|\w+))\s*(.*)$/.exec(line);
+      const [, type, list] = /^((?:const |struct )*(?:unsigned \w+|\w+))\s*(.*)$/.exec(line);
       const bare = type.replace(/const |struct /g, '');
       for (const { name: field, pointer, count } of declarators(type, list)) {
         if (pointer) put(field, 'pointer', 4, count);

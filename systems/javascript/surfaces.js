@@ -24,16 +24,16 @@ export class Surfaces {
     });
     this.buffer = library.allocate(24 * this.vertices);
   }
-  /** Returns position and normal of each vertex after the last tick, six floats, as a view valid until the next call.
-   *  `origin` is subtracted first. */
-  write(person, origin = [0, 0, 0]) {
+  /** Returns position and normal of each vertex, six floats, as a view valid until the next call. `origin` is subtracted
+   *  first. `ahead_s`: an instant after the last tick. */
+  write(person, origin = [0, 0, 0], ahead_s = 0) {
     if (!this.at) throw new MobilError('these surfaces were dropped; make others by World.surfaces', c.MOBIL_REFUSED);
     const { library } = this.world, bytes = 24 * this.vertices;
     library.within((take) => {
       const at = take(structs.mobil_surface_target.size);
       library.fill('mobil_surface_target', 'MOBIL_SURFACE_TARGET', at, {
         surfaces: this.at, positions: this.buffer, normals: this.buffer + 12, position_stride: 24, normal_stride: 24,
-        position_bytes: bytes, normal_bytes: bytes - 12, origin,
+        position_bytes: bytes, normal_bytes: bytes - 12, origin, ahead_s,
       });
       library.u32.set(person.handle(), (at + structs.mobil_surface_target.fields.id.at) >> 2);
       this.world.must(library.x.mobil_write_surfaces(this.world.at, at, 0, 1));

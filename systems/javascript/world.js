@@ -311,6 +311,16 @@ export class World {
     });
     return this.#floats(out, floats);
   }
+  /** Returns the body of a person, for each of 48 segments {parent, offset, tip, mass_kg, centre, inertia_kg_m2}, in the
+   *  frames of poses(). */
+  body(person) {
+    return this.library.within((take) => {
+      const { size } = structs.mobil_segment, at = take(size * c.MOBIL_SEGMENTS);
+      this.library.fill('mobil_segment', 'MOBIL_SEGMENT', at);
+      this.#call('get_body', ...this.#passed(take, person.handle()), at, 0);
+      return Array.from({ length: c.MOBIL_SEGMENTS }, (_, s) => this.library.object('mobil_segment', at + size * s));
+    });
+  }
   /** Returns rows of MOBIL_JOINTS, MOBIL_FEET and so on. */
   read(what, people) {
     const floats = Math.max(this.library.x.mobil_row_floats(numberOf(what, 'row')), 0) * people.count, out = people.room(floats);

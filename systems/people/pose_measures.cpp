@@ -6,6 +6,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/components/muscle.h>
 #include <mobil/engine/geometry.h>
+#include "assets/body/column.h"
 #include "assets/body/fat_distribution.h"
 
 namespace mobil::inline v0_3 {
@@ -30,10 +31,10 @@ JointAngles<float> joint_angles(const Pose<float>& pose) {
   const auto heading = [](const Vec& left_axis) { return std::atan2(-left_axis.z, left_axis.x); };
   angles.pelvis_rotation = static_cast<float>(std::remainder(heading(to_left) - heading(chest_to_left), 2 * M_PI));
   angles.pelvis_list = static_cast<float>(-std::asin(std::fmax(-1, std::fmin(1, to_left.y))));
-  angles.pelvis_tilt = static_cast<float>(std::atan2(-ahead.y, up.y));
+  angles.pelvis_tilt = static_cast<float>(std::atan2(-ahead.y, up.y) + neutral_tilt);
   for (const Side side : {Side::right, Side::left}) {
     const auto own = [side](Segment s) { return on_side(s, side); };
-    angles.hip_flexion[side] = -turned(pelvis, own(thigh_right));
+    angles.hip_flexion[side] = static_cast<float>(neutral_tilt) - turned(pelvis, own(thigh_right));
     angles.knee_flexion[side] = turned(own(thigh_right), own(shank_right));
     angles.ankle_dorsiflexion[side] = -turned(own(shank_right), own(foot_right));
     angles.shoulder_flexion[side] = -turned(T1, own(upper_arm_right));

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <tuple>
 
-#include <mobil/components/avoidance.h>
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/pose.h>
@@ -16,8 +15,6 @@
 #include <mobil/engine/geometry.h>
 #include <mobil/rows.h>
 #include <mobil/systems/people/sleepers.h>
-#include "systems/gait/kinematics.h"
-#include "systems/gait/shoulders.h"
 #include "systems/poses/pose_axes.h"
 #include "systems/poses/walk_ahead.h"
 
@@ -25,34 +22,6 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::array<std::size_t, 3> form_floats = {7, 12, 8};
-
-/// Rotates shoulders for avoidance, as a tick does after the pose.
-void turn_as_avoided(const Table& table, std::size_t block, Pose<Lanes<float>>& pose) {
-  if (const TableColumn<AvoidanceState> courses(table); courses)
-    turn_shoulders(courses.at(table, block).turn_rad, pose);
-}
-
-/// Computes the pose of a block of walkers `ahead_s` later; shoulders keep their current rotation.
-void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<float>>& pose) {
-  const auto& size = TableColumn<BodySize>(table).at(table, block);
-  const TableColumn<Footing> footing(table);
-  const WalkAhead then(size, TableColumn<Gait>(table).at(table, block), TableColumn<StepPlan>(table).at(table, block),
-                       TableColumn<GaitState>(table).at(table, block), footing ? &footing.at(table, block) : nullptr,
-                       ahead_s);
-  JointAngles<Lanes<float>> angles;
-  Feet<Lanes<float>> feet;
-  pose_skeleton(size, then.plan(), then.state(), then.footing(), pose, angles, feet);
-  turn_as_avoided(table, block, pose);
-}
-
-/// Computes the pose of a block of walkers who store none.
-void pose_compact(const Table& table, std::size_t block, Pose<Lanes<float>>& pose) {
-  JointAngles<Lanes<float>> angles;
-  Feet<Lanes<float>> feet;
-  pose_skeleton(TableColumn<BodySize>(table).at(table, block), TableColumn<StepPlan>(table).at(table, block),
-                TableColumn<GaitState>(table).at(table, block), nullptr, pose, angles, feet);
-  turn_as_avoided(table, block, pose);
-}
 
 /// Places and quaternions of one segment of sixteen people: x y z, x y z w.
 struct Placed {
@@ -180,11 +149,7 @@ void PoseWriter::Work::write_block(std::size_t b) const {
   const auto* pose = own ? &own.at(table, block) : nullptr;
   Pose<Lanes<float>> then;
   if (TableColumn<GaitState>(table) && (ahead_s > 0 || pose == nullptr)) {
-    if (ahead_s > 0) {
-      walk_on(table, block, ahead_s, then);
-    } else {
-      pose_compact(table, block, then);
-    }
+    pose_ahead(table, block, ahead_s, then);
     pose = &then;
   }
   // Writes person by person, so that memory is written in order, with as many segments at once as a cache holds.
@@ -219,8 +184,7 @@ PoseWriter::PoseWriter(std::pmr::memory_resource* memory) : places_(memory), blo
 Result<void> PoseWriter::write(const World& world, std::span<const Entity> people, double ahead_s,
                                const PoseLayout& layout, const PoseTarget& target, const Jobs& jobs) {
   const FloatMode mode;
-  if (!(ahead_s >= 0 && ahead_s <= furthest_ahead_s))
-    return fail(fmt::format("poses: {} s after the last tick; 0 to {} s", ahead_s, furthest_ahead_s));
+  if (auto done = check_ahead(ahead_s); !done) return fail(fmt::format("poses: {}", done.error().message));
   if (!(std::fabs(layout.units_per_m) > 1e-6F && std::fabs(layout.units_per_m) < 1e6F))
     return fail(fmt::format("poses: {} units a metre; 0.000001 to 1000000", layout.units_per_m));
   for (const Segment s : layout.segments)

@@ -119,8 +119,7 @@ Result<void> read_roots(const World& world, std::span<const Entity> people, cons
                         std::span<Root> out) {
   if (out.size() != people.size())
     return fail(fmt::format("roots: {} people, and room for {}; give as much", people.size(), out.size()));
-  if (!(ahead_s >= 0 && ahead_s <= furthest_ahead_s))
-    return fail(fmt::format("roots: {} s after the last tick; 0 to {} s", ahead_s, furthest_ahead_s));
+  if (auto done = check_ahead(ahead_s); !done) return fail(fmt::format("roots: {}", done.error().message));
   for (std::size_t i = 0; i < people.size(); ++i) {
     if (!is_person(world, people[i]))
       return fail(fmt::format("roots: person {} of the list is not there (a stale handle)", i), Status::stale_entity);

@@ -1,8 +1,14 @@
 #include "systems/poses/walk_ahead.h"
 
+#include <fmt/format.h>
+
+#include <mobil/components/avoidance.h>
+#include <mobil/each.h>
 #include <mobil/rows.h>
 #include "systems/gait/footing.h"
 #include "systems/gait/gait.h"
+#include "systems/gait/kinematics.h"
+#include "systems/gait/shoulders.h"
 
 namespace mobil::inline v0_3 {
 
@@ -25,6 +31,32 @@ WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>
   }
   turn_gait(size, *plan_, gait, state_, ahead_s);
   if (uneven_) follow_feet(state_, footing_);
+}
+
+Result<void> check_ahead(double ahead_s) {
+  if (ahead_s >= 0 && ahead_s <= furthest_ahead_s) return {};
+  return fail(fmt::format("{} s after the last tick; 0 to {} s", ahead_s, furthest_ahead_s));
+}
+
+void pose_ahead(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<float>>& pose) {
+  const auto& size = TableColumn<BodySize>(table).at(table, block);
+  const TableColumn<Footing> footing(table);
+  const WalkAhead then(size, TableColumn<Gait>(table).at(table, block), TableColumn<StepPlan>(table).at(table, block),
+                       TableColumn<GaitState>(table).at(table, block), footing ? &footing.at(table, block) : nullptr,
+                       ahead_s);
+  JointAngles<Lanes<float>> angles;
+  Feet<Lanes<float>> feet;
+  pose_skeleton(size, then.plan(), then.state(), then.footing(), pose, angles, feet);
+  if (const TableColumn<AvoidanceState> courses(table); courses)
+    turn_shoulders(courses.at(table, block).turn_rad, pose);
+}
+
+Pose<float> pose_ahead(const World& world, Entity person, float ahead_s) {
+  const auto place = world.find(person);
+  if (!TableColumn<GaitState>(*place.table)) return *world.get<Pose>(person);
+  Pose<Lanes<float>> pose;
+  pose_ahead(*place.table, place.row / lane_count, ahead_s, pose);
+  return row_of(pose, place.row % lane_count);
 }
 
 }  // namespace mobil::inline v0_3

@@ -6,11 +6,19 @@
 #include <mobil/components/body.h>
 #include <mobil/components/footing.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/pose.h>
+#include <mobil/engine/entity.h>
+#include <mobil/engine/error.h>
 
 namespace mobil::inline v0_3 {
 
+class Table;
+class World;
+
 /// Maximum time ahead, s. It is shorter than any step, so that at most one step begins in it.
 inline constexpr double furthest_ahead_s = 0.2;
+/// Fails on a time outside 0 to furthest_ahead_s.
+Result<void> check_ahead(double ahead_s);
 
 /// A block of walkers `ahead_s` later, for times above 0. A step that begins in that time is solved as the tick will
 /// solve it.
@@ -33,5 +41,11 @@ class WalkAhead {
   bool uneven_;
   Footing<Lanes<float>> footing_;
 };
+
+/// Computes the pose of a block of walkers `ahead_s` after the last tick, 0 to furthest_ahead_s. Shoulders turned for
+/// avoidance keep their present rotation.
+void pose_ahead(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<float>>& pose);
+/// Returns the same of one person who is awake; of a posed person, the pose on the row.
+Pose<float> pose_ahead(const World& world, Entity person, float ahead_s);
 
 }  // namespace mobil::inline v0_3

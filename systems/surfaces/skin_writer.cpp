@@ -10,8 +10,10 @@
 #include <mobil/components/fat.h>
 #include <mobil/components/pose.h>
 #include <mobil/engine/interrupt.h>
+#include <mobil/systems/people/sleepers.h>
 #include <mobil/systems/surfaces/place_skin.h>
 #include "systems/gait/fat_motion.h"
+#include "systems/poses/walk_ahead.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -28,8 +30,9 @@ Result<void> check_skin(const World& world, const SkinRequest& request) {
       return fail("normals lie over positions; put them into slots of their own, or into other memory");
   }
   if (!world.alive(request.person)) return fail("the person is not there (a stale handle)", Status::stale_entity);
-  if (request.pose == nullptr && !world.has<Pose>(request.person))
-    return fail("the person has no pose on their row; give one", Status::missing);
+  if (auto done = check_ahead(request.ahead_s); !done) return done;
+  if (request.pose == nullptr && is_asleep(world, request.person))
+    return fail("the person is asleep; give the pose that get<Pose> returns", Status::missing);
   return {};
 }
 
@@ -59,6 +62,7 @@ struct SkinWriter::Work {
   ScratchPool& scratch;
   const World& world;
   std::span<const SkinRequest> requests;
+  const VertexAxes& axes;
 };
 
 SkinWriter::SkinWriter(std::pmr::memory_resource* memory) : scratch_(memory) {}
@@ -74,18 +78,29 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
     const VertexTarget out{request.positions.bytes.data(),
                            request.normals.bytes.empty() ? nullptr : request.normals.bytes.data(),
                            request.positions.stride, request.normals.stride};
-    const Pose<float> own = request.pose == nullptr ? *work.world.get<Pose>(request.person) : *request.pose;
+    Pose<float> own;
+    if (request.pose != nullptr) {
+      own = *request.pose;
+    } else if (request.ahead_s == 0 && work.world.has<Pose>(request.person)) {
+      own = *work.world.get<Pose>(request.person);
+    } else {
+      own = pose_ahead(work.world, request.person, static_cast<float>(request.ahead_s));
+    }
     const auto fat = work.world.get<FatWobble>(request.person);
     const bool wobbles = fat && work.world.has<Pose>(request.person);
     FatBeside beside;
     if (wobbles) beside = shown_fat(*work.world.get<BodySize>(request.person), *fat);
     pose_skin(skin, own, request.shape.lengths, request.origin_m, request.muscles, request.table,
               wobbles ? &beside : nullptr, maps, out);
+    convert_axes(request.positions, 0, skin.rest.size(), VertexField::position, work.axes);
+    convert_axes(request.normals, 0, skin.rest.size(), VertexField::normal, work.axes);
   }
 }
 
-Result<void> SkinWriter::write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs) {
+Result<void> SkinWriter::write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs,
+                               const VertexAxes& axes) {
   const FloatMode mode;
+  if (auto done = check_axes(axes); !done) return done;
   std::size_t frames = 0;
   for (std::size_t r = 0; r < requests.size(); ++r) {
     if (auto done = check_skin(world, requests[r]); !done)
@@ -93,7 +108,7 @@ Result<void> SkinWriter::write(const World& world, std::span<const SkinRequest> 
     frames = std::max(frames, mesh_of(*requests[r].shape.skin).frame.size());
   }
   scratch_.prepare(frames * sizeof(FrameMap) / sizeof(float), jobs.threads);
-  Work work{scratch_, world, requests};
+  Work work{scratch_, world, requests, axes};
   run_in_parallel(jobs, requests.size(), write_people, &work);
   return {};
 }

@@ -8,10 +8,16 @@
 #include <cstdint>
 
 #include <mobil/components/activation.h>
+#include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
 #include <mobil/engine/interrupt.h>
+#include <mobil/rows.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include <mobil/systems/surfaces/write_vertices.h>
+#include "systems/lines/elongations.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/muscles/pose_history.h"
+#include "systems/poses/walk_ahead.h"
 #include "systems/surfaces/place_vertices.h"
 
 namespace mobil::inline v0_3 {
@@ -19,7 +25,7 @@ namespace {
 
 constexpr std::size_t vertex_bytes = 3 * sizeof(float), tangent_bytes = 4 * sizeof(float);
 
-/// Returns an entity's lane of a component; null if the entity is stale or has none.
+/// Returns the words of an entity's row of a component; null if the entity is stale or has none.
 template <template <class> class C>
 const float* lane_of(const World& world, Entity entity) {
   const auto place = world.find(entity);
@@ -29,14 +35,15 @@ const float* lane_of(const World& world, Entity entity) {
   return place.table->block(place.row / lane_count) + column * lane_count + place.row % lane_count;
 }
 
-template <class T>
-T read(const float* lane, std::size_t first_word) {
+template <class T, class Row>
+T read(const Row& row, std::size_t first_word = 0) {
   std::array<float, sizeof(T) / sizeof(float)> word;
-  for (std::size_t w = 0; w < word.size(); ++w) word[w] = lane[(first_word + w) * lane_count];
+  for (std::size_t w = 0; w < word.size(); ++w) word[w] = row.word[(first_word + w) * row.stride];
   return std::bit_cast<T>(word);
 }
 
-RigidPose segment_pose(const float* pose, Segment segment) {
+template <class Row>
+RigidPose segment_pose(const Row& pose, Segment segment) {
   return {read<Vec3<float>>(pose, 3 * index(segment)), read<Quat<float>>(pose, 3 * segment_count + 4 * index(segment))};
 }
 
@@ -97,9 +104,7 @@ VertexTarget target_of(const SurfaceRequest& request, std::uint32_t first_vertex
           request.normals.stride, at(request.tangents), request.tangents.stride};
 }
 
-void write_bone(const SurfaceRequest& request, const float* pose, const RigidSurface& surface,
-                const SurfacePart& part) {
-  RigidPose now = segment_pose(pose, part.segment);
+void write_bone(const SurfaceRequest& request, RigidPose now, const RigidSurface& surface, const SurfacePart& part) {
   const Vec3<float>& o = request.origin_m;
   now.position_m = {now.position_m.x - o.x, now.position_m.y - o.y, now.position_m.z - o.z};
   const VertexTarget target = target_of(request, part.first_vertex);
@@ -112,9 +117,12 @@ void write_bone(const SurfaceRequest& request, const float* pose, const RigidSur
 struct SurfaceWriter::Work {
   SurfaceWriter& writer;
   std::span<const SurfaceRequest> requests;
+  const World& world;
+  const VertexAxes& axes;
 
   void write_piece(std::size_t request, const BodySurfaces::Piece& piece, float* scratch) const;
   void write_side(std::size_t request, const BodySurfaces::Piece& piece, Side side, float* scratch) const;
+  void convert(const SurfaceRequest& request, const SurfacePart& part) const;
 };
 
 void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& piece, Side side, float* scratch) const {
@@ -122,14 +130,17 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
   const auto& packed = std::get<PackedSurface>(piece.surface);
   const Resolved& person = writer.person_[r];
   const Line& muscle = writer.line_[person.first_line + 2 * piece.driver + side];
-  const auto line = read<LineOfAction<float>>(muscle.line, 0);
+  const auto line = read<LineOfAction<float>>(muscle.line);
+  const BodySurfaces::Driver& driver = request.surfaces->driver[piece.driver];
   float *places = scratch, *node = scratch + 4 * packed.places();
   if (muscle.node == nullptr) {
-    const float longer_m = muscle.pull == nullptr ? line.length_m - line.rest_length_m
-                                                  : read<Musculotendon<float>>(muscle.pull, 0).belly_m;
-    draw_out(request.surfaces->driver[piece.driver], longer_m, node);
+    const float longer_m = muscle.pull.word == nullptr
+                               ? line.length_m - line.rest_length_m
+                               : read<Musculotendon<float>>(muscle.pull).belly_m + muscle.longer_m;
+    draw_out(driver, longer_m, node);
   } else {
     for (std::size_t w = 0; w < 3 * std::size_t{packed.nodes}; ++w) node[w] = muscle.node[w * lane_count];
+    for (std::size_t n = 0; n < driver.nodes; ++n) node[3 * n + 2] += muscle.longer_m * driver.along[n];
   }
   const SurfaceRest& rest = packed.rest;
   SurfaceScale scale;
@@ -147,21 +158,33 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
 
 void SurfaceWriter::Work::write_piece(std::size_t r, const BodySurfaces::Piece& piece, float* scratch) const {
   if (const auto* rigid = std::get_if<RigidSurface>(&piece.surface)) {
-    write_bone(requests[r], writer.person_[r].pose, *rigid, requests[r].surfaces->part[*piece.part[0]]);
+    const SurfacePart& part = requests[r].surfaces->part[*piece.part[0]];
+    write_bone(requests[r], segment_pose(writer.person_[r].pose, part.segment), *rigid, part);
+    convert(requests[r], part);
     return;
   }
   for (const Side side : {Side::right, Side::left}) {
-    if (piece.part[side]) write_side(r, piece, side, scratch);
+    if (!piece.part[side]) continue;
+    write_side(r, piece, side, scratch);
+    convert(requests[r], requests[r].surfaces->part[*piece.part[side]]);
   }
 }
 
-SurfaceWriter::SurfaceWriter(std::pmr::memory_resource* memory) : person_(memory), line_(memory), scratch_(memory) {}
+void SurfaceWriter::Work::convert(const SurfaceRequest& request, const SurfacePart& part) const {
+  convert_axes(request.positions, part.first_vertex, part.vertices, VertexField::position, axes);
+  convert_axes(request.normals, part.first_vertex, part.vertices, VertexField::normal, axes);
+  convert_axes(request.tangents, part.first_vertex, part.vertices, VertexField::tangent, axes);
+}
+
+SurfaceWriter::SurfaceWriter(std::pmr::memory_resource* memory)
+    : person_(memory), line_(memory), later_pose_(memory), later_line_(memory), scratch_(memory) {}
 
 Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& request) {
   if (auto done = check_buffers(request); !done) return done;
+  if (auto done = check_ahead(request.ahead_s); !done) return done;
   if (!world.alive(request.person)) return fail("the person is not there (a stale handle)", Status::stale_entity);
-  const Resolved person{lane_of<Pose>(world, request.person), line_.size()};
-  if (person.pose == nullptr)
+  const Resolved person{{lane_of<Pose>(world, request.person)}, line_.size()};
+  if (person.pose.word == nullptr)
     return fail("the person has no pose; who is compact or asleep must be whole first", Status::missing);
   person_.push_back(person);
   for (const BodySurfaces::Driver& driver : request.surfaces->driver) {
@@ -172,9 +195,10 @@ Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& re
       if (!request.surfaces->sides[side]) continue;
       if (own == request.muscles.end()) return fail(fmt::format("{} is not among the muscles", name));
       const auto owner = world.get<MuscleOwner>(own->entity[side]);
-      line.line = lane_of<LineOfAction>(world, own->entity[side]);
-      line.pull = lane_of<Musculotendon>(world, own->entity[side]);
-      if (!owner || line.line == nullptr)
+      line.line.word = lane_of<LineOfAction>(world, own->entity[side]);
+      line.pull.word = lane_of<Musculotendon>(world, own->entity[side]);
+      line.scale.word = lane_of<LegScale>(world, own->entity[side]);
+      if (!owner || line.line.word == nullptr)
         return fail(fmt::format("{} is not there (a stale handle)", name), Status::stale_entity);
       if (owner->index != request.person.index || owner->generation != request.person.generation || owner->side != side)
         return fail(fmt::format("{} is another person's or of the other side", name));
@@ -189,6 +213,36 @@ Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& re
   return {};
 }
 
+/// Replaces poses and lines of action of people at a later instant.
+void SurfaceWriter::look_ahead(void* context, std::size_t begin, std::size_t end) {
+  const auto& work = *static_cast<const Work*>(context);
+  SurfaceWriter& writer = work.writer;
+  for (std::size_t r = begin; r < end; ++r) {
+    const SurfaceRequest& request = work.requests[r];
+    if (request.ahead_s == 0) continue;
+    Resolved& person = writer.person_[r];
+    Pose<float>& pose = writer.later_pose_[r] =
+        pose_ahead(work.world, request.person, static_cast<float>(request.ahead_s));
+    person.pose = {reinterpret_cast<const float*>(&pose), 1};
+    for (const Side side : {Side::right, Side::left}) {
+      if (!request.surfaces->sides[side]) continue;
+      const LegFrames<Lanes<float>> leg = leg_of(pose, side);
+      for (std::size_t d = 0; d < request.surfaces->driver.size(); ++d) {
+        const std::size_t l = person.first_line + 2 * d + side;
+        Line& line = writer.line_[l];
+        const auto before = read<LineOfAction<float>>(line.line);
+        auto lanes = broadcast(before);
+        EndDrive<Lanes<float>> end_drive{};
+        lines_of_action(lines_of(request.surfaces->driver[d].muscle), broadcast(read<LegScale<float>>(line.scale)), leg,
+                        FarEnd::held, lanes, end_drive);
+        const LineOfAction<float>& then = writer.later_line_[l] = row_of(lanes, 0);
+        line.longer_m = then.length_m - before.length_m;
+        line.line = {reinterpret_cast<const float*>(&then), 1};
+      }
+    }
+  }
+}
+
 void SurfaceWriter::write_pieces(void* context, std::size_t begin, std::size_t end) {
   const auto& work = *static_cast<const Work*>(context);
   const ScratchLease scratch(&work.writer.scratch_);
@@ -201,8 +255,10 @@ void SurfaceWriter::write_pieces(void* context, std::size_t begin, std::size_t e
   }
 }
 
-Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceRequest> requests, const Jobs& jobs) {
+Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceRequest> requests, const Jobs& jobs,
+                                  const VertexAxes& axes) {
   const FloatMode mode;
+  if (auto done = check_axes(axes); !done) return done;
   person_.clear();
   line_.clear();
   std::size_t pieces = 0, nodes = 0, places = 0;
@@ -214,7 +270,12 @@ Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceReq
     places = std::max(places, requests[r].surfaces->max_places);
   }
   scratch_.prepare(4 * places + 3 * nodes, jobs.threads);
-  Work work{*this, requests};
+  Work work{*this, requests, world, axes};
+  if (std::ranges::any_of(requests, [](const SurfaceRequest& one) { return one.ahead_s > 0; })) {
+    later_pose_.resize(requests.size());
+    later_line_.resize(line_.size());
+    run_in_parallel(jobs, requests.size(), look_ahead, &work);
+  }
   run_in_parallel(jobs, pieces * requests.size(), write_pieces, &work);
   return {};
 }

@@ -3,8 +3,32 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <cstring>
+
+#include "systems/poses/pose_axes.h"
 
 namespace mobil::inline v0_3 {
+
+Result<void> check_axes(const VertexAxes& axes) {
+  if (axes.units_per_m >= 0.001F && axes.units_per_m <= 1e6F) return {};
+  return fail(fmt::format("{} units a metre; 0.001 to 1e6", axes.units_per_m));
+}
+
+void convert_axes(const VertexStream& stream, std::size_t first, std::size_t count, VertexField field,
+                  const VertexAxes& axes) {
+  if (stream.bytes.empty() || (axes.axes == PoseAxes::y_up && axes.units_per_m == 1)) return;
+  const AxisMap& map = axes_of[static_cast<std::size_t>(axes.axes)];
+  const float units = field == VertexField::position ? axes.units_per_m : 1;
+  const std::size_t floats = field == VertexField::tangent ? 4 : 3;
+  for (std::size_t v = first; v < first + count; ++v) {
+    float ours[4], theirs[4];
+    std::byte* const at = stream.bytes.data() + v * stream.stride;
+    std::memcpy(ours, at, floats * sizeof(float));
+    for (std::size_t i = 0; i < 3; ++i) theirs[i] = map.sign[i] * units * ours[map.ours[i]];
+    theirs[3] = map.mirrored() * ours[3];
+    std::memcpy(at, theirs, floats * sizeof(float));
+  }
+}
 
 Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices, std::size_t bytes) {
   if (stream.stride < bytes)

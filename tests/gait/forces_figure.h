@@ -130,6 +130,12 @@ struct Block {
     return {static_cast<double>(moments.hip_nm[side][lane]), static_cast<double>(moments.knee_nm[side][lane]),
             static_cast<double>(moments.ankle_nm[side][lane])};
   }
+  /// Frontal and transverse moment of the hip, and the free moment under the foot.
+  Vector aside(std::size_t lane, std::size_t side) const {
+    return {static_cast<double>(moments.hip_abduction_nm[side][lane]),
+            static_cast<double>(moments.hip_rotation_nm[side][lane]),
+            static_cast<double>(reaction.free_moment_nm[side][lane])};
+  }
 };
 
 /// Returns people of random sizes, all standing on both feet.

@@ -123,7 +123,11 @@ TEST(Forces, DoubleSupportIsFullyBalanced) {
       const Vector body = body_centre(height, motion(l, 0));
       Vector moment = -angular_rate(
           height, mass, [&](double t) { return motion(l, t); }, dt);
-      for (std::size_t side = 0; side < 2; ++side) moment += (b->pressure(l, side) - body).cross(b->force(l, side));
+      for (std::size_t side = 0; side < 2; ++side) {
+        moment += (b->pressure(l, side) - body).cross(b->force(l, side));
+        moment.y() += b->aside(l, side)(2);
+      }
+      EXPECT_NEAR(moment.y(), 0, (swings ? 6e-3 : 1e-3) * weight_of(*b, l));
       EXPECT_NEAR(moment.x(), 0, (swings ? 6e-3 : 1e-3) * weight_of(*b, l));
       EXPECT_NEAR(moment.z(), 0, (swings ? 6e-3 : 1e-3) * weight_of(*b, l));
     }
@@ -182,6 +186,7 @@ double oracle_moment(double height, double mass, const std::function<Stance(doub
 
 TEST(Forces, AnyMotionAgreesWithThreeDimensionalFreeBodies) {
   Vector worst = Vector::Zero();  // hip, knee, ankle, relative to weight times height
+  double worst_aside = 0;         // frontal and transverse, at the hip
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const auto b = random_people(seed);
     somewhere_in_a_step(*b);
@@ -214,12 +219,23 @@ TEST(Forces, AnyMotionAgreesWithThreeDimensionalFreeBodies) {
           const double off = std::abs(b->joints(l, side)(at) - moment);
           worst(at) = std::fmax(worst(at), off / (weight_of(*b, l) * height));
         }
+        const auto of_hip = [&](const Vector& about) {
+          return oracle_moment(
+              height, mass, [&](double t) { return motion(l, t); }, dt, Segment::thigh_right, side, b->force(l, side),
+              b->pressure(l, side), about);
+        };
+        const double outward = side == Side::left ? 1 : -1;
+        const Vector aside = b->aside(l, side);
+        for (const double off : {aside(0) - outward * of_hip(axis.cross(Vector::UnitY())),
+                                 aside(1) + outward * (of_hip(Vector::UnitY()) - aside(2))})
+          worst_aside = std::fmax(worst_aside, std::abs(off) / (weight_of(*b, l) * height));
       }
     }
   }
   EXPECT_LT(worst(0), 1e-4);
   EXPECT_LT(worst(1), 5e-6);
   EXPECT_LT(worst(2), 1e-6);
+  EXPECT_LT(worst_aside, 2e-4);
 }
 
 TEST(Forces, MirrorImageExchangesSides) {
@@ -241,6 +257,8 @@ TEST(Forces, MirrorImageExchangesSides) {
         EXPECT_LT((m->force(l, 1 - side) - Vector(-f.x(), f.y(), f.z())).norm(), 2e-3 * weight);
         EXPECT_LT((m->pressure(l, 1 - side) - Vector(-c.x(), c.y(), c.z())).norm(), 1e-3);
         EXPECT_LT((m->joints(l, 1 - side) - b->joints(l, side)).norm(), 4e-3 * weight);
+        const Vector aside = b->aside(l, side);
+        EXPECT_LT((m->aside(l, 1 - side) - Vector(aside.x(), aside.y(), -aside.z())).norm(), 4e-3 * weight);
       }
     }
   }

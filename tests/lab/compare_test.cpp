@@ -307,6 +307,7 @@ TEST(Balance, WalksTurnStopLimpAndStepAsideWithinTheirSoles) {
       EXPECT_EQ(walked.name, bounds[i].scene);
       EXPECT_LT(walked.moment.pitch_rms, bounds[i].pitch) << walked.name << ", " << body.height_m << " m";
       EXPECT_LT(walked.moment.roll_rms, bounds[i].roll) << walked.name << ", " << body.height_m << " m";
+      EXPECT_LT(walked.moment.yaw_rms, 0.03) << walked.name << ", " << body.height_m << " m";
     }
   }
 }

@@ -113,10 +113,6 @@ class Watch {
 
  private:
   Quat<double> of(Segment s) const { return to_double(pose_.rotation[index(s)]); }
-  /// Returns the rotation of the pelvis in the anatomical position.
-  Quat<double> level_pelvis() const {
-    return product(of(pelvis), {std::sin(-neutral_tilt / 2), 0, 0, std::cos(neutral_tilt / 2)});
-  }
   static double heading(const Quat<double>& q) {
     const Vec to_left = rotated(q, {1, 0, 0});
     return std::atan2(-to_left.z, to_left.x) / degree;
@@ -154,7 +150,7 @@ class Watch {
     out.joint_at("knee flexion", deg(angles_.knee_flexion[side]), -1.6, 143.8);
     out.joint_at("ankle dorsiflexion", deg(angles_.ankle_dorsiflexion[side]), -50, 39);
     const auto from = [&](const Quat<double>& upper, Segment lower) { return product(conjugate(upper), of(lower)); };
-    const Vec down = rotated(from(level_pelvis(), on_side(thigh_right, side)), {0, -1, 0});
+    const Vec down = rotated(from(of(pelvis), on_side(thigh_right, side)), {0, -1, 0});
     out.joint_at("hip abduction", outward * std::asin(std::clamp(down.x, -1.0, 1.0)) / degree, -30, 45);
     const double turned = std::remainder(heading(of(on_side(foot_right, side))) - heading(of(pelvis)), 360) * -outward;
     out.joint_at("hip rotation", turned, -45, 45);
@@ -169,7 +165,7 @@ class Watch {
 
   /// Checks bending; rotation is excluded (mobil/systems/limits/walk_limits.h).
   void column(Walked& out) const {
-    Quat<double> below = level_pelvis();
+    Quat<double> below = of(pelvis);
     for (std::size_t v = 0; v < vertebra_limits.size(); ++v) {
       const Quat<double> own = of(static_cast<Segment>(index(L5) + v));
       Quat<double> joint = product(conjugate(below), own);

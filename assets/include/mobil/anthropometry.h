@@ -53,6 +53,10 @@ constexpr UnitBody make_unit_body();
 Result<Body> make_body(const BodyRequest& request);
 /// Returns the limb lengths of a body, requested or by proportion.
 LimbLengths<float> limb_lengths(const Body& body);
+/// Returns the inertia of a segment about its centre of mass and its own axes, which are principal axes, kg m². Fat and
+/// muscle do not thicken a segment: inertia grows with mass and with the square of height (assets/body/segment_inertia.h
+/// has the sources).
+Vec3<double> segment_inertia_kg_m2(const Body& body, Segment segment);
 /// Returns the anatomical position: standing at the origin facing +Z, all rotations identity.
 Pose<float> standing_pose(const Body& body);
 /// Checks a request without building the body. Fails with the errors of `make_body`.

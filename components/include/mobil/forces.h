@@ -9,19 +9,23 @@
 
 namespace mobil::inline v0_3 {
 
-/// Ground reaction of each foot, world frame: force (N) and its centre of pressure (m, on the ground). The force is
-/// zero for a foot in the air. For people whose host animates them it is one tick old. Index 0 right, 1 left.
+/// Ground reaction of each foot, world frame: force (N), its centre of pressure (m, on the ground), and the free moment
+/// there, about the vertical (N m, positive to the left). All are zero for a foot in the air. For people whose host
+/// animates them they are one tick old. Index 0 right, 1 left.
 template <class F>
 struct GroundReaction {
   Vec3<F> force_n[2];
   Vec3<F> centre_m[2];
+  F free_moment_nm[2];
 };
 
-/// Internal sagittal moments, N m, at the instant of the ground reaction: hip and knee extensor positive, ankle
-/// plantarflexor positive. Index 0 right, 1 left.
+/// Internal moments, N m, at the instant of the ground reaction. Sagittal ones: hip and knee extensor positive, ankle
+/// plantarflexor positive. At the hip also the frontal one, abductor positive, and the transverse one, inward rotator
+/// positive. Index 0 right, 1 left.
 template <class F>
 struct JointMoments {
   F hip_nm[2], knee_nm[2], ankle_nm[2];
+  F hip_abduction_nm[2], hip_rotation_nm[2];
 };
 
 /// Points of the legs about which moments are taken: five a leg, right before left.

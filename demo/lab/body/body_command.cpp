@@ -100,7 +100,7 @@ Json segments(const Body& body) {
       {"meaning",
        "joint_offset_m: joint in the parent's frame (pelvis: over the ground). joint_centre_m: in the anatomical "
        "position, standing at x = z = 0. tip_m, centre_of_mass_m: in the segment's frame. inertia_kg_m2: xx, yy, zz "
-       "about the centre of mass, principal. x left, y up, z forward"},
+       "about the centre of mass, principal. x left, y up, z forward; frames are those of poses"},
       {"rows", rows}};
 }
 
@@ -136,21 +136,33 @@ Json joint_limits() {
           {"column", column}};
 }
 
-constexpr std::string_view bone_name[] = {"pelvis", "thigh", "shank", "foot"};
+struct PathBone {
+  std::string_view name;
+  Segment segment;
+};
+constexpr PathBone path_bones[] = {{"pelvis", Segment::pelvis},
+                                   {"thigh", Segment::thigh_right},
+                                   {"shank", Segment::shank_right},
+                                   {"foot", Segment::foot_right}};
+constexpr PathBone kneecap{"patella", Segment::patella_right};
 
-Json place(const PathPlace& p) {
-  return {{"bone", bone_name[static_cast<std::size_t>(p.bone)]},
-          {"in_bone_m", point(p.in_bone_m)},
+Json place(const Body& body, const PathPlace& p, const PathBone& bone) {
+  using geometry::operator-;
+  return {{"bone", bone.name},
+          {"in_bone_m", point(p.world_m - joint_centre_m(body, bone.segment))},
           {"world_m", point(p.world_m)}};
+}
+Json place(const Body& body, const PathPlace& p) {
+  return place(body, p, path_bones[static_cast<std::size_t>(p.bone)]);
 }
 
 Json attachments(const Body& body, const MemberMuscle& member) {
   const auto places = member_places(body, member);
   Json via = Json::array();
-  for (std::size_t i = 1; i + 1 < places.size(); ++i) via.push_back(place(places[i]));
-  Json insertion = place(places.back());
+  for (std::size_t i = 1; i + 1 < places.size(); ++i) via.push_back(place(body, places[i]));
+  Json insertion = member.kneecap ? place(body, places.back(), kneecap) : place(body, places.back());
   insertion["on_kneecap"] = member.kneecap.has_value();
-  return {{"origin", place(places.front())}, {"via", via}, {"insertion", insertion}};
+  return {{"origin", place(body, places.front())}, {"via", via}, {"insertion", insertion}};
 }
 
 Json muscle(const Body& body, Muscle which) {
@@ -202,7 +214,9 @@ Json leg_muscles(const Body& body) {
         {"physiological_section_m2", "volume times cosine of pennation over fibre length"},
         {"mesh", "the belly that is simulated: its span on the drawn line, that line's tendon, volume over span"}}},
       {"meaning",
-       "right leg in the anatomical position, standing at x = z = 0; the left is its mirror image (x to -x). Of a "
+       "right leg in the anatomical position, standing at x = z = 0; the left is its mirror image (x to -x). "
+       "in_bone_m: "
+       "from the segment's joint, in its frame. Of a "
        "group: sums of volume, mass and sections, means of lengths and angles by the members' volumes in the "
        "reference body"},
       {"sides", {"right", "left"}},

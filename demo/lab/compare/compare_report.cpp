@@ -132,7 +132,9 @@ Json balance_json(const std::vector<BalancedScene>& scenes) {
                     {"pitch_rms", scene.moment.pitch_rms},
                     {"pitch_peak", scene.moment.pitch_peak},
                     {"roll_rms", scene.moment.roll_rms},
-                    {"roll_peak", scene.moment.roll_peak}});
+                    {"roll_peak", scene.moment.roll_peak},
+                    {"yaw_rms", scene.moment.yaw_rms},
+                    {"yaw_peak", scene.moment.yaw_peak}});
   }
   return json;
 }
@@ -193,8 +195,8 @@ std::string comparison_text(const Comparison& comparison, const std::vector<Verd
   text += "\nmoment of the ground that the motion does not account for (N m/kg, rms and peak)\n";
   for (const auto& scene : comparison.balance) {
     const UnbalancedMoment& m = scene.moment;
-    fmt::format_to(out, "  {:<22} pitch {:.3f} {:.2f}  roll {:.3f} {:.2f}\n", scene.name, m.pitch_rms, m.pitch_peak,
-                   m.roll_rms, m.roll_peak);
+    fmt::format_to(out, "  {:<22} pitch {:.3f} {:.2f}  roll {:.3f} {:.2f}  yaw {:.3f} {:.2f}\n", scene.name,
+                   m.pitch_rms, m.pitch_peak, m.roll_rms, m.roll_peak, m.yaw_rms, m.yaw_peak);
   }
   text += "\ncentre of mass and steps\n";
   for (const auto& walk : comparison.walks) {

@@ -210,19 +210,25 @@ void BalanceMeter::add(const Pose<float>& pose, const GroundReaction<float>& gro
   for (std::size_t side = 0; side < 2; ++side) {
     const Vec arm = to_double(reaction.centre_m[side]) - centre;
     lacking = lacking + cross(arm, to_double(reaction.force_n[side]));
+    lacking.y += static_cast<double>(reaction.free_moment_nm[side]);
   }
   const Vec ahead = normalised(before.forward + after.forward), across{ahead.z, 0, -ahead.x};
-  const double pitch = dot(lacking, across) / total_kg_, roll = dot(lacking, ahead) / total_kg_;
   ++counted_;
-  pitch_squares_ += pitch * pitch;
-  roll_squares_ += roll * roll;
-  pitch_peak_ = std::max(pitch_peak_, std::abs(pitch));
-  roll_peak_ = std::max(roll_peak_, std::abs(roll));
+  const auto add = [&](double moment, double& squares, double& peak) {
+    const double per_kg = moment / total_kg_;
+    squares += per_kg * per_kg;
+    peak = std::max(peak, std::abs(per_kg));
+  };
+  add(dot(lacking, across), sums_.pitch_rms, sums_.pitch_peak);
+  add(dot(lacking, ahead), sums_.roll_rms, sums_.roll_peak);
+  add(lacking.y, sums_.yaw_rms, sums_.yaw_peak);
 }
 
 UnbalancedMoment BalanceMeter::result() const {
-  const double n = std::max<double>(static_cast<double>(counted_), 1);
-  return {std::sqrt(pitch_squares_ / n), pitch_peak_, std::sqrt(roll_squares_ / n), roll_peak_};
+  UnbalancedMoment moment = sums_;
+  for (double* const squares : {&moment.pitch_rms, &moment.roll_rms, &moment.yaw_rms})
+    *squares = std::sqrt(*squares / std::max(static_cast<double>(counted_), 1.0));
+  return moment;
 }
 
 std::vector<BalancedScene> walk_balance_scenes(const BodyRequest& body, const GaitStyle& style) {

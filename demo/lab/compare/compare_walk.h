@@ -16,10 +16,9 @@
 namespace mobil {
 
 /// Moment of the ground minus the rate of angular momentum of all 48 segments about their common centre of mass, N m
-/// per kg of body. `pitch` is about the axis across the pelvis, `roll` about the one along it. The moment about the
-/// vertical is omitted: the ground reaction does not contain a foot's frictional torque.
+/// per kg of body. `pitch` is about the axis across the pelvis, `roll` about the one along it, `yaw` about the vertical.
 struct UnbalancedMoment {
-  double pitch_rms = 0, pitch_peak = 0, roll_rms = 0, roll_peak = 0;
+  double pitch_rms = 0, pitch_peak = 0, roll_rms = 0, roll_peak = 0, yaw_rms = 0, yaw_peak = 0;
 };
 
 /// Accumulates a person's unbalanced moment tick by tick, with inertias of assets/body/segment_inertia.h. Velocities
@@ -43,7 +42,7 @@ class BalanceMeter {
   std::vector<Pose<float>> last_;   // up to three, the newest last
   GroundReaction<float> ground_{};  // at the middle one
   std::size_t counted_ = 0;
-  double pitch_squares_ = 0, roll_squares_ = 0, pitch_peak_ = 0, roll_peak_ = 0;
+  UnbalancedMoment sums_;  // squares in the place of rms
 };
 
 /// One action of people while they walk.

@@ -10,12 +10,15 @@
 // The triangles are those of skin_mesh(sex, detail) (mobil/assets/surfaces/body_skin.h), one set for each sex.
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <memory_resource>
 #include <optional>
 #include <span>
 #include <tuple>
+#include <vector>
 
 #include <mobil/assets/surfaces/body_skin.h>
 #include <mobil/engine/error.h>
@@ -46,6 +49,16 @@ class BodySkins {
   /// make_body.
   Result<SkinShape> of(const BodyRequest& body, SkinDetail detail);
 
+  /// Makes the skins of usual builds, with body mass indices of 17 to 34 kg/m², for both sexes and the details `near`,
+  /// `far` and `distant`, in about 20 s. `progress`, if set, is called with the numbers of skins made and of all.
+  void prepare(const std::function<void(std::size_t made, std::size_t all)>& progress = {});
+  /// Returns the shared meshes and all skins as bytes, for `load`; the finest meshes only with skins of them.
+  std::vector<std::byte> bake() const;
+  /// Loads the bytes of `bake` in some 10 ms, so that neither meshes nor these skins are made at run time. Skins have
+  /// the same bits with and without it. Errors, and nothing is loaded: bytes of another version or another processor's
+  /// arithmetic, of other clothes, cut or altered.
+  Result<void> load(std::span<const std::byte> baked);
+
  private:
   SkinDress dress_;
   std::map<std::pair<Sex, int>, std::optional<form::TrunkFit>> fit_;  // by kg/m² in steps
@@ -53,7 +66,7 @@ class BodySkins {
 };
 
 /// One person with a skin. The fat of full people with Feature::fat wobbles. Positions are in m and world axes,
-/// relative to `origin_m` as in SurfaceRequest. Normals are optional.
+/// relative to `origin_m` as in SurfaceRequest, unless `write` is given other axes. Normals are optional.
 struct SkinRequest {
   Entity person;
   SkinShape shape;
@@ -66,18 +79,22 @@ struct SkinRequest {
   /// Table that shapes legs without vertices of muscles, for the person's sex and build (SkinTables::of). It must stay
   /// valid until `write` returns. Null: those legs have no muscle shape.
   const SkinTable* table = nullptr;
-  const Pose<float>* pose = nullptr;  // null: that of the row; compact people and sleepers need get<Pose>
+  const Pose<float>* pose = nullptr;  // null: the person's own; sleepers need get<Pose>
+  /// Instant after the last tick, 0 to 0.2 s, as in PoseWriter: a frame's alpha times the tick. It has no effect on a
+  /// given `pose`. `muscles` must be of the same instant; the fat's displacement is that of the tick.
+  double ahead_s = 0;
 };
 
 class SkinWriter {
  public:
   explicit SkinWriter(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-  /// Writes the vertices of each request after the last tick, with `jobs`. The bytes are the same for any number of
-  /// threads. Streams of different requests must not overlap, which is not checked. Errors name the request and precede
-  /// any writing: a stale handle, a person without a pose when none is given (Status::missing), no skin, a stride or a
-  /// buffer that is too small.
-  Result<void> write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs = {});
+  /// Writes the vertices of each request with `jobs`, in `axes`. The bytes are the same for any number of threads.
+  /// Streams of different requests must not overlap, which is not checked. Errors name the request and precede any
+  /// writing: a stale handle, a sleeper without a given pose (Status::missing), no skin, a time out of
+  /// range, a stride or a buffer that is too small.
+  Result<void> write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs = {},
+                     const VertexAxes& axes = {});
 
  private:
   struct Work;

@@ -26,6 +26,7 @@ from ._library import (
     text,
 )
 from .arrays import EVENT, PERSON, ROOT
+from .bodies import Body, body, segments_of
 from .deprecated import Avoidance, Terrain
 from .lod import Choice, Lod
 from .names import (
@@ -44,18 +45,21 @@ from .names import (
     StyleParameter,
 )
 from .plots import plot_walk
-from .skin import CustomSkin, Skin
+from .reports import PhaseCost, SystemCost, Ticks
+from .skin import Binding, CustomSkin, Skin, bake_skins, load_skins
 from .structs import Method, Muscles, method, muscles
 from .surfaces import Part, Surfaces
 from .surroundings import AvoidanceReport, TerrainReport
 from .walks import Walk, walk
-from .world import PhaseCost, SystemCost, Ticks, World
+from .world import World
 
 __version__ = text(lib.mobil_library_version())
 __all__ = [
     "ACTIVATION",
     "Avoidance",
     "AvoidanceReport",
+    "Binding",
+    "Body",
     "BusyError",
     "Choice",
     "EVENT",
@@ -93,8 +97,12 @@ __all__ = [
     "Walk",
     "World",
     "WrongTypeError",
+    "bake_skins",
+    "body",
+    "load_skins",
     "method",
     "muscles",
     "plot_walk",
+    "segments_of",
     "walk",
 ]

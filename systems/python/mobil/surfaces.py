@@ -11,7 +11,7 @@ from . import names
 from ._library import Owner, fail, ffi, lib, text
 from .arrays import People, _one, _people
 from .structs import _fill
-from .values import refuse, switch
+from .values import number, refuse, switch
 from .world import World
 
 
@@ -88,9 +88,15 @@ class Surfaces(Owner):
             number += 1
 
     def vertices(
-        self, world: World, people: People, out: npt.NDArray[np.float32] | None = None
+        self,
+        world: World,
+        people: People,
+        out: npt.NDArray[np.float32] | None = None,
+        *,
+        ahead_s: float = 0.0,
     ) -> npt.NDArray[np.float32]:
-        """Returns positions and unit normals after the last tick, (n, vertices, 6)."""
+        """Returns positions and unit normals, (n, vertices, 6). ahead_s: time after the last tick, 0 to 0.2, for
+        example alpha times tick_s."""
         people = _people(people)
         out = room(out, people.size, self.vertex_count)
         targets = ffi.new("mobil_surface_target[]", max(people.size, 1))
@@ -99,6 +105,7 @@ class Surfaces(Owner):
             target.size = ffi.sizeof("mobil_surface_target")
             target.id = _one(people[i])
             target.surfaces = self._surfaces
+            target.ahead_s = number(ahead_s, "ahead_s")
             aim(target, out[i])
         world._do(lib.mobil_write_surfaces(world._sim, targets, 0, people.size))
         if self._contacts is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, NamedTuple, Sequence
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,7 @@ from .arrays import EVENT, PERSON, ROOT, Floats, People
 from .arrays import _all, _floats, _ids, _one, _out, _people, _stride
 from .deprecated import OldWorld
 from .lod import Lod
+from .reports import PhaseCost, SystemCost, Ticks
 from .requests import person_requests, walk_requests
 from .structs import Method, Muscles, pointer
 from .surroundings import Avoidance, Terrain
@@ -37,32 +38,6 @@ _STATES = {
     "asleep": lib.MOBIL_ASLEEP,
     "posed": lib.MOBIL_POSED,
 }
-
-
-class Ticks(NamedTuple):
-    count: int
-    """Ticks that ran."""
-    alpha: float
-    """Position of the frame's end in the next tick, 0 to 1."""
-    dropped_s: float
-    """Time dropped from a frame that was too long."""
-
-
-class SystemCost(NamedTuple):
-    name: str
-    module: str
-    seconds: float
-    """In the last tick, summed over all threads."""
-    entities: int
-
-
-class PhaseCost(NamedTuple):
-    name: str
-    module: str
-    after: bool
-    """True: after the systems; false: before them."""
-    seconds: float
-    """In the last tick, on the calling thread."""
 
 
 class World(Owner, OldWorld):
@@ -475,6 +450,15 @@ class World(Owner, OldWorld):
     def moments(self, people: People, out: Floats | None = None) -> Floats:
         """Returns (n, 6) N m, columns as names.MOMENTS; needs "forces"."""
         return self._rows(lib.MOBIL_MOMENTS, people, out)
+
+    def hip_moments(self, people: People, out: Floats | None = None) -> Floats:
+        """Returns frontal and transverse moments of the hips, N m, abductor and inward rotator positive: (n, 4), right
+        before left; needs "forces"."""
+        return self._rows(lib.MOBIL_HIP, people, out)
+
+    def free_moments(self, people: People, out: Floats | None = None) -> Floats:
+        """Returns the moments of the ground about the vertical under each foot, N m, (n, 2); needs "forces"."""
+        return self._rows(lib.MOBIL_FREE_MOMENTS, people, out)
 
     def muscle_rows(
         self, what: str, people: People, muscle: str, side: str = "right", out: Floats | None = None

@@ -145,7 +145,9 @@ enum {
   MOBIL_AVOIDANCE_OPTIONS,
   MOBIL_AVOIDANCE_COUNTS,
   MOBIL_LEG_MESH,
-  MOBIL_TERRAIN_COUNTS
+  MOBIL_TERRAIN_COUNTS,
+  MOBIL_SEGMENT,
+  MOBIL_SKIN_BINDING
 };
 /* Fills a struct of kind `which` with defaults. `size` is its size in the caller's header. */
 MOBIL_API int mobil_defaults(int which, void* filled, size_t size);
@@ -360,6 +362,7 @@ enum { MOBIL_SEGMENTS = 48 }; /* of a skeleton */
 MOBIL_API const char* mobil_segment_name(int segment); /* null after the last */
 MOBIL_API int mobil_segment_parent(int segment);       /* the pelvis is its own parent */
 MOBIL_API int mobil_find_segment(const char* name);    /* MOBIL_MISSING if unknown */
+#include <mobil/c/body.h>
 
 /* Format of a segment's pose. */
 enum {
@@ -391,6 +394,9 @@ enum {
   MOBIL_STEP,    /* 3, walkers only: steps taken; supporting side; s since its heel strike */
   MOBIL_GROUND,  /* 12, with forces: force [2][3] in N, centre of pressure [2][3] */
   MOBIL_MOMENTS, /* 6, with forces: hip, knee, ankle, each [2]; N m, extensor and plantarflexor positive */
+  MOBIL_FREE_MOMENTS, /* 2, with forces: of each foot about the vertical at its centre of pressure; N m, to the left */
+  MOBIL_HIP,          /* 4, with forces: frontal and transverse moments of the hip, each [2]; N m, abductor and inward
+                         rotator positive */
   MOBIL_ROWS
 };
 MOBIL_API int mobil_row_floats(int what); /* floats in a row of that kind */

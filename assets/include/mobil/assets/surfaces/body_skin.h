@@ -46,6 +46,9 @@ SkinBuild skin_build(const BodyRequest& body, float index_step);
 /// Returns the mesh of men or of women, whose hairlines differ. All levels of detail are made at first use, in about
 /// two seconds; safe from any thread.
 const SkinMesh& skin_mesh(Sex sex, SkinDetail detail);
+/// Gives a mesh, so that `skin_mesh` does not make it. It must be the one that it would make. Has no effect once the mesh
+/// exists.
+void give_skin_mesh(Sex sex, SkinDetail detail, SkinMesh mesh);
 
 /// One body's skin in the anatomical position, m.
 struct BodySkin {

@@ -74,7 +74,7 @@ typedef struct mobil_level {
   int method; /* this and the next two as in mobil_method */
   MOBIL_RENAMED(int, modes, vectors);
   int moving;
-  float error_m;               /* of control points, 99.9th percentile over a walk, in that body */
+  float error_m; /* of control points, 99.9th percentile over a walk, in that body */
   float cost_us; /* of both legs' muscles and their control points, a tick of 1/60 s, on an Intel Xeon of 3 GHz */
 } mobil_level;
 /* Writes level `level`, from 0; MOBIL_MISSING after the last. `pulling` 1: active muscles. */

@@ -46,10 +46,50 @@ typedef struct mobil_skin_target {
   size_t muscle_vertices[2];
   int flexing; /* 1: legs without vertices of muscles move as if they had some; default 0. The first person of a build
                 * (3 kg/m2) takes one second */
+  int unused;
+  double ahead_s; /* time after the last tick, 0 to 0.2: alpha times tick_s for a frame; of sleepers ignored */
 } mobil_skin_target;
-/* Writes the skins of people after the last tick. The first person of a sex takes two seconds, the first of a build
+/* Writes the skins of people. The first person of a sex takes two seconds, the first of a build
  * (1.5 kg/m2) 0.25 to 0.5 s. */
 MOBIL_API int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count);
+
+/* Makes the skins of usual builds in some 20 s, and writes them with the shared meshes (some 17 MB) to `out`, if `room`
+ * is enough; `bytes` (can be null) receives their number. Since interface 4. */
+MOBIL_API int mobil_bake_skins(mobil_sim* sim, void* out, size_t room, size_t* bytes);
+/* Loads the bytes of mobil_bake_skins in some 10 ms. The first skins of a program then take no time. Bytes of another
+ * version, or cut or altered ones, are refused and change nothing. Since interface 4. */
+MOBIL_API int mobil_load_skins(mobil_sim* sim, const void* baked, size_t bytes);
+
+/* A skin for the graphics card: the rest shape of a body, with four segments and weights a vertex (linear blend
+ * skinning). A vertex is at the sum of weight * pose * inverse bind * position over its joints, with the poses that
+ * mobil_poses writes as MOBIL_MATRIX. Over a walk half of the vertices are within 1 mm of mobil_write_skin, and all
+ * within 25 mm of its surface. The skin of forearms slides along it by up to 45 mm, because the hand's turn is not
+ * spread. The body is in the anatomical position, all rotations identity, over the origin.
+ *
+ * Arrays can be null. Vertices are doubled on seams of the texture: there are mobil_binding_vertex_count of them, and
+ * `same_as` gives the number of each in mobil_write_skin. Triangles are in the order of mobil_skin_indices, so its
+ * `first` applies to them. Since interface 4. */
+typedef struct mobil_skin_binding {
+  size_t size;
+  int detail;            /* MOBIL_HERO and so on; default MOBIL_NEAR */
+  int sex;               /* of the vertices; a person of the other sex is refused. Negative (default): the person's */
+  size_t vertices;       /* room of the arrays for vertices, in vertices */
+  float* positions;      /* 3 a vertex */
+  float* normals;        /* 3 a vertex */
+  float* tangents;       /* 4 a vertex, as in glTF */
+  float* texture;        /* 2 a vertex: right and down from the upper left corner, 0 to 1 */
+  unsigned char* joints; /* 4 a vertex: segments, heaviest first */
+  float* weights;        /* 4 a vertex, which add up to 1 */
+  unsigned int* same_as; /* 1 a vertex */
+  unsigned int* indices; /* 3 a triangle: mobil_skin_index_count in all, the front outside in the host's axes */
+  size_t index_room;
+  float* inverse_binds; /* 12 a segment, three rows of four: MOBIL_SEGMENTS of them */
+} mobil_skin_binding;
+/* Returns the number of vertices of a binding; 0 for an unknown sex or detail. */
+MOBIL_API size_t mobil_binding_vertex_count(int sex, int detail);
+/* Writes the binding of a person's skin, for people of the same sex and similar build. Errors: a stale handle, an
+ * unknown detail; MOBIL_ROOM if an array is too small. */
+MOBIL_API int mobil_get_skin_binding(mobil_sim* sim, mobil_id like, const mobil_skin_binding* binding);
 
 /* ---- Custom skins ------------------------------------------------------------------------------------------------ */
 

@@ -49,8 +49,10 @@ typedef struct mobil_surface_target {
   size_t position_stride, normal_stride, tangent_stride;
   size_t position_bytes, normal_bytes, tangent_bytes;
   float origin[3]; /* subtracted before anything is placed */
+  int unused;
+  double ahead_s; /* time after the last tick, 0 to 0.2: alpha times tick_s for a frame */
 } mobil_surface_target;
-/* Writes the vertices of people after the last tick. */
+/* Writes the vertices of people. */
 MOBIL_API int mobil_write_surfaces(mobil_sim* sim, const mobil_surface_target* targets, size_t stride, size_t count);
 
 #endif

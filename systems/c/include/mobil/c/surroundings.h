@@ -45,10 +45,10 @@ MOBIL_API int mobil_avoidance_set_discs(mobil_sim* sim, const float* discs, size
 /* As the two calls above, for floors that lie above each other. `heights`: rows of two floats, bottom and top of each
  * wall or disc (units of length). Walkers whose ground is at or above the top, or more than 2 m below the bottom, do
  * not see it. Null: all heights. Refused: a top that is not above the bottom. */
-MOBIL_API int mobil_avoidance_set_walls_between(mobil_sim* sim, const float* walls, size_t stride,
-                                                const float* heights, size_t heights_stride, size_t count);
-MOBIL_API int mobil_avoidance_set_discs_between(mobil_sim* sim, const float* discs, size_t stride,
-                                                const float* heights, size_t heights_stride, size_t count);
+MOBIL_API int mobil_avoidance_set_walls_between(mobil_sim* sim, const float* walls, size_t stride, const float* heights,
+                                                size_t heights_stride, size_t count);
+MOBIL_API int mobil_avoidance_set_discs_between(mobil_sim* sim, const float* discs, size_t stride, const float* heights,
+                                                size_t heights_stride, size_t count);
 /* Writes the counts. */
 MOBIL_API int mobil_avoidance_report(mobil_sim* sim, mobil_avoidance_counts* out);
 

@@ -14,7 +14,8 @@ std::size_t SeenFigure::cloths() const {
 RecordedPeople recorded_people(const WalkRecording& recording) {
   RecordedPeople seen;
   seen.frame_s = recording.frame_s;
-  seen.figures.push_back({recording.bones, {}, recording.skin, &recording.standing_m});
+  seen.is_walk = true;
+  seen.figures.push_back({recording.bones, {}, recording.skin, recording.standing_m});
   seen.people.push_back({recording.name, 0, {1, 1, 1}, recording.colours, &recording.frames, recording.muscles});
   return seen;
 }
@@ -23,7 +24,7 @@ RecordedPeople recorded_people(const CrowdRecording& recording) {
   RecordedPeople seen;
   seen.frame_s = recording.frame_s;
   for (const RecordedFigure& figure : recording.figures)
-    seen.figures.push_back({figure.surfaces, figure.cloth, figure.skin, &figure.standing_m});
+    seen.figures.push_back({figure.surfaces, figure.cloth, figure.skin, figure.standing_m});
   for (const RecordedPerson& person : recording.people) {
     seen.people.push_back({person.name, person.figure, person.scale, person.colours, &person.frames, person.muscles});
   }

@@ -216,13 +216,10 @@ std::string cloth_name(const SeenPerson& person, const SeenFigure& figure, std::
 void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path) {
   UsdText& usd = scene.usd;
   const SeenFigure& figure = scene.recorded.figures[person.figure];
-  const SkeletonKeys keys = skeleton_keys(*person.frames);
+  const StandingPlaces rest = person_rest(scene.standing[person.figure], person.scale);
+  const SkeletonKeys keys = skeleton_keys(*person.frames, rest);
   const std::string body = path + "/Body";
   usd.open("def SkelRoot", "Body");
-  // At rest each person's joints are in their own skeleton's places, as high as the figure.
-  StandingPlaces rest = standing_places(keys, figure.surfaces);
-  const double up_m = person.scale.y * scene.standing[person.figure][index(Segment::pelvis)].y() - rest[0].y();
-  for (auto& place : rest) place.y() += figure.skin.empty() ? 0 : up_m;
   add_skeleton(usd, rest, scene.standing[person.figure], person.scale, body);
   add_animation(usd, keys);
   for (const FigurePiece& piece : scene.pieces[person.figure]) {
@@ -278,7 +275,7 @@ Result<std::string> usda_text(const RecordedPeople& recorded) {
     auto& wearers = scene.wearers[person.figure];
     if (wearers.empty()) {
       const SeenFigure& figure = recorded.figures[person.figure];
-      scene.standing[person.figure] = figure_standing(figure, skeleton_keys(*person.frames));
+      scene.standing[person.figure] = figure_standing(figure, person);
       auto pieces = figure_pieces(figure, scene.standing[person.figure]);
       if (!pieces) return tl::unexpected(pieces.error());
       scene.pieces[person.figure] = std::move(*pieces);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <mobil/anthropometry.h>
 #include <mobil/assets/export/recorded_skin.h>
 #include <mobil/assets/files/output_file.h>
 #include <mobil/body_composition.h>
@@ -178,6 +179,8 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
   outcome.anatomy_said = figure.said;
   tell_style_changes(options.body, options.gait, outcome.style_changes);
   walked.recording = begin_recording(figure, ticks_per_frame * simulation.tick_s());
+  const Pose<float> standing = standing_pose(person.body);
+  std::ranges::copy(standing.position_m, walked.recording.standing_m.begin());
   if (options.skin) {
     const auto skin = make_body_skin(person.body, SkinDetail::near);
     if (!skin) return tl::unexpected(skin.error());
@@ -187,12 +190,12 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
     if (own->own)
       walked.recording.skin.push_back(
           recorded_custom_skin(*own->bare, *own->own, own->own_position, own->own_normal, 1 + skin_parts));
-    walked.recording.standing_m = standing_of(*skin);
     walked.recording.colours = {ivory};
     for (const Colour& colour : skin_colours(0)) walked.recording.colours.push_back(linear_colour(colour));
     walked.recording.colours.push_back(walked.recording.colours[1]);  // of the custom skin
   }
   walked.ticks = begin_ticks(simulation, person);
+  walked.ticks.standing_m = walked.recording.standing_m;
   const bool all_ticks = std::ranges::any_of(options.exports, of_every_tick);
   const std::string method = method_label(options.muscles);
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));

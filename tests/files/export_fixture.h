@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include <mobil/assets/export/walk_recording.h>
+#include "assets/export/skeleton_keys.h"
 #include "engine/eigen.h"
 
 namespace mobil::export_fixture {
@@ -43,9 +45,7 @@ inline Said said_by(const std::string& command) {
 inline Vec3<float> rounded(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
-inline Vector3d widened(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
+using mobil::widened;
 inline Quaterniond widened(const Quat<float>& q) {
   return {static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z)};
 }
@@ -193,8 +193,8 @@ struct Viewer {
       if (channel.target_node != static_cast<int>(n) || channel.target_path != path) continue;
       const auto& sampler = model.animations[0].samplers[static_cast<std::size_t>(channel.sampler)];
       const auto values = floats(sampler.output);
-      const std::size_t width = values.size() / floats(sampler.input).size();
-      const auto first = values.begin() + static_cast<std::ptrdiff_t>(f * width);
+      const std::size_t keys = floats(sampler.input).size(), width = values.size() / keys;
+      const auto first = values.begin() + static_cast<std::ptrdiff_t>(std::min(f, keys - 1) * width);
       return {first, first + static_cast<std::ptrdiff_t>(width)};
     }
     return {};

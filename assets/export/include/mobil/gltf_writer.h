@@ -19,7 +19,7 @@ struct ExportOptions {
   bool morph_normals = true;          // false: about a quarter smaller; muscles keep the shading of their mean shape
 };
 
-/// Distance of a muscle in the file from the recorded one, over all its vertices and frames.
+/// Distance of a muscle or a skin in the file from the recorded one, over all its vertices and frames.
 struct MuscleFidelity {
   std::string name;
   int morph_targets = 0;
@@ -30,6 +30,8 @@ struct MuscleFidelity {
 struct ExportReport {
   std::size_t bytes = 0;
   std::vector<MuscleFidelity> muscles;  // in the recording's order
+  MuscleFidelity skin;                  // of a skin with drawn places, before blending; without targets if there is none
+  double bones_moved_m = 0;             // largest displacement of a bone's vertex that would come through such a skin
 };
 
 /// Writes `path`, completely or not at all. A person is a root node of that name, which programs can move, with the 48
@@ -37,7 +39,8 @@ struct ExportReport {
 /// (standing_places in skeleton_keys.h). Joint rotations are keyed at every frame, translations only where the offset
 /// from the parent changes. Bones are one mesh, "bones", of which each vertex follows its segment. Every muscle is a
 /// mesh of its name, which follows its segment and rests in its mean shape. Its targets are the principal components of
-/// its displacement in the segment's frame. Nodes of these meshes are siblings of the root, as glTF requires.
+/// its displacement in the segment's frame. A skin with drawn places (SkinnedSurface::drawn_m) also has targets, so that
+/// bones and muscles stay inside it; vertices of bones that would come through are moved below it. Nodes of these meshes are siblings of the root, as glTF requires.
 /// TEXCOORD_0 is along and around each bone or muscle (folded, texture_places.h), for skins in their atlas, with
 /// TANGENT. Names are unique. Output is byte-identical for the same recording. Fails without frames, on a value that is
 /// not finite, an inconsistent surface or a file that cannot be written. Format: Khronos glTF 2.0 specification.

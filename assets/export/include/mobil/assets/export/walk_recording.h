@@ -37,6 +37,10 @@ struct SkinnedSurface {
   /// can be empty.
   std::vector<std::array<float, 2>> texture{};
   std::vector<std::array<float, 4>> tangent{};
+  /// Vertices in the world as they are drawn, [frame][vertex], of a WalkRecording; or empty. Formats with morph targets
+  /// add them to the blended joints, so that the skin covers bones and muscles. All of a skin's surfaces have them, or
+  /// none.
+  std::vector<std::vector<Vec3<float>>> drawn_m{};
 };
 
 /// Surfaces that follow segments, shared by people of the same look.
@@ -44,7 +48,7 @@ struct RecordedFigure {
   std::vector<BoneSurface> surfaces;
   std::vector<std::size_t> cloth;  // of each surface, a number of a person's colours; empty: the first
   std::vector<SkinnedSurface> skin;
-  std::array<Vec3<float>, segment_count> standing_m{};  // the segments' places for which the skin is drawn
+  std::array<Vec3<float>, segment_count> standing_m{};  // as in WalkRecording; needed with a skin
 };
 
 /// A walk sampled every `frame_s` seconds; frame i is at i · frame_s.
@@ -57,7 +61,9 @@ struct WalkRecording {
   double start_s = 0;                                   // time of frame 0; tables start there, animations at 0
   std::vector<GroundReaction<float>> ground;            // of each frame; empty without simulated forces
   std::vector<SkinnedSurface> skin;                     // in addition to the bones, in `colours`; can be empty
-  std::array<Vec3<float>, segment_count> standing_m{};  // the segments' places for which the skin is drawn
+  /// Origins of the segments in the rest pose, in which no segment is turned (standing_pose, mobil/anthropometry.h).
+  /// The skin is drawn for it. Without a skin it can be left at 0; segments then have their mean offsets.
+  std::array<Vec3<float>, segment_count> standing_m{};
   std::vector<Vec3<float>> colours;                     // linear, of cloths: bones', then the skin's; empty: ivory
   std::vector<Vec3<float>> tip_m;  // of each segment, its far end in its frame (Body::tip_m); can be empty
 };

@@ -1,0 +1,28 @@
+#pragma once
+// Shapes of a skin for programs that blend joints' matrices, so that bones and muscles stay inside it.
+
+#include <span>
+
+#include "assets/export/figure_pieces.h"
+#include "assets/export/morph_targets.h"
+
+namespace mobil::inline v0_3 {
+
+/// A skin as a mean shape at rest with morph targets. Columns are the vertices of all pieces that are skin, in their
+/// order.
+struct SkinShapes {
+  MorphedSurface surface;
+  double bones_moved_m = 0;  // largest displacement of a bone's vertex
+};
+
+/// Returns true if the pieces have a skin whose drawn places were recorded.
+bool has_drawn_skin(std::span<const FigurePiece> pieces);
+
+/// Returns `pieces` of a skin at rest so that, morphed and then blended with the pieces' weights, it comes near where
+/// it was drawn in each frame: the drawn places, moved back by the inverse of the blended matrix, reduced to principal
+/// components (morph_targets). Then moves vertices of bones that come through the skin in any of up to 24 frames, or
+/// lie less than a millimetre below it, 1.5 mm below it. `standing` is the places for which the pieces are drawn.
+SkinShapes skin_shapes(std::span<FigurePiece> pieces, const SkeletonKeys& skeleton, const StandingPlaces& standing,
+                       int max_targets, double tolerance_m);
+
+}  // namespace mobil::inline v0_3

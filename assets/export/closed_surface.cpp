@@ -42,7 +42,7 @@ Vector3d nearest_point(const Vector3d& point, const Corners& corner) {
 
 ClosedSurface::ClosedSurface(const Eigen::Matrix3Xd& position, const std::vector<std::uint32_t>& triangle) {
   for (std::size_t i = 0; i + 2 < triangle.size(); i += 3)
-    triangle_.push_back({position.col(triangle[i]), position.col(triangle[i + 1]), position.col(triangle[i + 2])});
+    triangle_.push_back({{position.col(triangle[i]), position.col(triangle[i + 1]), position.col(triangle[i + 2])}, i / 3});
   build(0, triangle_.size());
 }
 
@@ -50,7 +50,7 @@ std::size_t ClosedSurface::build(std::size_t first, std::size_t end) {
   const std::size_t number = box_.size();
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::max()), high = -low;
   for (std::size_t i = first; i < end; ++i) {
-    for (const Vector3d& corner : triangle_[i]) {
+    for (const Vector3d& corner : triangle_[i].corner) {
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
     }
@@ -61,9 +61,9 @@ std::size_t ClosedSurface::build(std::size_t first, std::size_t end) {
   (high - low).maxCoeff(&axis);
   const std::size_t middle = first + (end - first) / 2;
   const auto at = [&](std::size_t i) { return triangle_.begin() + static_cast<std::ptrdiff_t>(i); };
-  const auto place = [axis](const Corners& c) { return c[0][axis] + c[1][axis] + c[2][axis]; };
+  const auto place = [axis](const Triangle& t) { return t.corner[0][axis] + t.corner[1][axis] + t.corner[2][axis]; };
   std::nth_element(at(first), at(middle), at(end),
-                   [&](const Corners& a, const Corners& b) { return place(a) < place(b); });
+                   [&](const Triangle& a, const Triangle& b) { return place(a) < place(b); });
   const std::size_t left = build(first, middle), right = build(middle, end);
   box_[number].left = left;
   box_[number].right = right;
@@ -76,7 +76,7 @@ int ClosedSurface::crossings(const Vector3d& origin, const Vector3d& direction, 
   if (std::max(0.0, to_low.cwiseMin(to_high).maxCoeff()) > to_low.cwiseMax(to_high).minCoeff()) return 0;
   if (b.left != 0) return crossings(origin, direction, b.left) + crossings(origin, direction, b.right);
   int sum = 0;
-  for (std::size_t i = b.first; i < b.first + b.count; ++i) sum += crossing(origin, direction, triangle_[i]);
+  for (std::size_t i = b.first; i < b.first + b.count; ++i) sum += crossing(origin, direction, triangle_[i].corner);
   return sum;
 }
 
@@ -96,12 +96,12 @@ void ClosedSurface::approach(const Vector3d& point, std::size_t box, double& squ
     return;
   }
   for (std::size_t i = b.first; i < b.first + b.count; ++i) {
-    const Vector3d at = nearest_point(point, triangle_[i]);
+    const Vector3d at = nearest_point(point, triangle_[i].corner);
     const double here = (at - point).squaredNorm();
     if (here >= squared) continue;
     squared = here;
-    const auto& [p, q, r] = triangle_[i];
-    best = {at, (q - p).cross(r - p).normalized(), std::sqrt(here)};
+    const auto& [p, q, r] = triangle_[i].corner;
+    best = {at, (q - p).cross(r - p).normalized(), std::sqrt(here), triangle_[i].number};
   }
 }
 

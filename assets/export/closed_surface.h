@@ -14,6 +14,7 @@ namespace mobil::inline v0_3 {
 struct SurfacePlace {
   Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::UnitY();
   double distance_m = 0;
+  std::size_t triangle = 0;  // its number
 };
 
 /// Triangles in a tree of boxes. Columns of `position` are vertices, m; triangles are wound outwards. The surface can
@@ -35,7 +36,11 @@ class ClosedSurface {
   int crossings(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, std::size_t box) const;
   void approach(const Eigen::Vector3d& point, std::size_t box, double& squared, SurfacePlace& best) const;
 
-  std::vector<std::array<Eigen::Vector3d, 3>> triangle_;  // in the order of boxes
+  struct Triangle {
+    std::array<Eigen::Vector3d, 3> corner;
+    std::size_t number = 0;
+  };
+  std::vector<Triangle> triangle_;  // in the order of boxes
   std::vector<Box> box_;
 };
 

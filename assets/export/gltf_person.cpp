@@ -57,10 +57,8 @@ int add_segments(GltfScene& scene, const StandingPlaces& rest, const std::string
 
 /// Adds channels of joints that differ from their rest pose in any frame.
 void animate_joints(GltfScene& scene, const SkeletonKeys& skeleton, const StandingPlaces& rest, int first) {
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    const SegmentKeys& keys = skeleton.segment[s];
-    const int node = first + number_of(s);
-    if (leaves_rest(keys, rest_offset(rest, s))) {
+  const auto animate = [&](const SegmentKeys& keys, const Vec3<float>& rest_m, int node) {
+    if (leaves_rest(keys, rest_m)) {
       std::vector<float> value;
       for (const auto& t : keys.translation_m) value.insert(value.end(), {t.x, t.y, t.z});
       add_channel(scene.draft, scene.animation, node, "translation", value, TINYGLTF_TYPE_VEC3);
@@ -70,7 +68,23 @@ void animate_joints(GltfScene& scene, const SkeletonKeys& skeleton, const Standi
       for (const auto& q : keys.rotation) value.insert(value.end(), {q.x, q.y, q.z, q.w});
       add_channel(scene.draft, scene.animation, node, "rotation", value, TINYGLTF_TYPE_VEC4);
     }
-  }
+  };
+  animate(skeleton.root, {0, 0, 0}, first - 1);
+  for (std::size_t s = 0; s < segment_count; ++s)
+    animate(skeleton.segment[s], rest_offset(rest, s), first + number_of(s));
+}
+
+/// Adds what engines ask of a person to the root.
+void add_facts(GltfScene& scene, const RecordedFacts& facts, int root) {
+  tinygltf::Value::Object extras;
+  extras["sex"] = tinygltf::Value(facts.sex);
+  const auto add = [&](const char* name, float value) { extras[name] = tinygltf::Value(static_cast<double>(value)); };
+  add("height_m", facts.height_m);
+  add("mass_kg", facts.mass_kg);
+  add("heading_rad", facts.heading_rad);
+  add("stride_s", facts.stride_s);
+  add("speed_m_s", facts.speed_m_s);
+  scene.draft.model.nodes[static_cast<std::size_t>(root)].extras = tinygltf::Value(std::move(extras));
 }
 
 /// Adds a skin from the places `bound` to each segment's frame, scaled there to the person's size.
@@ -141,8 +155,8 @@ SkinShapes shape_skin(std::vector<FigurePiece>& pieces, const SeenPerson& person
                       const ExportOptions& options, ExportReport& report) {
   for (FigurePiece& piece : pieces)
     for (auto& weight : piece.weight) weight = byte_weights(weight);
-  SkinShapes shapes = skin_shapes(pieces, skeleton_keys(*person.frames, standing), standing, options.morph_targets,
-                                  static_cast<double>(options.morph_tolerance_m));
+  SkinShapes shapes = skin_shapes(pieces, person.muscles, skeleton_keys(*person.frames, standing), standing,
+                                  options.morph_targets, static_cast<double>(options.morph_tolerance_m));
   Eigen::Index first = 0;
   for (FigurePiece& piece : pieces) {
     if (piece.rigid) continue;
@@ -293,9 +307,10 @@ Result<void> add_person(GltfScene& scene, const SeenPerson& person, const SeenFi
     made = scene.figures.emplace(person.figure, std::move(*figure_made)).first;
   }
   const StandingPlaces rest = person_rest(made->second.standing_m, person.scale);
-  const SkeletonKeys skeleton = skeleton_keys(*person.frames, rest);
+  const SkeletonKeys skeleton = skeleton_keys(*person.frames, rest, person.root);
   const int first = add_segments(scene, rest, person.name, prefix);
   animate_joints(scene, skeleton, rest, first);
+  if (person.facts != nullptr) add_facts(scene, *person.facts, first - 1);
   if (made->second.primitive.empty() && person.muscles.empty()) return {};
   const int skin = add_skin(scene, made->second.standing_m, person.scale, first, person.name);
   add_figure(scene, made->second, person, skin, prefix);

@@ -34,6 +34,8 @@ struct SeenPerson {
   std::span<const Vec3<float>> colours;
   const std::vector<Pose<float>>* frames = nullptr;
   std::span<const RecordedMuscle> muscles;
+  std::span<const RecordedRoot> root;
+  const RecordedFacts* facts = nullptr;  // or null
   Vec3<float> colour(std::size_t cloth) const { return cloth < colours.size() ? colours[cloth] : ivory_colour; }
 };
 

@@ -169,6 +169,13 @@ Result<void> check_person(const RecordedPeople& recorded, const SeenPerson& pers
     return fail(fmt::format("{} has {} frames, {} has {}; record all over the same time", person.name, frames.size(),
                             recorded.people.front().name, expected));
   }
+  if (!person.root.empty() && person.root.size() != frames.size())
+    return fail(fmt::format("{} has {} frames and {} roots; give each frame one, or none", person.name, frames.size(),
+                            person.root.size()));
+  for (const RecordedRoot& root : person.root) {
+    if (!std::isfinite(root.x_m) || !std::isfinite(root.z_m) || !std::isfinite(root.heading_rad))
+      return fail(fmt::format("{}: a root is not finite", person.name));
+  }
   if (person.figure >= recorded.figures.size()) {
     return fail(fmt::format("{} looks like figure {} of {}", person.name, person.figure, recorded.figures.size()));
   }

@@ -57,9 +57,31 @@ std::vector<Vec3<float>> translation_keys(const std::vector<Eigen::Vector3d>& lo
   return keys;
 }
 
+/// Adds the keys of roots, without changing rounded numbers of equal ones.
+SegmentKeys root_keys(std::span<const RecordedRoot> root) {
+  SegmentKeys keys;
+  if (root.empty()) return {{{0, 0, 0}}, {{0, 0, 0, 1}}};
+  for (const RecordedRoot& at : root) {
+    const RigidTransform place = root_transform(at);
+    keys.translation_m.push_back(rounded(place.position_m));
+    keys.rotation.push_back(rounded(place.rotation));
+  }
+  const auto turns_not = [&](const RecordedRoot& at) { return at.heading_rad == root.front().heading_rad; };
+  const auto moves_not = [&](const RecordedRoot& at) { return at.x_m == root.front().x_m && at.z_m == root.front().z_m; };
+  if (std::ranges::all_of(root, turns_not)) keys.rotation.resize(1);
+  if (std::ranges::all_of(root, moves_not)) keys.translation_m.resize(1);
+  return keys;
+}
+
 }  // namespace
 
-SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames, const StandingPlaces& rest) {
+RigidTransform root_transform(const RecordedRoot& root) {
+  const double half = 0.5 * static_cast<double>(root.heading_rad);
+  return {{root.x_m, 0, root.z_m}, Eigen::Quaterniond(std::cos(half), 0, std::sin(half), 0)};
+}
+
+SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames, const StandingPlaces& rest,
+                           std::span<const RecordedRoot> root) {
   const std::size_t frame_count = frames.size();
   double farthest_m = 0;
   for (const auto& pose : frames) {
@@ -69,14 +91,15 @@ SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames, const Standin
 
   SkeletonKeys keys;
   keys.segment.resize(segment_count);
+  keys.root = root_keys(root);
   keys.world.assign(frame_count, std::vector<RigidTransform>(segment_count));
   std::vector<Eigen::Vector3d> translation(frame_count);
   std::vector<Eigen::Quaterniond> rotation(frame_count);
   for (std::size_t s = 0; s < segment_count; ++s) {
     const bool is_root = segment_parent[s] == static_cast<Segment>(s);
     const auto parent = [&](std::size_t f) {
-      return is_root ? RigidTransform{Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity()}
-                     : keys.world[f][index(segment_parent[s])];
+      if (!is_root) return keys.world[f][index(segment_parent[s])];
+      return root_transform(root.empty() ? RecordedRoot{} : root[f]);
     };
     for (std::size_t f = 0; f < frame_count; ++f) {
       const RigidTransform from = parent(f);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <mobil/assets/export/walk_recording.h>
 #include <mobil/components/lanes.h>
 #include <mobil/components/pose.h>
 #include <mobil/components/segments.h>
@@ -34,13 +35,19 @@ struct RigidTransform {
 
 struct SkeletonKeys {
   std::vector<SegmentKeys> segment;                // [segment]
+  SegmentKeys root;                                // of the root in the world; one entry each without roots
   std::vector<std::vector<RigidTransform>> world;  // [frame][segment], recomposed from the rounded keys
 };
 
 /// Measures each segment from its parent as recomposed from the keys, so that rounding does not add up along the chain.
 /// An offset that stays at that of `rest` is exactly that one. Every recomposed position is within about 5 µm + four
 /// roundings of its world position. Requires at least one frame, finite numbers and rotations of non-zero length.
-SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames, const StandingPlaces& rest);
+/// With roots, of each frame, the pelvis is relative to them.
+SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames, const StandingPlaces& rest,
+                           std::span<const RecordedRoot> root = {});
+
+/// Returns a root's place in the world.
+RigidTransform root_transform(const RecordedRoot& root);
 
 /// Returns each segment's offset from its parent at rest, rounded; the pelvis' from the world.
 Vec3<float> rest_offset(const StandingPlaces& rest, std::size_t segment);

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 using Blend = Eigen::Matrix<double, 3, 4>;
 using JointMaps = std::array<Blend, segment_count>;
 
-constexpr std::size_t max_checked_frames = 24;
-constexpr double bone_margin_m = 0.0015;
+constexpr std::size_t max_checked_frames = 32;
+constexpr double margin_m = 0.001;
 constexpr double min_volume = 0.05;  // of a blended matrix that can be inverted
 
 /// Returns the maps of all joints from their places at rest to a frame.
@@ -96,6 +96,50 @@ Matrix3Xd shown_skin(const WeldedSkin& skin, const MorphedSurface& surface, cons
   return shown;
 }
 
+/// Frames in which bones and muscles are held against the skin, evenly spread.
+std::vector<std::size_t> checked_frames(std::size_t frames) {
+  const std::size_t count = std::min(frames, max_checked_frames);
+  std::vector<std::size_t> checked;
+  for (std::size_t i = 0; i < count; ++i) checked.push_back(count == 1 ? 0 : i * (frames - 1) / (count - 1));
+  return checked;
+}
+
+/// Returns a place below the surface for a point outside it.
+Vector3d below(const ClosedSurface& closed, const Vector3d& outside) {
+  const SurfacePlace near = closed.nearest(outside);
+  const Vector3d inward = near.distance_m > 1e-6 ? Vector3d((near.at - outside) / near.distance_m) : -near.normal;
+  return near.at + margin_m * inward;
+}
+
+/// Lifts the mean shape where muscles, as recorded, come through the morphed skin.
+void lift_over_muscles(const WeldedSkin& skin, std::span<const RecordedMuscle> muscles, const SkeletonKeys& skeleton,
+                       const StandingPlaces& standing, MorphedSurface& surface) {
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds; ++round) {
+    Matrix3Xd lift = Matrix3Xd::Zero(3, surface.position.cols());
+    for (const std::size_t f : checked_frames(skeleton.world.size())) {
+      const JointMaps maps = joint_maps(skeleton.world[f], standing);
+      const ClosedSurface closed(shown_skin(skin, surface, maps, f), skin.triangle);
+      for (const RecordedMuscle& muscle : muscles) {
+        for (const Vec3<float>& vertex : muscle.position_m[f]) {
+          const Vector3d at = widened(vertex);
+          if (!closed.is_outside(at)) continue;
+          const SurfacePlace near = closed.nearest(at);
+          const Vector3d out = at - below(closed, at);
+          for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t corner = skin.triangle[3 * near.triangle + c];
+            const auto [p, v] = skin.first[corner];
+            const Vector3d own = blend(*skin.piece[p], v, maps).leftCols<3>().inverse() * out;
+            if (own.norm() > lift.col(corner).norm()) lift.col(corner) = own;
+          }
+        }
+      }
+    }
+    if (lift.isZero()) return;
+    surface.position += lift.cast<float>();
+  }
+}
+
 /// A vertex of a bone.
 struct BoneVertex {
   FigurePiece* piece;
@@ -111,12 +155,10 @@ double move_bones_inside(std::span<FigurePiece> pieces, const WeldedSkin& skin, 
   }
   std::vector<std::vector<Vec3<float>>> before;
   for (const FigurePiece& piece : pieces) before.push_back(piece.position);
-  const std::size_t frames = skeleton.world.size(), checked = std::min(frames, max_checked_frames);
   constexpr int rounds = 4;
   for (int round = 0; round < rounds && !left.empty(); ++round) {
     std::vector<bool> moved(left.size(), false);
-    for (std::size_t i = 0; i < checked; ++i) {
-      const std::size_t f = checked == 1 ? 0 : i * (frames - 1) / (checked - 1);
+    for (const std::size_t f : checked_frames(skeleton.world.size())) {
       const JointMaps maps = joint_maps(skeleton.world[f], standing);
       const ClosedSurface closed(shown_skin(skin, surface, maps, f), skin.triangle);
       for (std::size_t b = 0; b < left.size(); ++b) {
@@ -124,9 +166,7 @@ double move_bones_inside(std::span<FigurePiece> pieces, const WeldedSkin& skin, 
         const Blend& map = maps[left[b].piece->joint[left[b].vertex][0]];
         const Vector3d world = map.leftCols<3>() * widened(at) + map.col(3);
         if (!closed.is_outside(world)) continue;
-        const SurfacePlace near = closed.nearest(world);
-        const Vector3d below = near.at - bone_margin_m * near.normal;
-        const Vector3d rest = map.leftCols<3>().transpose() * (below - map.col(3));
+        const Vector3d rest = map.leftCols<3>().transpose() * (below(closed, world) - map.col(3));
         at = {static_cast<float>(rest.x()), static_cast<float>(rest.y()), static_cast<float>(rest.z())};
         moved[b] = true;
       }
@@ -155,12 +195,14 @@ bool has_drawn_skin(std::span<const FigurePiece> pieces) {
   return std::ranges::all_of(pieces, is_drawn) && std::ranges::any_of(pieces, std::logical_not{}, &FigurePiece::rigid);
 }
 
-SkinShapes skin_shapes(std::span<FigurePiece> pieces, const SkeletonKeys& skeleton, const StandingPlaces& standing,
-                       int max_targets, double tolerance_m) {
+SkinShapes skin_shapes(std::span<FigurePiece> pieces, std::span<const RecordedMuscle> muscles,
+                       const SkeletonKeys& skeleton, const StandingPlaces& standing, int max_targets,
+                       double tolerance_m) {
   const WeldedSkin skin = welded_skin(pieces);
   SkinShapes shapes;
   MorphedSurface& surface = shapes.surface;
   surface = morph_targets(drawn_at_rest(skin, skeleton, standing), skin.triangle, max_targets, tolerance_m);
+  lift_over_muscles(skin, muscles, skeleton, standing, surface);
   shapes.bones_moved_m = move_bones_inside(pieces, skin, surface, skeleton, standing);
   std::vector<Index> columns;
   for (const std::uint32_t vertex : skin.of) columns.push_back(static_cast<Index>(vertex));

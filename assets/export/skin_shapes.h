@@ -20,9 +20,11 @@ bool has_drawn_skin(std::span<const FigurePiece> pieces);
 
 /// Returns `pieces` of a skin at rest so that, morphed and then blended with the pieces' weights, it comes near where
 /// it was drawn in each frame: the drawn places, moved back by the inverse of the blended matrix, reduced to principal
-/// components (morph_targets). Then moves vertices of bones that come through the skin in any of up to 24 frames, or
-/// lie less than a millimetre below it, 1.5 mm below it. `standing` is the places for which the pieces are drawn.
-SkinShapes skin_shapes(std::span<FigurePiece> pieces, const SkeletonKeys& skeleton, const StandingPlaces& standing,
-                       int max_targets, double tolerance_m);
+/// components (morph_targets). Then lifts the mean shape by a millimetre over vertices of `muscles` that come through in
+/// any of up to 32 frames, and moves those of bones to a millimetre below the skin. `standing` is the places for which
+/// the pieces are drawn.
+SkinShapes skin_shapes(std::span<FigurePiece> pieces, std::span<const RecordedMuscle> muscles,
+                       const SkeletonKeys& skeleton, const StandingPlaces& standing, int max_targets,
+                       double tolerance_m);
 
 }  // namespace mobil::inline v0_3

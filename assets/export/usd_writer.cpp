@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -198,6 +199,30 @@ void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::str
   usd.close();
 }
 
+/// Adds the motion of a person's root.
+void add_way(UsdText& usd, std::span<const RecordedRoot> root) {
+  constexpr double usd_degrees = 180 / std::numbers::pi;
+  add_samples(usd, "double3 xformOp:translate", root.size(),
+              [&](std::size_t f) { return fmt::format("({:.6f}, 0, {:.6f})", root[f].x_m, root[f].z_m); });
+  add_samples(usd, "float xformOp:rotateY", root.size(), [&](std::size_t f) {
+    return fmt::format("{:.6f}", usd_degrees * static_cast<double>(root[f].heading_rad));
+  });
+  usd.line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:rotateY\"]");
+}
+
+/// Returns a muscle relative to the root of each frame.
+RecordedMuscle in_root(const RecordedMuscle& muscle, std::span<const RecordedRoot> root) {
+  RecordedMuscle moved = muscle;
+  for (std::size_t f = 0; f < root.size(); ++f) {
+    const RigidTransform from = root_transform(root[f]);
+    for (Vec3<float>& p : moved.position_m[f]) {
+      const Eigen::Vector3d own = from.rotation.conjugate() * (widened(p) - from.position_m);
+      p = {static_cast<float>(own.x()), static_cast<float>(own.y()), static_cast<float>(own.z())};
+    }
+  }
+  return moved;
+}
+
 /// A file's people, and the standing places of their figures.
 struct UsdScene {
   const RecordedPeople& recorded;
@@ -217,7 +242,7 @@ void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path
   UsdText& usd = scene.usd;
   const SeenFigure& figure = scene.recorded.figures[person.figure];
   const StandingPlaces rest = person_rest(scene.standing[person.figure], person.scale);
-  const SkeletonKeys keys = skeleton_keys(*person.frames, rest);
+  const SkeletonKeys keys = skeleton_keys(*person.frames, rest, person.root);
   const std::string body = path + "/Body";
   usd.open("def SkelRoot", "Body");
   add_skeleton(usd, rest, scene.standing[person.figure], person.scale, body);
@@ -239,11 +264,13 @@ void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path
 void add_usd_person(UsdScene& scene, const SeenPerson& person, const std::string& name) {
   UsdText& usd = scene.usd;
   usd.open("def Xform", name);
+  if (!person.root.empty()) add_way(usd, person.root);
   add_body(scene, person, "/walk/" + name);
   if (!person.muscles.empty()) {
     UniqueNames names;
     usd.open("def Xform", "Muscles");
-    for (const auto& muscle : person.muscles) add_muscle_cache(usd, muscle, names.take(identifier(muscle.name)));
+    for (const auto& muscle : person.muscles)
+      add_muscle_cache(usd, in_root(muscle, person.root), names.take(identifier(muscle.name)));
     usd.close();
   }
   usd.close();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,20 @@ struct RecordedFigure {
   std::array<Vec3<float>, segment_count> standing_m{};  // as in WalkRecording; needed with a skin
 };
 
+/// A person's place on the ground and heading (Root, mobil/systems/poses/roots.h): rad about +Y, 0 toward +Z.
+struct RecordedRoot {
+  double x_m = 0, z_m = 0;
+  float heading_rad = 0;
+};
+
+/// What engines ask of a person; GLB has it as `extras` of the root node.
+struct RecordedFacts {
+  std::string sex;
+  float height_m = 0, mass_kg = 0;
+  float heading_rad = 0;                // of the first frame
+  float stride_s = 0, speed_m_s = 0;    // of the gait; 0 for standing people
+};
+
 /// A walk sampled every `frame_s` seconds; frame i is at i · frame_s.
 struct WalkRecording {
   double frame_s = 1.0 / 30;
@@ -66,6 +81,8 @@ struct WalkRecording {
   std::array<Vec3<float>, segment_count> standing_m{};
   std::vector<Vec3<float>> colours;                     // linear, of cloths: bones', then the skin's; empty: ivory
   std::vector<Vec3<float>> tip_m;  // of each segment, its far end in its frame (Body::tip_m); can be empty
+  std::vector<RecordedRoot> root{};  // of each frame, in GLB and USD the motion of the person's root; can be empty
+  std::optional<RecordedFacts> facts{};
 };
 
 /// One of several people.
@@ -76,6 +93,8 @@ struct RecordedPerson {
   std::vector<Vec3<float>> colours;  // linear, 0–1; bones' ivory where one is missing
   std::vector<Pose<float>> frames;
   std::vector<RecordedMuscle> muscles;
+  std::vector<RecordedRoot> root{};  // as in WalkRecording
+  std::optional<RecordedFacts> facts{};
 };
 
 /// Several people over the same time, with the same number of frames, sampled as in WalkRecording.

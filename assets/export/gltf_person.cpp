@@ -138,6 +138,63 @@ tinygltf::Primitive primitive(GltfDraft& draft, const Eigen::Matrix3Xf& position
   return made;
 }
 
+/// Returns a column per frame: the vertices in the frame of the segment's node, x y z below one another.
+Eigen::MatrixXd in_segment(const RecordedMuscle& muscle, const SkeletonKeys& skeleton) {
+  const std::size_t vertex_count = muscle.position_m.front().size();
+  Eigen::MatrixXd frames(static_cast<Eigen::Index>(3 * vertex_count),
+                         static_cast<Eigen::Index>(muscle.position_m.size()));
+  for (std::size_t f = 0; f < muscle.position_m.size(); ++f) {
+    const RigidTransform& segment = skeleton.world[f][index(muscle.segment)];
+    const Eigen::Matrix3d to_segment = segment.rotation.conjugate().toRotationMatrix();
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+      const auto& p = muscle.position_m[f][v];
+      const Eigen::Vector3d world(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+      frames.col(static_cast<Eigen::Index>(f)).segment<3>(static_cast<Eigen::Index>(3 * v)) =
+          to_segment * (world - segment.position_m);
+    }
+  }
+  return frames;
+}
+
+/// A muscle's triangles with area, and its shapes in its segment's frame.
+struct MuscleShapes {
+  std::vector<std::uint32_t> triangle;
+  MorphedSurface surface;
+};
+
+Result<std::vector<MuscleShapes>> muscle_shapes(std::span<const RecordedMuscle> muscles, const SkeletonKeys& skeleton,
+                                                const ExportOptions& options) {
+  std::vector<MuscleShapes> shapes;
+  for (const RecordedMuscle& muscle : muscles) {
+    const Eigen::MatrixXd frames = in_segment(muscle, skeleton);
+    const Eigen::VectorXd mean = frames.rowwise().mean();
+    auto triangle =
+        triangles_with_area(Eigen::Map<const Eigen::Matrix3Xd>(mean.data(), 3, mean.size() / 3), muscle.triangle);
+    if (triangle.empty())
+      return fail(fmt::format("surface '{}': none of its triangles has an area; leave it out", muscle.name));
+    auto surface =
+        morph_targets(frames, triangle, options.morph_targets, static_cast<double>(options.morph_tolerance_m));
+    shapes.push_back({std::move(triangle), std::move(surface)});
+  }
+  return shapes;
+}
+
+/// Returns the vertices of muscles in a frame, as the file has them.
+std::vector<Eigen::Vector3d> written_muscles(std::span<const RecordedMuscle> muscles,
+                                             const std::vector<MuscleShapes>& shapes, const SkeletonKeys& skeleton,
+                                             std::size_t frame) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t m = 0; m < muscles.size(); ++m) {
+    const MorphedSurface& surface = shapes[m].surface;
+    Eigen::Matrix3Xf own = surface.position;
+    for (std::size_t k = 0; k < surface.target.size(); ++k)
+      own += surface.weight[frame][k] * surface.target[k].position;
+    const RigidTransform& segment = skeleton.world[frame][index(muscles[m].segment)];
+    for (const auto& p : own.cast<double>().colwise()) points.emplace_back(segment.position_m + segment.rotation * p);
+  }
+  return points;
+}
+
 /// Adds the morph targets of a primitive whose vertices begin at column `first` of `surface`.
 void add_skin_targets(GltfDraft& draft, const MorphedSurface& surface, Eigen::Index first, Eigen::Index count,
                       bool normals, tinygltf::Primitive& shape) {
@@ -150,36 +207,31 @@ void add_skin_targets(GltfDraft& draft, const MorphedSurface& surface, Eigen::In
   }
 }
 
-/// Replaces the skin's places by those of its shapes, and draws bones inside it.
+/// Returns the skin's shapes for weights as the file has them.
 SkinShapes shape_skin(std::vector<FigurePiece>& pieces, const SeenPerson& person, const StandingPlaces& standing,
-                      const ExportOptions& options, ExportReport& report) {
+                      const std::vector<MuscleShapes>& muscles, const ExportOptions& options, ExportReport& report) {
   for (FigurePiece& piece : pieces)
     for (auto& weight : piece.weight) weight = byte_weights(weight);
-  SkinShapes shapes = skin_shapes(pieces, person.muscles, skeleton_keys(*person.frames, standing), standing,
-                                  options.morph_targets, static_cast<double>(options.morph_tolerance_m));
-  Eigen::Index first = 0;
-  for (FigurePiece& piece : pieces) {
-    if (piece.rigid) continue;
-    for (std::size_t v = 0; v < piece.position.size(); ++v, ++first) {
-      const auto p = shapes.surface.position.col(first), n = shapes.surface.normal.col(first);
-      piece.position[v] = {p.x(), p.y(), p.z()};
-      piece.normal[v] = {n.x(), n.y(), n.z()};
-    }
-  }
+  const SkeletonKeys skeleton = skeleton_keys(*person.frames, standing);
+  SkinShapes shapes = skin_shapes(
+      pieces, [&](std::size_t frame) { return written_muscles(person.muscles, muscles, skeleton, frame); }, skeleton,
+      standing, options.morph_targets, static_cast<double>(options.morph_tolerance_m));
   report.skin = {"figure", number_of(shapes.surface.target.size()), shapes.surface.max_error_m,
                  shapes.surface.rms_error_m};
   report.bones_moved_m = shapes.bones_moved_m;
   return shapes;
 }
 
+/// `standing`: the figure's places; `muscles`: those of `first`.
 Result<GltfFigure> make_gltf_figure(GltfDraft& draft, const SeenFigure& seen, const SeenPerson& first,
+                                    const StandingPlaces& standing, const std::vector<MuscleShapes>& muscles,
                                     const ExportOptions& options, ExportReport& report) {
   GltfFigure figure;
-  figure.standing_m = figure_standing(seen, first);
+  figure.standing_m = standing;
   auto pieces = figure_pieces(seen, figure.standing_m);
   if (!pieces) return tl::unexpected(pieces.error());
   SkinShapes shapes;
-  if (has_drawn_skin(*pieces)) shapes = shape_skin(*pieces, first, figure.standing_m, options, report);
+  if (has_drawn_skin(*pieces)) shapes = shape_skin(*pieces, first, standing, muscles, options, report);
   figure.skin_weight = shapes.surface.weight;
   Eigen::Index first_shaped = 0;
   for (const FigurePiece& piece : *pieces) {
@@ -201,12 +253,14 @@ Result<GltfFigure> make_gltf_figure(GltfDraft& draft, const SeenFigure& seen, co
   return figure;
 }
 
-/// Names a mesh's targets, and adds a channel of their weights if it has any.
-void animate_weights(GltfScene& scene, int node, const std::vector<std::vector<float>>& weight) {
+/// Names a mesh's targets, and adds a channel of their weights if it has any. The weights of a loop end as they begin,
+/// which rounding of small shapes would change.
+void animate_weights(GltfScene& scene, int node, std::vector<std::vector<float>> weight, bool loops) {
   tinygltf::Model& model = scene.draft.model;
   auto& mesh = model.meshes[static_cast<std::size_t>(model.nodes[static_cast<std::size_t>(node)].mesh)];
   const std::size_t targets = weight.empty() ? 0 : weight.front().size();
   if (targets == 0) return;
+  if (loops) weight.back() = weight.front();
   tinygltf::Value::Array names;
   for (std::size_t k = 0; k < targets; ++k) names.emplace_back(fmt::format("shape_{}", k + 1));
   mesh.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(std::move(names))}});
@@ -230,31 +284,13 @@ void add_figure(GltfScene& scene, const GltfFigure& figure, const SeenPerson& pe
     if (mesh.primitives.empty()) return;
     const bool morphs = !mesh.primitives.front().targets.empty();
     const int node = add_skinned_node(scene, prefix + name, std::move(mesh), skin);
-    if (morphs) animate_weights(scene, node, figure.skin_weight);
+    if (morphs) animate_weights(scene, node, figure.skin_weight, person.loops);
   };
   if (dressed_bones) add("bones", [&](std::size_t i) { return figure.rigid[i]; });
   add(person.colours.empty() ? "bones" : "figure", [&](std::size_t i) { return !dressed_bones || !figure.rigid[i]; });
 }
 
-/// Returns a column per frame: the vertices in the frame of the segment's node, x y z below one another.
-Eigen::MatrixXd in_segment(const RecordedMuscle& muscle, const SkeletonKeys& skeleton) {
-  const std::size_t vertex_count = muscle.position_m.front().size();
-  Eigen::MatrixXd frames(static_cast<Eigen::Index>(3 * vertex_count),
-                         static_cast<Eigen::Index>(muscle.position_m.size()));
-  for (std::size_t f = 0; f < muscle.position_m.size(); ++f) {
-    const RigidTransform& segment = skeleton.world[f][index(muscle.segment)];
-    const Eigen::Matrix3d to_segment = segment.rotation.conjugate().toRotationMatrix();
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-      const auto& p = muscle.position_m[f][v];
-      const Eigen::Vector3d world(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
-      frames.col(static_cast<Eigen::Index>(f)).segment<3>(static_cast<Eigen::Index>(3 * v)) =
-          to_segment * (world - segment.position_m);
-    }
-  }
-  return frames;
-}
-
-/// Adds the mean shape round the segment's place at rest, with texture places.
+/// Adds the shape without targets round the segment's place at rest, with texture places.
 tinygltf::Primitive standing_muscle(GltfDraft& draft, const MorphedSurface& surface, Segment segment,
                                     const Eigen::Vector3d& rest_m, const std::vector<std::uint32_t>& triangle) {
   const auto vertices = static_cast<std::size_t>(surface.position.cols());
@@ -268,22 +304,16 @@ tinygltf::Primitive standing_muscle(GltfDraft& draft, const MorphedSurface& surf
                    {vertices, {static_cast<std::uint8_t>(segment), 0, 0, 0}}, {vertices, {1, 0, 0, 0}}, triangle);
 }
 
-Result<void> add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const SkeletonKeys& skeleton,
-                        const StandingPlaces& rest, int skin, const std::string& prefix, const ExportOptions& options,
-                        MuscleFidelity& fidelity) {
+void add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const MuscleShapes& shapes, const StandingPlaces& rest,
+                int skin, const std::string& prefix, bool loops, const ExportOptions& options,
+                MuscleFidelity& fidelity) {
   GltfDraft& draft = scene.draft;
-  const Eigen::MatrixXd frames = in_segment(muscle, skeleton);
-  const Eigen::VectorXd mean = frames.rowwise().mean();
-  const auto triangle =
-      triangles_with_area(Eigen::Map<const Eigen::Matrix3Xd>(mean.data(), 3, mean.size() / 3), muscle.triangle);
-  if (triangle.empty())
-    return fail(fmt::format("surface '{}': none of its triangles has an area; leave it out", muscle.name));
-  const MorphedSurface surface =
-      morph_targets(frames, triangle, options.morph_targets, static_cast<double>(options.morph_tolerance_m));
+  const MorphedSurface& surface = shapes.surface;
   fidelity = {prefix + muscle.name, number_of(surface.target.size()), surface.max_error_m, surface.rms_error_m};
 
   tinygltf::Mesh mesh;
-  auto shape = standing_muscle(draft, surface, muscle.segment, rest[index(muscle.segment)], triangle);
+  auto shape = standing_muscle(draft, surface, muscle.segment, rest[index(muscle.segment)],
+                               shapes.triangle);
   shape.material = material(scene, "muscle", muscle.colour, 0.5);
   for (const auto& target : surface.target) {
     auto& attributes = shape.targets.emplace_back();
@@ -292,8 +322,7 @@ Result<void> add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const Sk
   }
   mesh.primitives.push_back(std::move(shape));
   const int node = add_skinned_node(scene, prefix + muscle.name, std::move(mesh), skin);
-  animate_weights(scene, node, surface.weight);
-  return {};
+  animate_weights(scene, node, surface.weight, loops);
 }
 
 }  // namespace
@@ -301,27 +330,30 @@ Result<void> add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const Sk
 Result<void> add_person(GltfScene& scene, const SeenPerson& person, const SeenFigure& figure, const std::string& prefix,
                         const ExportOptions& options, ExportReport& report) {
   auto made = scene.figures.find(person.figure);
+  const StandingPlaces standing =
+      made == scene.figures.end() ? figure_standing(figure, person) : made->second.standing_m;
+  const StandingPlaces rest = person_rest(standing, person.scale);
+  const SkeletonKeys skeleton = skeleton_keys(*person.frames, rest, person.root);
+  const auto muscles = muscle_shapes(person.muscles, skeleton, options);
+  if (!muscles) return tl::unexpected(muscles.error());
   if (made == scene.figures.end()) {
-    auto figure_made = make_gltf_figure(scene.draft, figure, person, options, report);
+    auto figure_made = make_gltf_figure(scene.draft, figure, person, standing, *muscles, options, report);
     if (!figure_made) return tl::unexpected(figure_made.error());
     made = scene.figures.emplace(person.figure, std::move(*figure_made)).first;
   }
-  const StandingPlaces rest = person_rest(made->second.standing_m, person.scale);
-  const SkeletonKeys skeleton = skeleton_keys(*person.frames, rest, person.root);
   const int first = add_segments(scene, rest, person.name, prefix);
   animate_joints(scene, skeleton, rest, first);
   if (person.facts != nullptr) add_facts(scene, *person.facts, first - 1);
   if (made->second.primitive.empty() && person.muscles.empty()) return {};
-  const int skin = add_skin(scene, made->second.standing_m, person.scale, first, person.name);
+  const int skin = add_skin(scene, standing, person.scale, first, person.name);
   add_figure(scene, made->second, person, skin, prefix);
   if (person.muscles.empty()) return {};
   // Muscles are recorded at their full size.
   const bool scaled = person.scale.x != 1 || person.scale.y != 1 || person.scale.z != 1;
   const int own = scaled ? add_skin(scene, rest, {1, 1, 1}, first, person.name + "_muscles") : skin;
-  for (const auto& muscle : person.muscles) {
-    auto added = add_muscle(scene, muscle, skeleton, rest, own, prefix, options, report.muscles.emplace_back());
-    if (!added) return added;
-  }
+  for (std::size_t m = 0; m < person.muscles.size(); ++m)
+    add_muscle(scene, person.muscles[m], (*muscles)[m], rest, own, prefix, person.loops, options,
+               report.muscles.emplace_back());
   return {};
 }
 

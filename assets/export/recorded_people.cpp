@@ -26,7 +26,7 @@ RecordedPeople recorded_people(const WalkRecording& recording) {
   seen.is_walk = true;
   seen.figures.push_back({recording.bones, {}, recording.skin, recording.standing_m});
   seen.people.push_back({recording.name, 0, {1, 1, 1}, recording.colours, &recording.frames, recording.muscles,
-                         recording.root, facts_of(recording)});
+                         recording.root, facts_of(recording), recording.loops});
   return seen;
 }
 

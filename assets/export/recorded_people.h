@@ -36,6 +36,7 @@ struct SeenPerson {
   std::span<const RecordedMuscle> muscles;
   std::span<const RecordedRoot> root;
   const RecordedFacts* facts = nullptr;  // or null
+  bool loops = false;
   Vec3<float> colour(std::size_t cloth) const { return cloth < colours.size() ? colours[cloth] : ivory_colour; }
 };
 

@@ -87,6 +87,7 @@ CycleGap close_cycle(WalkRecording& recording) {
   }
   const std::size_t last = recording.frames.size() - 1;
   const RootStep step(recording.root.front(), recording.root.back());
+  recording.loops = true;
   CycleGap gap;
   Pose<float> closed = recording.frames.front();
   move_pose(step, closed);

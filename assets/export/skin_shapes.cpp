@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using Blend = Eigen::Matrix<double, 3, 4>;
 using JointMaps = std::array<Blend, segment_count>;
 
-constexpr std::size_t max_checked_frames = 32;
+constexpr std::size_t max_checked_frames = 64;
 constexpr double margin_m = 0.001;
 constexpr double min_volume = 0.05;  // of a blended matrix that can be inverted
 
@@ -104,15 +104,14 @@ std::vector<std::size_t> checked_frames(std::size_t frames) {
   return checked;
 }
 
-/// Returns a place below the surface for a point outside it.
-Vector3d below(const ClosedSurface& closed, const Vector3d& outside) {
-  const SurfacePlace near = closed.nearest(outside);
+/// Returns a place below the nearest of a surface, for a point outside it.
+Vector3d below(const SurfacePlace& near, const Vector3d& outside) {
   const Vector3d inward = near.distance_m > 1e-6 ? Vector3d((near.at - outside) / near.distance_m) : -near.normal;
   return near.at + margin_m * inward;
 }
 
-/// Lifts the mean shape where muscles, as recorded, come through the morphed skin.
-void lift_over_muscles(const WeldedSkin& skin, std::span<const RecordedMuscle> muscles, const SkeletonKeys& skeleton,
+/// Lifts the shape where muscles come through the morphed skin.
+void lift_over_muscles(const WeldedSkin& skin, const MusclePoints& muscles, const SkeletonKeys& skeleton,
                        const StandingPlaces& standing, MorphedSurface& surface) {
   constexpr int rounds = 3;
   for (int round = 0; round < rounds; ++round) {
@@ -120,18 +119,15 @@ void lift_over_muscles(const WeldedSkin& skin, std::span<const RecordedMuscle> m
     for (const std::size_t f : checked_frames(skeleton.world.size())) {
       const JointMaps maps = joint_maps(skeleton.world[f], standing);
       const ClosedSurface closed(shown_skin(skin, surface, maps, f), skin.triangle);
-      for (const RecordedMuscle& muscle : muscles) {
-        for (const Vec3<float>& vertex : muscle.position_m[f]) {
-          const Vector3d at = widened(vertex);
-          if (!closed.is_outside(at)) continue;
-          const SurfacePlace near = closed.nearest(at);
-          const Vector3d out = at - below(closed, at);
-          for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t corner = skin.triangle[3 * near.triangle + c];
-            const auto [p, v] = skin.first[corner];
-            const Vector3d own = blend(*skin.piece[p], v, maps).leftCols<3>().inverse() * out;
-            if (own.norm() > lift.col(corner).norm()) lift.col(corner) = own;
-          }
+      for (const Vector3d& at : muscles(f)) {
+        if (!closed.is_outside(at)) continue;
+        const SurfacePlace near = closed.nearest(at);
+        const Vector3d out = at - below(near, at);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::uint32_t corner = skin.triangle[3 * near.triangle + c];
+          const auto [p, v] = skin.first[corner];
+          const Vector3d own = blend(*skin.piece[p], v, maps).leftCols<3>().inverse() * out;
+          if (own.norm() > lift.col(corner).norm()) lift.col(corner) = own;
         }
       }
     }
@@ -166,7 +162,7 @@ double move_bones_inside(std::span<FigurePiece> pieces, const WeldedSkin& skin, 
         const Blend& map = maps[left[b].piece->joint[left[b].vertex][0]];
         const Vector3d world = map.leftCols<3>() * widened(at) + map.col(3);
         if (!closed.is_outside(world)) continue;
-        const Vector3d rest = map.leftCols<3>().transpose() * (below(closed, world) - map.col(3));
+        const Vector3d rest = map.leftCols<3>().transpose() * (below(closed.nearest(world), world) - map.col(3));
         at = {static_cast<float>(rest.x()), static_cast<float>(rest.y()), static_cast<float>(rest.z())};
         moved[b] = true;
       }
@@ -195,9 +191,8 @@ bool has_drawn_skin(std::span<const FigurePiece> pieces) {
   return std::ranges::all_of(pieces, is_drawn) && std::ranges::any_of(pieces, std::logical_not{}, &FigurePiece::rigid);
 }
 
-SkinShapes skin_shapes(std::span<FigurePiece> pieces, std::span<const RecordedMuscle> muscles,
-                       const SkeletonKeys& skeleton, const StandingPlaces& standing, int max_targets,
-                       double tolerance_m) {
+SkinShapes skin_shapes(std::span<FigurePiece> pieces, const MusclePoints& muscles, const SkeletonKeys& skeleton,
+                       const StandingPlaces& standing, int max_targets, double tolerance_m) {
   const WeldedSkin skin = welded_skin(pieces);
   SkinShapes shapes;
   MorphedSurface& surface = shapes.surface;
@@ -212,6 +207,14 @@ SkinShapes skin_shapes(std::span<FigurePiece> pieces, std::span<const RecordedMu
   for (MorphTarget& target : surface.target) {
     expand(target.position);
     expand(target.normal);
+  }
+  Index column = 0;
+  for (FigurePiece& piece : pieces) {
+    for (std::size_t v = 0; !piece.rigid && v < piece.position.size(); ++v, ++column) {
+      const auto p = surface.position.col(column), n = surface.normal.col(column);
+      piece.position[v] = {p.x(), p.y(), p.z()};
+      piece.normal[v] = {n.x(), n.y(), n.z()};
+    }
   }
   return shapes;
 }

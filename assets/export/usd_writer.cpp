@@ -6,16 +6,19 @@
 #include <array>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/assets/surfaces/texture_places.h>
+#include <mobil/gltf_writer.h>
 #include "assets/export/figure_pieces.h"
 #include "assets/export/mesh_shading.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
+#include "assets/export/skin_shapes.h"
 #include "assets/export/unique_names.h"
 
 namespace mobil::inline v0_3 {
@@ -129,7 +132,13 @@ void add_skeleton(UsdText& usd, const StandingPlaces& own, const StandingPlaces&
   usd.close();
 }
 
-void add_animation(UsdText& usd, const SkeletonKeys& keys) {
+std::string shape_names(std::size_t targets) {
+  std::vector<std::size_t> numbers(targets);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{1});
+  return usd_array(numbers, [](std::string& out, std::size_t number) { out += fmt::format("\"shape_{}\"", number); });
+}
+
+void add_animation(UsdText& usd, const SkeletonKeys& keys, const MorphedSurface& skin) {
   usd.open("def SkelAnimation", "Animation");
   usd.line("uniform token[] joints = " + joint_tokens());
   std::size_t frames = keys.world.size();
@@ -146,6 +155,12 @@ void add_animation(UsdText& usd, const SkeletonKeys& keys) {
       out += fmt::format("({:.7f}, {:.7f}, {:.7f}, {:.7f})", q.w, q.x, q.y, q.z);
     });
   });
+  if (!skin.target.empty()) {
+    usd.line("uniform token[] blendShapes = " + shape_names(skin.target.size()));
+    add_samples(usd, "float[] blendShapeWeights", frames, [&](std::size_t f) {
+      return usd_array(skin.weight[f], [](std::string& out, float w) { out += fmt::format("{:.7g}", w); });
+    });
+  }
   usd.line("half3[] scales = " +
            usd_array(keys.segment, [](std::string& out, const SegmentKeys&) { out += "(1, 1, 1)"; }));
   usd.close();
@@ -199,6 +214,34 @@ void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::str
   usd.close();
 }
 
+/// Adds the shapes of a cloth, whose vertices begin at column `first` of the skin.
+void add_shapes(UsdText& usd, const MorphedSurface& skin, std::size_t first, std::size_t vertices,
+                const std::string& path) {
+  constexpr float negligible_m = 2e-5F;
+  usd.line("uniform token[] skel:blendShapes = " + shape_names(skin.target.size()));
+  std::string targets;
+  for (std::size_t k = 0; k < skin.target.size(); ++k)
+    targets += fmt::format("{}<{}/shape_{}>", k == 0 ? "" : ", ", path, k + 1);
+  usd.line(fmt::format("rel skel:blendShapeTargets = [{}]", targets));
+  for (std::size_t k = 0; k < skin.target.size(); ++k) {
+    std::vector<std::uint32_t> moved;
+    std::vector<Vec3<float>> offset, turn;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const auto column = static_cast<Eigen::Index>(first + v);
+      const auto p = skin.target[k].position.col(column), n = skin.target[k].normal.col(column);
+      if (p.norm() <= negligible_m) continue;
+      moved.push_back(static_cast<std::uint32_t>(v));
+      offset.push_back({p.x(), p.y(), p.z()});
+      turn.push_back({n.x(), n.y(), n.z()});
+    }
+    usd.open("def BlendShape", fmt::format("shape_{}", k + 1));
+    usd.line("uniform vector3f[] offsets = " + usd_points(offset));
+    usd.line("uniform vector3f[] normalOffsets = " + usd_points(turn));
+    usd.line("uniform int[] pointIndices = " + usd_numbers(moved));
+    usd.close();
+  }
+}
+
 /// Adds the motion of a person's root.
 void add_way(UsdText& usd, std::span<const RecordedRoot> root) {
   constexpr double usd_degrees = 180 / std::numbers::pi;
@@ -230,6 +273,7 @@ struct UsdScene {
   std::vector<std::vector<const SeenPerson*>> wearers{};  // by figure
   std::vector<StandingPlaces> standing{};                 // of figures
   std::vector<std::vector<FigurePiece>> pieces{};         // of figures
+  std::vector<MorphedSurface> skin{};                     // of figures with drawn places; without targets if there are none
   bool shared(std::size_t figure) const { return wearers[figure].size() > 1; }
 };
 
@@ -246,7 +290,9 @@ void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path
   const std::string body = path + "/Body";
   usd.open("def SkelRoot", "Body");
   add_skeleton(usd, rest, scene.standing[person.figure], person.scale, body);
-  add_animation(usd, keys);
+  const MorphedSurface& skin = scene.skin[person.figure];
+  add_animation(usd, keys, skin);
+  std::size_t first_shaped = 0;
   for (const FigurePiece& piece : scene.pieces[person.figure]) {
     const std::size_t cloth = piece.cloth;
     const bool shared = scene.shared(person.figure);
@@ -256,6 +302,11 @@ void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path
     if (!shared) add_cloth(usd, piece);
     usd.line("color3f[] primvars:displayColor = " + usd_colour(person.colour(cloth)));
     usd.line(fmt::format("rel skel:skeleton = <{}/Skeleton>", body));
+    if (!piece.rigid && !skin.target.empty()) {
+      const std::size_t vertices = piece.position.size();
+      add_shapes(usd, skin, first_shaped, vertices, body + "/" + cloth_name(person, figure, cloth));
+      first_shaped += vertices;
+    }
     usd.close();
   }
   usd.close();
@@ -298,6 +349,7 @@ Result<std::string> usda_text(const RecordedPeople& recorded) {
   scene.wearers.resize(recorded.figures.size());
   scene.standing.resize(recorded.figures.size());
   scene.pieces.resize(recorded.figures.size());
+  scene.skin.resize(recorded.figures.size());
   for (const SeenPerson& person : recorded.people) {
     auto& wearers = scene.wearers[person.figure];
     if (wearers.empty()) {
@@ -305,6 +357,21 @@ Result<std::string> usda_text(const RecordedPeople& recorded) {
       scene.standing[person.figure] = figure_standing(figure, person);
       auto pieces = figure_pieces(figure, scene.standing[person.figure]);
       if (!pieces) return tl::unexpected(pieces.error());
+      if (has_drawn_skin(*pieces)) {
+        const StandingPlaces& standing = scene.standing[person.figure];
+        const ExportOptions usual;
+        const auto muscles = [&](std::size_t frame) {
+          std::vector<Eigen::Vector3d> points;
+          for (const RecordedMuscle& muscle : person.muscles)
+            for (const Vec3<float>& p : muscle.position_m[frame]) points.push_back(widened(p));
+          return points;
+        };
+        scene.skin[person.figure] =
+            skin_shapes(*pieces, muscles, skeleton_keys(*person.frames, standing), standing, usual.morph_targets,
+                        static_cast<double>(usual.morph_tolerance_m))
+                .surface;
+        if (person.loops) scene.skin[person.figure].weight.back() = scene.skin[person.figure].weight.front();
+      }
       scene.pieces[person.figure] = std::move(*pieces);
     }
     wearers.push_back(&person);

@@ -29,6 +29,7 @@ WalkRecording without_anatomy(const WalkRecording& recording) {
   skin.colours = recording.colours;
   skin.root = recording.root;
   skin.facts = recording.facts;
+  skin.loops = recording.loops;
   return skin;
 }
 

@@ -16,7 +16,7 @@ struct ExportOptions {
   int morph_targets = 4;              // maximum per muscle, 0–8; viewers must support only 8 morphed attributes,
                                       // 4 targets with normals
   float morph_tolerance_m = 0.5e-3F;  // fewer targets if every vertex stays closer than this
-  bool morph_normals = true;          // false: about a quarter smaller; muscles keep the shading of their mean shape
+  bool morph_normals = true;          // false: about a quarter smaller; muscles keep the shading of one shape
 };
 
 /// Distance of a muscle or a skin in the file from the recorded one, over all its vertices and frames.
@@ -38,7 +38,7 @@ struct ExportReport {
 /// segments as nested nodes under it. They are the joints of one skin, whose bind pose is the standing body
 /// (standing_places in skeleton_keys.h). Joint rotations are keyed at every frame, translations only where the offset
 /// from the parent changes. Bones are one mesh, "bones", of which each vertex follows its segment. Every muscle is a
-/// mesh of its name, which follows its segment and rests in its mean shape. Its targets are the principal components of
+/// mesh of its name, which follows its segment. Its targets are the principal components of
 /// its displacement in the segment's frame. A skin with drawn places (SkinnedSurface::drawn_m) also has targets, so that
 /// bones and muscles stay inside it; vertices of bones that would come through are moved below it. Nodes of these meshes are siblings of the root, as glTF requires.
 /// TEXCOORD_0 is along and around each bone or muscle (folded, texture_places.h), for skins in their atlas, with

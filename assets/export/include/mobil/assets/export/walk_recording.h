@@ -83,6 +83,7 @@ struct WalkRecording {
   std::vector<Vec3<float>> tip_m;  // of each segment, its far end in its frame (Body::tip_m); can be empty
   std::vector<RecordedRoot> root{};  // of each frame, in GLB and USD the motion of the person's root; can be empty
   std::optional<RecordedFacts> facts{};
+  bool loops = false;  // the last frame is the first one after the way (close_cycle)
 };
 
 /// One of several people.

@@ -42,7 +42,8 @@ Vector3d nearest_point(const Vector3d& point, const Corners& corner) {
 
 ClosedSurface::ClosedSurface(const Eigen::Matrix3Xd& position, const std::vector<std::uint32_t>& triangle) {
   for (std::size_t i = 0; i + 2 < triangle.size(); i += 3)
-    triangle_.push_back({{position.col(triangle[i]), position.col(triangle[i + 1]), position.col(triangle[i + 2])}, i / 3});
+    triangle_.push_back(
+        {{position.col(triangle[i]), position.col(triangle[i + 1]), position.col(triangle[i + 2])}, i / 3});
   build(0, triangle_.size());
 }
 
@@ -72,7 +73,8 @@ std::size_t ClosedSurface::build(std::size_t first, std::size_t end) {
 
 int ClosedSurface::crossings(const Vector3d& origin, const Vector3d& direction, std::size_t box) const {
   const Box& b = box_[box];
-  const Vector3d to_low = (b.low - origin).cwiseQuotient(direction), to_high = (b.high - origin).cwiseQuotient(direction);
+  const Vector3d to_low = (b.low - origin).cwiseQuotient(direction),
+                 to_high = (b.high - origin).cwiseQuotient(direction);
   if (std::max(0.0, to_low.cwiseMin(to_high).maxCoeff()) > to_low.cwiseMax(to_high).minCoeff()) return 0;
   if (b.left != 0) return crossings(origin, direction, b.left) + crossings(origin, direction, b.right);
   int sum = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Tells whether points are inside a closed surface, and how far they are from it.
+// Positions of points relative to a closed surface: inside or outside, and the nearest place on it.
 
 #include <array>
 #include <cstddef>

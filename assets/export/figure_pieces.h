@@ -24,8 +24,8 @@ struct FigurePiece {
   std::vector<std::array<float, 4>> weight;        // add up to 1
   std::vector<std::uint32_t> triangle;
   std::vector<std::vector<Vec3<float>>> drawn_m;  // as in SkinnedSurface, or empty
-  bool rigid = true;   // each vertex follows only its first joint
-  bool atlas = false;  // texture is of one
+  bool rigid = true;                              // each vertex follows only its first joint
+  bool atlas = false;                             // texture is of one
 };
 
 /// Sets the normals of a piece from its triangles.

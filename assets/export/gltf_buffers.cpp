@@ -65,8 +65,9 @@ Result<void> check_size(std::size_t bytes) {
 
 /// Joins the arrays.
 Result<void> pack_buffers(GltfDraft& draft) {
-  const std::array<std::vector<unsigned char>*, array_count> arrays = {
-      &draft.vertices, &draft.texture, &draft.tangents, &draft.skin, &draft.indices, &draft.keys, &draft.binds, &draft.sparse};
+  const std::array<std::vector<unsigned char>*, array_count> arrays = {&draft.vertices, &draft.texture, &draft.tangents,
+                                                                       &draft.skin,     &draft.indices, &draft.keys,
+                                                                       &draft.binds,    &draft.sparse};
   constexpr std::array<int, array_count> target = {TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ARRAY_BUFFER,

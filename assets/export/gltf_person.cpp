@@ -312,8 +312,7 @@ void add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const MuscleShap
   fidelity = {prefix + muscle.name, number_of(surface.target.size()), surface.max_error_m, surface.rms_error_m};
 
   tinygltf::Mesh mesh;
-  auto shape = standing_muscle(draft, surface, muscle.segment, rest[index(muscle.segment)],
-                               shapes.triangle);
+  auto shape = standing_muscle(draft, surface, muscle.segment, rest[index(muscle.segment)], shapes.triangle);
   shape.material = material(scene, "muscle", muscle.colour, 0.5);
   for (const auto& target : surface.target) {
     auto& attributes = shape.targets.emplace_back();

@@ -25,8 +25,15 @@ RecordedPeople recorded_people(const WalkRecording& recording) {
   seen.frame_s = recording.frame_s;
   seen.is_walk = true;
   seen.figures.push_back({recording.bones, {}, recording.skin, recording.standing_m});
-  seen.people.push_back({recording.name, 0, {1, 1, 1}, recording.colours, &recording.frames, recording.muscles,
-                         recording.root, facts_of(recording), recording.loops});
+  seen.people.push_back({recording.name,
+                         0,
+                         {1, 1, 1},
+                         recording.colours,
+                         &recording.frames,
+                         recording.muscles,
+                         recording.root,
+                         facts_of(recording),
+                         recording.loops});
   return seen;
 }
 

@@ -20,9 +20,7 @@ struct SeenFigure {
   std::span<const Vec3<float>> standing_m;
   std::size_t cloth_of(std::size_t surface) const { return cloth.empty() ? 0 : cloth[surface]; }
   /// Returns true if the recording has a rest pose.
-  bool has_standing() const {
-    return standing_m[index(Segment::head)].y != standing_m[index(Segment::foot_right)].y;
-  }
+  bool has_standing() const { return standing_m[index(Segment::head)].y != standing_m[index(Segment::foot_right)].y; }
   /// Returns one more than the largest cloth; 0 without surfaces.
   std::size_t cloths() const;
 };

@@ -156,7 +156,8 @@ Result<void> check_figure(const SeenFigure& figure, std::size_t frames) {
     if (auto ok = check_skin(surface); !ok) return ok;
     if (auto ok = check_drawn(surface, frames); !ok) return ok;
     if (surface.drawn_m.empty() != figure.skin.front().drawn_m.empty())
-      return fail(fmt::format("skin '{}': drawn places of some of a figure's surfaces; give all or none", surface.name));
+      return fail(
+          fmt::format("skin '{}': drawn places of some of a figure's surfaces; give all or none", surface.name));
   }
   return {};
 }

@@ -67,7 +67,9 @@ SegmentKeys root_keys(std::span<const RecordedRoot> root) {
     keys.rotation.push_back(rounded(place.rotation));
   }
   const auto turns_not = [&](const RecordedRoot& at) { return at.heading_rad == root.front().heading_rad; };
-  const auto moves_not = [&](const RecordedRoot& at) { return at.x_m == root.front().x_m && at.z_m == root.front().z_m; };
+  const auto moves_not = [&](const RecordedRoot& at) {
+    return at.x_m == root.front().x_m && at.z_m == root.front().z_m;
+  };
   if (std::ranges::all_of(root, turns_not)) keys.rotation.resize(1);
   if (std::ranges::all_of(root, moves_not)) keys.translation_m.resize(1);
   return keys;
@@ -141,8 +143,8 @@ StandingPlaces standing_places(const std::vector<Pose<float>>& frames, std::span
     const std::size_t parent = index(segment_parent[s]);
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const auto& pose : frames)
-      mean += widened(pose.rotation[parent]).conjugate() *
-              (widened(pose.position_m[s]) - widened(pose.position_m[parent]));
+      mean +=
+          widened(pose.rotation[parent]).conjugate() * (widened(pose.position_m[s]) - widened(pose.position_m[parent]));
     place[s] = place[parent] + mean / static_cast<double>(frames.size());
   }
   double lowest = std::numeric_limits<double>::infinity();

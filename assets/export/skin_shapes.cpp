@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using Blend = Eigen::Matrix<double, 3, 4>;
 using JointMaps = std::array<Blend, segment_count>;
 
-constexpr std::size_t max_checked_frames = 64;
+constexpr std::size_t max_checked_frames = 32;
 constexpr double margin_m = 0.001;
 constexpr double min_volume = 0.05;  // of a blended matrix that can be inverted
 
@@ -53,8 +53,7 @@ WeldedSkin welded_skin(std::span<const FigurePiece> pieces) {
     const std::size_t base = skin.of.size();
     for (std::size_t v = 0; v < piece.position.size(); ++v) {
       const Vec3<float>& p = piece.position[v];
-      const auto [found, is_new] =
-          known.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(skin.first.size()));
+      const auto [found, is_new] = known.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(skin.first.size()));
       if (is_new) skin.first.emplace_back(skin.piece.size(), v);
       skin.of.push_back(found->second);
     }

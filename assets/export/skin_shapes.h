@@ -23,11 +23,11 @@ struct SkinShapes {
 /// Returns true if the pieces have a skin whose drawn places were recorded.
 bool has_drawn_skin(std::span<const FigurePiece> pieces);
 
-/// Returns shapes of the skin of `pieces`, and puts the pieces in that shape, so that morphed and then blended
-/// with the pieces' weights, they come near where they were drawn in each frame: the drawn places, moved back by the inverse of the blended matrix, reduced to principal
-/// components (morph_targets). Then lifts the shape by a millimetre over vertices of `muscles` that come through in
-/// any of up to 64 frames, and moves those of bones to a millimetre below the skin. `standing` is the places for which
-/// the pieces are drawn.
+/// Returns shapes that, blended with the pieces' weights, come near the skin's drawn places in each frame, and puts the
+/// pieces in the shape without targets. The shapes are the principal components (morph_targets) of the drawn places,
+/// moved back by the inverse of the blended matrix. Then lifts the shape by a millimetre
+/// over vertices of `muscles` that come through in any of up to 32 frames, and moves those of bones to a millimetre
+/// below the skin. `standing` is the places for which the pieces are drawn.
 SkinShapes skin_shapes(std::span<FigurePiece> pieces, const MusclePoints& muscles, const SkeletonKeys& skeleton,
                        const StandingPlaces& standing, int max_targets, double tolerance_m);
 

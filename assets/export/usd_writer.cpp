@@ -273,7 +273,7 @@ struct UsdScene {
   std::vector<std::vector<const SeenPerson*>> wearers{};  // by figure
   std::vector<StandingPlaces> standing{};                 // of figures
   std::vector<std::vector<FigurePiece>> pieces{};         // of figures
-  std::vector<MorphedSurface> skin{};                     // of figures with drawn places; without targets if there are none
+  std::vector<MorphedSurface> skin{};                     // of figures with drawn places, else empty
   bool shared(std::size_t figure) const { return wearers[figure].size() > 1; }
 };
 
@@ -366,10 +366,9 @@ Result<std::string> usda_text(const RecordedPeople& recorded) {
             for (const Vec3<float>& p : muscle.position_m[frame]) points.push_back(widened(p));
           return points;
         };
-        scene.skin[person.figure] =
-            skin_shapes(*pieces, muscles, skeleton_keys(*person.frames, standing), standing, usual.morph_targets,
-                        static_cast<double>(usual.morph_tolerance_m))
-                .surface;
+        scene.skin[person.figure] = skin_shapes(*pieces, muscles, skeleton_keys(*person.frames, standing), standing,
+                                                usual.morph_targets, static_cast<double>(usual.morph_tolerance_m))
+                                        .surface;
         if (person.loops) scene.skin[person.figure].weight.back() = scene.skin[person.figure].weight.front();
       }
       scene.pieces[person.figure] = std::move(*pieces);

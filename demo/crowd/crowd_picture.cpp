@@ -313,8 +313,9 @@ Result<CrowdRecording> record_crowd(CrowdScene& scene, double seconds, const Cro
     if (!subject) return fail(fmt::format("{} has left", person.name));
     const auto shape = skins.of(subject->body.request, SkinDetail::far);
     if (!shape) return tl::unexpected(shape.error());
-    person.facts = recorded_facts(subject->body.request, subject->gait,
-                                  scene.simulation().get<GaitState>(walker.entity).value_or(GaitState<float>{}).heading_rad);
+    person.facts =
+        recorded_facts(subject->body.request, subject->gait,
+                       scene.simulation().get<GaitState>(walker.entity).value_or(GaitState<float>{}).heading_rad);
     person.figure = figure_of(*shape->skin, known, recording);
     person.scale = {shape->lengths, shape->lengths, shape->lengths};
     for (const Colour& colour : skin_colours(walker.number)) person.colours.push_back(linear_colour(colour));

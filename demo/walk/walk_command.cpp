@@ -1,5 +1,5 @@
-#include "demo/program/console.h"
 #include "demo/walk/walk_command.h"
+#include "demo/program/console.h"
 
 #include <fmt/format.h>
 
@@ -115,7 +115,7 @@ void note_limits(const Simulation& simulation, Entity person, std::vector<LimitP
 void tell_limits(const std::vector<LimitPassed>& passed) {
   for (const LimitPassed& limit : passed)
     print_error("note: in {} ticks from {:.2f} s to {:.2f} s {}", limit.ticks, limit.first_s, limit.last_s,
-               described(limit.furthest));
+                described(limit.furthest));
 }
 
 /// Applies the changes that are due. Errors name the script's line.
@@ -264,9 +264,8 @@ void print_said(const std::vector<std::string>& said, const WalkOptions& options
   print_note("anatomy: {} more lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
 }
 
-Result<void> write_results(Walked walked, const Simulation& simulation, const Person& person,
-                           const Figure& figure, const WalkOptions& options, SteadyClock::time_point start,
-                           OutputFolder& results) {
+Result<void> write_results(Walked walked, const Simulation& simulation, const Person& person, const Figure& figure,
+                           const WalkOptions& options, SteadyClock::time_point start, OutputFolder& results) {
   const auto& folder = results.inside();
   if (options.frames || options.video) {  // first, because a driver or ffmpeg can be missing
     const WalkDrawing drawing{&walked.recording,  &person.body,     &figure,

@@ -58,7 +58,7 @@ Result<WalkTiming> walk_timing(const WalkOptions& options) {
 RecordedFacts recorded_facts(const BodyRequest& body, const Gait<float>& gait, float heading_rad) {
   const bool walks = gait.speed_m_s > 0 && gait.step_frequency_hz > 0;
   return {body.sex == Sex::woman ? "woman" : "man", body.height_m, body.mass_kg, heading_rad,
-          walks ? 2 / gait.step_frequency_hz : 0, gait.speed_m_s};
+          walks ? 2 / gait.step_frequency_hz : 0,   gait.speed_m_s};
 }
 
 Result<void> record_root(const Simulation& simulation, Entity person, std::vector<RecordedRoot>& root) {
@@ -72,9 +72,10 @@ Result<void> close_walk(WalkRecording& recording) {
   constexpr double steady_joints_m = 1e-4, steady_muscles_m = 2e-3;
   const CycleGap gap = close_cycle(recording);
   if (gap.joints_m > steady_joints_m || gap.muscles_m > steady_muscles_m) {
-    return fail(fmt::format("--cycle: after its strides joints are {:.2f} mm and muscles {:.2f} mm from where they "
-                            "began; choose a gait without limits passed, or --method static",
-                            1e3 * gap.joints_m, 1e3 * gap.muscles_m));
+    return fail(
+        fmt::format("--cycle: after its strides joints are {:.2f} mm and muscles {:.2f} mm from where they "
+                    "began; choose a gait without limits passed, or --method static",
+                    1e3 * gap.joints_m, 1e3 * gap.muscles_m));
   }
   return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What `mobil walk` writes for other programs: skins as they are drawn, cycles, and the way of roots.
+// Recordings of `mobil walk` for other programs: skins as they are drawn, cycles, and the way of roots.
 
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/simulation.h>

@@ -54,8 +54,8 @@ Result<MuscleSet> read_muscles(const std::string& text) {
 const char* const walk_exports_help =
     "Formats of --export, by the file's ending (lengths in m, +Y up, walking toward +Z; details are in\n"
     "assets/export/README.md):\n"
-    "  .glb   glTF, as walk.glb: a skin over 48 joints, bones, muscles as morph targets; for engines,\n"
-    "         Blender, browsers\n"
+    "  .glb   glTF, as walk.glb: 48 joints, bones, muscles as morph targets, or with --skin a skin alone; for\n"
+    "         engines, Blender, browsers\n"
     "  .usda  USD: skeleton, skinned bones, muscle point caches; for Houdini, Omniverse, Blender, Maya\n"
     "  .bvh   skeleton and joint angles of every tick; for character animation\n"
     "  .mot   OpenSim's coordinates of its gait2392 model, every tick, in its axes; .sto: ground forces\n"
@@ -144,7 +144,8 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--list-parameters", &text.list_parameters, "Print names, ranges and meanings for --set, and exit", gait},
       {"--script", &text.script, "CSV file time_s,parameter,value of changes during the walk, see below", gait},
       {"--seconds", &text.seconds, "Duration of the walk, 0.1s to 60s", gait},
-      {"--cycle", &text.cycle, "Walk 1 to 20 whole strides, so that the animation is a loop, instead of --seconds", gait},
+      {"--cycle", &text.cycle, "Walk 1 to 20 whole strides, so that the animation is a loop, instead of --seconds",
+       gait},
       {"--ground", &text.ground, "level, slope:10%, cross:10%, hills:20cm, kerb:15cm or stairs:16cm/30cm, see below",
        gait},
       {"--slow-down", &text.scale_speed, "Scale speed on slopes and stairs, as people do; on level ground as requested",

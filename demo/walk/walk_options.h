@@ -33,7 +33,7 @@ Result<void> write_export(const WalkExport& wanted, const WalkRecording& picture
 /// Part of --help about export formats.
 extern const char* const walk_exports_help;
 
-/// Where files have the way that a person walks: in the pelvis' place, on the root, or nowhere.
+/// Carrier of the way in files: the pelvis, the root, or none.
 enum class WalkWay { pelvis, root, in_place };
 
 enum class WalkView { stick, wireframe, surface, skin, glass };
@@ -68,8 +68,8 @@ struct WalkText {
   std::string script, ground = "level", cycle;
   bool list_parameters = false, scale_speed = false, no_forces = false, single_muscles = false, tuned = false,
        inertia = false;
-  bool skin = false, skin_anatomy = false, fat = false, contact = false, frames = false, video = false,
-       stereo = false, root_motion = false, in_place = false;
+  bool skin = false, skin_anatomy = false, fat = false, contact = false, frames = false, video = false, stereo = false,
+       root_motion = false, in_place = false;
 };
 
 std::vector<Option> walk_options(WalkText& text);

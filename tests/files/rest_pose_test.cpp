@@ -54,7 +54,7 @@ Eigen::Affine3d at_rest(const Viewer& viewer, std::size_t n) {
   return viewer.parent[n] < 0 ? local : at_rest(viewer, static_cast<std::size_t>(viewer.parent[n])) * local;
 }
 
-/// Expects that skins leave their vertices in place where the nodes rest, but for their size.
+/// Expects that skins leave their vertices in place where the nodes rest, except for their size.
 void expect_bound_at_rest(const Viewer& viewer, const std::map<std::string, Vector3d>& size = {}) {
   for (const tinygltf::Skin& skin : viewer.model.skins) {
     const auto inverse = viewer.floats(skin.inverseBindMatrices);
@@ -115,8 +115,8 @@ TEST(RestPose, PeopleOfACrowdRestAtTheirSize) {
   const Viewer viewer(folder.path / "crowd.glb");
   ASSERT_EQ(viewer.model.skins.size(), 3U);  // bert's muscle has its own size
   constexpr double anna = 0.9F;
-  expect_bound_at_rest(viewer, {{"anna", Vector3d(anna, anna, anna)},
-                                {"bert", Vector3d(double{1.2F}, double{1.1F}, double{1.3F})}});
+  expect_bound_at_rest(
+      viewer, {{"anna", Vector3d(anna, anna, anna)}, {"bert", Vector3d(double{1.2F}, double{1.1F}, double{1.3F})}});
 }
 
 TEST(RestPose, AllFormatsHaveTheAnatomicalOffsetsWithAndWithoutSkin) {
@@ -142,8 +142,7 @@ TEST(RestPose, AllFormatsHaveTheAnatomicalOffsetsWithAndWithoutSkin) {
       EXPECT_LT((glb[s] - (bind[s] - from)).norm(), 2e-6) << name;
       std::smatch joint;
       ASSERT_TRUE(std::regex_search(
-          bvh, joint,
-          std::regex(" " + name + "\\n\\s*\\{\\n\\s*OFFSET (\\S+) (\\S+) (\\S+)\\n\\s*CHANNELS (\\d)")));
+          bvh, joint, std::regex(" " + name + "\\n\\s*\\{\\n\\s*OFFSET (\\S+) (\\S+) (\\S+)\\n\\s*CHANNELS (\\d)")));
       if (joint[4] == "6") continue;  // has its place in each frame
       const Vector3d offset(std::stod(joint[1]), std::stod(joint[2]), std::stod(joint[3]));
       // A BVH has no other place for L5, which walks behind its place on the level sacrum.

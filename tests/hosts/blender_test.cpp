@@ -13,12 +13,12 @@
 MOBIL_TEST_LABELS("long");
 
 namespace mobil::blender_test {
-using export_fixture::Viewer;
 using Eigen::Vector3d;
+using export_fixture::Viewer;
 
 constexpr double near_m = 1e-5;
 
-/// What tests/hosts/read_glb.py prints.
+/// Output of tests/hosts/read_glb.py.
 struct ReadByBlender {
   std::map<std::string, Vector3d> rest;
   std::map<std::pair<std::size_t, std::string>, Vector3d> bone;  // by key and name
@@ -78,7 +78,8 @@ TEST(Blender, WalkIsTheSameInBlenderAndStaysInItsSkin) {
   EXPECT_LT(worst_m, near_m);
   RecordProperty("bones_mm", std::to_string(1e3 * worst_m));
   ASSERT_FALSE(read.outside.empty());
-  for (const auto& [key, found] : read.outside) EXPECT_EQ(found.first, 0) << "key " << key << ", " << found.second << " mm";
+  for (const auto& [key, found] : read.outside)
+    EXPECT_EQ(found.first, 0) << "key " << key << ", " << found.second << " mm";
   // One of the armature with the root's way, one of each mesh with morph targets.
   const auto& channels = viewer.model.animations[0].channels;
   EXPECT_EQ(read.actions,

@@ -20,15 +20,14 @@
 MOBIL_TEST_LABELS("long");
 
 namespace mobil::cycle_test {
+using Eigen::Vector3d;
 using export_fixture::Viewer;
 using export_fixture::widened;
-using Eigen::Vector3d;
 
 struct Written {
   TemporaryFolder folder;
   Ran ran;
-  explicit Written(const std::string& options)
-      : ran(run_mobil("walk --quiet --out out " + options, folder.path)) {
+  explicit Written(const std::string& options) : ran(run_mobil("walk --quiet --out out " + options, folder.path)) {
     EXPECT_EQ(ran.status, 0) << options << ": " << ran.err;
   }
   Viewer glb() const { return Viewer(folder.path / "out" / "walk.glb"); }
@@ -58,12 +57,14 @@ TEST(Cycle, LastKeyIsTheFirstOfAnyGaitWithSkinAndMuscles) {
   for (const char* const options :
        {"--cycle 1 --skin --skin-anatomy", "--cycle 2 --speed 2m/s --set step_asymmetry=0.1",
         "--cycle 1 --speed 2.2km/h --height 1.6 --sex woman --mass 90 --method static",
-        "--cycle 1 --method modal --activation phase --inertia", "--cycle 3 --no-forces --muscles soleus --method newmark"}) {
+        "--cycle 1 --method modal --activation phase --inertia",
+        "--cycle 3 --no-forces --muscles soleus --method newmark"}) {
     const Written written(std::string(options) + " --root-motion");
     const Viewer viewer = written.glb();
     EXPECT_LT(gap(viewer, "walker"), 1e-5) << options;
     const auto& extras = viewer.model.nodes[viewer.node.at("walker")].extras;
-    const double stride_s = extras.Get("stride_s").GetNumberAsDouble(), speed = extras.Get("speed_m_s").GetNumberAsDouble();
+    const double stride_s = extras.Get("stride_s").GetNumberAsDouble(),
+                 speed = extras.Get("speed_m_s").GetNumberAsDouble();
     const std::size_t keys = keys_of(viewer);
     const double strides = std::stod(std::string(options).substr(8, 1));
     const auto times = viewer.floats(viewer.model.animations[0].samplers[0].input);

@@ -17,8 +17,8 @@
 MOBIL_TEST_LABELS("long");
 
 namespace mobil::skin_inside_test {
-using export_fixture::Viewer;
 using Eigen::Vector3d;
+using export_fixture::Viewer;
 using Corners = std::array<Vector3d, 3>;
 
 /// A closed surface as columns of triangles along one direction. Independent of the exporter's boxes.
@@ -159,7 +159,8 @@ TEST(SkinInside, CountFindsWhatComesThrough) {
     if (mesh.name == "figure")
       for (auto& part : mesh.primitives) part.targets.clear();
   double muscles_m = 0;
-  for (const std::size_t key : {0U, 5U, 10U, 15U}) muscles_m = std::max(muscles_m, outside_the_skin(viewer, key).muscles_m);
+  for (const std::size_t key : {0U, 5U, 10U, 15U})
+    muscles_m = std::max(muscles_m, outside_the_skin(viewer, key).muscles_m);
   EXPECT_GT(muscles_m, 2e-3);
 }
 

@@ -58,12 +58,12 @@ struct RecordedRoot {
   float heading_rad = 0;
 };
 
-/// What engines ask of a person; GLB has it as `extras` of the root node.
+/// Facts about a person. GLB has them as `extras` of the root node.
 struct RecordedFacts {
   std::string sex;
   float height_m = 0, mass_kg = 0;
-  float heading_rad = 0;                // of the first frame
-  float stride_s = 0, speed_m_s = 0;    // of the gait; 0 for standing people
+  float heading_rad = 0;              // of the first frame
+  float stride_s = 0, speed_m_s = 0;  // of the gait; 0 for standing people
 };
 
 /// A walk sampled every `frame_s` seconds; frame i is at i · frame_s.
@@ -71,16 +71,16 @@ struct WalkRecording {
   double frame_s = 1.0 / 30;
   std::vector<Pose<float>> frames;
   std::vector<BoneSurface> bones;
-  std::vector<RecordedMuscle> muscles;                  // each with as many frames as `frames`
-  std::string name = "walker";                          // of the person; in files the root of all their parts
-  double start_s = 0;                                   // time of frame 0; tables start there, animations at 0
-  std::vector<GroundReaction<float>> ground;            // of each frame; empty without simulated forces
-  std::vector<SkinnedSurface> skin;                     // in addition to the bones, in `colours`; can be empty
+  std::vector<RecordedMuscle> muscles;        // each with as many frames as `frames`
+  std::string name = "walker";                // of the person; in files the root of all their parts
+  double start_s = 0;                         // time of frame 0; tables start there, animations at 0
+  std::vector<GroundReaction<float>> ground;  // of each frame; empty without simulated forces
+  std::vector<SkinnedSurface> skin;           // in addition to the bones, in `colours`; can be empty
   /// Origins of the segments in the rest pose, in which no segment is turned (standing_pose, mobil/anthropometry.h).
   /// The skin is drawn for it. Without a skin it can be left at 0; segments then have their mean offsets.
   std::array<Vec3<float>, segment_count> standing_m{};
-  std::vector<Vec3<float>> colours;                     // linear, of cloths: bones', then the skin's; empty: ivory
-  std::vector<Vec3<float>> tip_m;  // of each segment, its far end in its frame (Body::tip_m); can be empty
+  std::vector<Vec3<float>> colours;  // linear, of cloths: bones', then the skin's; empty: ivory
+  std::vector<Vec3<float>> tip_m;    // of each segment, its far end in its frame (Body::tip_m); can be empty
   std::vector<RecordedRoot> root{};  // of each frame, in GLB and USD the motion of the person's root; can be empty
   std::optional<RecordedFacts> facts{};
   bool loops = false;  // the last frame is the first one after the way (close_cycle)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <mobil/assets/files/output_file.h>
+#include "assets/export/figure_pieces.h"
 #include "assets/export/joint_angles.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
@@ -24,13 +25,13 @@ struct BvhSkeleton {
   std::vector<std::size_t> order;  // in the hierarchy's order
 };
 
-BvhSkeleton bvh_skeleton(const WalkRecording& recording, const SkeletonKeys& keys) {
+BvhSkeleton bvh_skeleton(const SkeletonKeys& keys) {
   BvhSkeleton made;
-  const auto standing = standing_places(keys, recording.bones);
   for (std::size_t s = 0; s < segment_count; ++s) {
     const std::size_t parent = index(segment_parent[s]);
     made.slides[s] = parent == s || keys.segment[s].translation_m.size() > 1;
-    made.offset_m[s] = made.slides[s] ? Eigen::Vector3d::Zero() : Eigen::Vector3d(standing[s] - standing[parent]);
+    // A joint without positions stays at its offset, so that of L5 is the walk's, where the sacrum is level.
+    made.offset_m[s] = made.slides[s] ? Eigen::Vector3d::Zero() : widened(keys.segment[s].translation_m.front());
     if (parent != s) made.children[parent].push_back(s);
   }
   return made;
@@ -55,8 +56,9 @@ void write_joint(std::size_t s, std::size_t depth, const WalkRecording& recordin
 }
 
 std::string bvh_text(const WalkRecording& recording) {
-  const SkeletonKeys keys = skeleton_keys(recording.frames);
-  BvhSkeleton skeleton = bvh_skeleton(recording, keys);
+  const RecordedPeople people = recorded_people(recording);
+  const SkeletonKeys keys = skeleton_keys(recording.frames, figure_standing(people.figures[0], people.people[0]));
+  BvhSkeleton skeleton = bvh_skeleton(keys);
   std::string text = "HIERARCHY\n";
   write_joint(0, 0, recording, skeleton, text);
   std::vector<std::vector<JointTurn>> turns(segment_count);

@@ -44,24 +44,35 @@ void append_skin(const SkinnedSurface& surface, FigurePiece& piece) {
   piece.weight.insert(piece.weight.end(), surface.weight.begin(), surface.weight.end());
   piece.position.insert(piece.position.end(), surface.position.begin(), surface.position.end());
   piece.normal.insert(piece.normal.end(), surface.normal.begin(), surface.normal.end());
+  piece.drawn_m.resize(surface.drawn_m.size());
+  for (std::size_t f = 0; f < surface.drawn_m.size(); ++f)
+    piece.drawn_m[f].insert(piece.drawn_m[f].end(), surface.drawn_m[f].begin(), surface.drawn_m[f].end());
   piece.rigid = false;
-}
-
-void add_normals(FigurePiece& piece) {
-  const Eigen::Matrix3Xf normal = vertex_normals(columns_of(piece.position), piece.triangle).cast<float>();
-  for (const auto& n : normal.colwise()) piece.normal.push_back({n.x(), n.y(), n.z()});
 }
 
 }  // namespace
 
-StandingPlaces figure_standing(const SeenFigure& figure, const SkeletonKeys& skeleton) {
-  if (figure.skin.empty()) return standing_places(skeleton, figure.surfaces);
+void set_normals(FigurePiece& piece) {
+  piece.normal.clear();
+  const Eigen::Matrix3Xf normal = vertex_normals(columns_of(piece.position), piece.triangle).cast<float>();
+  for (const auto& n : normal.colwise()) piece.normal.push_back({n.x(), n.y(), n.z()});
+}
+
+StandingPlaces figure_standing(const SeenFigure& figure, const SeenPerson& first) {
   StandingPlaces standing;
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    const Vec3<float>& p = (*figure.standing_m)[s];
-    standing[s] = {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+  if (figure.has_standing()) {
+    for (std::size_t s = 0; s < segment_count; ++s) standing[s] = widened(figure.standing_m[s]);
+    return standing;
   }
+  standing = standing_places(*first.frames, figure.surfaces);
+  for (auto& place : standing) place = place.cwiseQuotient(widened(first.scale));
   return standing;
+}
+
+StandingPlaces person_rest(const StandingPlaces& figure, const Vec3<float>& scale) {
+  StandingPlaces rest = figure;
+  for (auto& place : rest) place = place.cwiseProduct(widened(scale));
+  return rest;
 }
 
 Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const StandingPlaces& standing) {
@@ -85,10 +96,7 @@ Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const S
       piece.tangent.clear();
       piece.atlas = false;
     }
-    if (piece.normal.size() != piece.position.size()) {
-      piece.normal.clear();
-      add_normals(piece);
-    }
+    if (piece.normal.size() != piece.position.size()) set_normals(piece);
     pieces.push_back(std::move(piece));
   }
   return pieces;

@@ -14,8 +14,6 @@
 
 namespace mobil::inline v0_3 {
 
-using StandingPlaces = std::array<Eigen::Vector3d, segment_count>;
-
 struct FigurePiece {
   std::size_t cloth = 0;
   std::string name;  // bones, or the name of a skin's part
@@ -25,12 +23,19 @@ struct FigurePiece {
   std::vector<std::array<std::uint8_t, 4>> joint;  // segments that each vertex follows
   std::vector<std::array<float, 4>> weight;        // add up to 1
   std::vector<std::uint32_t> triangle;
-  bool rigid = true;   // each vertex follows only its first joint
-  bool atlas = false;  // texture is of one
+  std::vector<std::vector<Vec3<float>>> drawn_m;  // as in SkinnedSurface, or empty
+  bool rigid = true;                              // each vertex follows only its first joint
+  bool atlas = false;                             // texture is of one
 };
 
-/// Returns a figure's standing place: its skin's, or without one that of this person's skeleton.
-StandingPlaces figure_standing(const SeenFigure& figure, const SkeletonKeys& skeleton);
+/// Sets the normals of a piece from its triangles.
+void set_normals(FigurePiece& piece);
+
+/// Returns the rest pose for which a figure is drawn: the recorded one, or without it that of its first person.
+StandingPlaces figure_standing(const SeenFigure& figure, const SeenPerson& first);
+
+/// Returns a person's rest pose: the figure's, at the person's size.
+StandingPlaces person_rest(const StandingPlaces& figure, const Vec3<float>& scale);
 
 /// Fails on a surface whose triangles have no area.
 Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const StandingPlaces& standing);

@@ -15,8 +15,17 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "a GLB holds little-endian numbers");
 
-enum Array : int { vertex_array, texture_array, tangent_array, skin_array, index_array, key_array, bind_array };
-constexpr std::size_t array_count = 7;
+enum Array : int {
+  vertex_array,
+  texture_array,
+  tangent_array,
+  skin_array,
+  index_array,
+  key_array,
+  bind_array,
+  sparse_array
+};
+constexpr std::size_t array_count = 8;
 
 template <class T>
 std::size_t append(std::vector<unsigned char>& bytes, const T* value, std::size_t count) {
@@ -56,17 +65,19 @@ Result<void> check_size(std::size_t bytes) {
 
 /// Joins the arrays.
 Result<void> pack_buffers(GltfDraft& draft) {
-  const std::array<std::vector<unsigned char>*, array_count> arrays = {
-      &draft.vertices, &draft.texture, &draft.tangents, &draft.skin, &draft.indices, &draft.keys, &draft.binds};
+  const std::array<std::vector<unsigned char>*, array_count> arrays = {&draft.vertices, &draft.texture, &draft.tangents,
+                                                                       &draft.skin,     &draft.indices, &draft.keys,
+                                                                       &draft.binds,    &draft.sparse};
   constexpr std::array<int, array_count> target = {TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
                                                    0,
+                                                   0,
                                                    0};
   constexpr std::array<std::size_t, array_count> stride = {
-      3 * sizeof(float), 2 * sizeof(float), 4 * sizeof(float), 4, 0, 0, 0};
+      3 * sizeof(float), 2 * sizeof(float), 4 * sizeof(float), 4, 0, 0, 0, 0};
   std::array<int, array_count> view_of{};
   std::size_t total = 0;
   for (const auto* array : arrays) total += array->size();
@@ -88,8 +99,12 @@ Result<void> pack_buffers(GltfDraft& draft) {
     std::vector<unsigned char>().swap(*arrays[a]);
   }
   draft.model.buffers.push_back(std::move(buffer));
+  const auto number = [&](int array) { return array < 0 ? -1 : view_of[static_cast<std::size_t>(array)]; };
   for (auto& accessor : draft.model.accessors) {
-    accessor.bufferView = view_of[static_cast<std::size_t>(accessor.bufferView)];
+    accessor.bufferView = number(accessor.bufferView);
+    if (!accessor.sparse.isSparse) continue;
+    accessor.sparse.indices.bufferView = number(accessor.sparse.indices.bufferView);
+    accessor.sparse.values.bufferView = number(accessor.sparse.values.bufferView);
   }
   return {};
 }
@@ -105,6 +120,34 @@ int add_vertices(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bou
   return accessor;
 }
 
+int add_displacements(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bounds, float negligible) {
+  std::vector<std::uint32_t> moved;
+  Eigen::Matrix3Xf kept = Eigen::Matrix3Xf::Zero(3, column.cols());
+  std::vector<float> values;
+  for (Eigen::Index v = 0; v < column.cols(); ++v) {
+    if (column.col(v).norm() <= negligible) continue;
+    kept.col(v) = column.col(v);
+    moved.push_back(static_cast<std::uint32_t>(v));
+    values.insert(values.end(), {column(0, v), column(1, v), column(2, v)});
+  }
+  constexpr std::size_t dense_bytes = 12, sparse_bytes = 16;
+  if (sparse_bytes * moved.size() >= dense_bytes * static_cast<std::size_t>(column.cols()))
+    return add_vertices(draft, column, with_bounds);
+  const int number = add_accessor(draft, vertex_array, 0, static_cast<std::size_t>(column.cols()),
+                                  TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+  auto& accessor = draft.model.accessors.back();
+  accessor.bufferView = -1;  // zeros
+  if (with_bounds) set_bounds(accessor, kept.data(), 3);
+  if (moved.empty()) return number;
+  accessor.sparse.isSparse = true;
+  accessor.sparse.count = static_cast<int>(moved.size());
+  accessor.sparse.indices.bufferView = accessor.sparse.values.bufferView = sparse_array;
+  accessor.sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  accessor.sparse.indices.byteOffset = static_cast<int>(append(draft.sparse, moved.data(), moved.size()));
+  accessor.sparse.values.byteOffset = static_cast<int>(append(draft.sparse, values.data(), values.size()));
+  return number;
+}
+
 int add_texture_places(GltfDraft& draft, const std::vector<TexturePlace>& place) {
   std::vector<float> value;
   value.reserve(2 * place.size());
@@ -118,20 +161,29 @@ int add_tangents(GltfDraft& draft, const std::vector<std::array<float, 4>>& tang
   return add_accessor(draft, tangent_array, offset, tangent.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4);
 }
 
+std::array<float, 4> byte_weights(const std::array<float, 4>& weight) {
+  const auto heaviest = static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin());
+  std::array<float, 4> rounded{};
+  float left = 255;
+  for (std::size_t k = 4; k-- > 0;) {
+    if (k == heaviest) continue;
+    const float share = std::min(left, std::round(255 * weight[k]));
+    left -= share;
+    rounded[k] = share / 255;
+  }
+  rounded[heaviest] = left / 255;  // takes the rounding error
+  return rounded;
+}
+
 SkinAccessors add_joints(GltfDraft& draft, const std::vector<std::array<std::uint8_t, 4>>& joint,
                          const std::vector<std::array<float, 4>>& weight) {
   std::vector<std::uint8_t> joints(4 * joint.size(), 0), weights(4 * joint.size(), 0);
   for (std::size_t v = 0; v < joint.size(); ++v) {
-    const auto heaviest = static_cast<std::size_t>(std::ranges::max_element(weight[v]) - weight[v].begin());
-    int left = 255;
-    const auto set = [&](std::size_t k, int share) {
-      left -= share;
-      weights[4 * v + k] = static_cast<std::uint8_t>(share);
-      joints[4 * v + k] = share == 0 ? std::uint8_t{0} : joint[v][k];
-    };
-    for (std::size_t k = 4; k-- > 0;)
-      if (k != heaviest) set(k, std::min(left, static_cast<int>(std::lround(255 * weight[v][k]))));
-    set(heaviest, left);  // takes the rounding error
+    const std::array<float, 4> rounded = byte_weights(weight[v]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      weights[4 * v + k] = static_cast<std::uint8_t>(std::lround(255 * rounded[k]));
+      joints[4 * v + k] = weights[4 * v + k] == 0 ? std::uint8_t{0} : joint[v][k];
+    }
   }
   const auto add = [&](const std::vector<std::uint8_t>& value) {
     const std::size_t offset = append(draft.skin, value.data(), value.size());
@@ -173,16 +225,21 @@ int add_bind_matrices(GltfDraft& draft, const std::vector<float>& matrix) {
 
 void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std::string& path,
                  const std::vector<float>& value, int type) {
-  if (animation.time_accessor < 0) {
+  const auto width = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+  const bool constant = animation.frames > 1 && value.size() == width && path != "weights";
+  int& times = constant ? animation.ends : animation.all_times;
+  if (times < 0) {
     std::vector<float> time_s;
-    for (std::size_t f = 0; f < animation.frames; ++f) {
+    for (std::size_t f = 0; f < animation.frames; f += constant ? animation.frames - 1 : 1) {
       time_s.push_back(static_cast<float>(static_cast<double>(f) * animation.frame_s));
     }
-    animation.time_accessor = add_keys(draft, time_s, TINYGLTF_TYPE_SCALAR, true);
+    times = add_keys(draft, time_s, TINYGLTF_TYPE_SCALAR, true);
   }
+  std::vector<float> keys = value;
+  if (constant) keys.insert(keys.end(), value.begin(), value.end());
   tinygltf::AnimationSampler sampler;
-  sampler.input = animation.time_accessor;
-  sampler.output = add_keys(draft, value, type, false);
+  sampler.input = times;
+  sampler.output = add_keys(draft, keys, type, false);
   sampler.interpolation = "LINEAR";
   tinygltf::AnimationChannel channel;
   channel.sampler = static_cast<int>(animation.animation.samplers.size());

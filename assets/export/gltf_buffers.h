@@ -19,17 +19,22 @@ namespace mobil::inline v0_3 {
 /// stride, so texture places (8 bytes) and joints (4) have separate arrays.
 struct GltfDraft {
   tinygltf::Model model;
-  std::vector<unsigned char> vertices, texture, tangents, skin, indices, keys, binds;
+  std::vector<unsigned char> vertices, texture, tangents, skin, indices, keys, binds, sparse;
 };
 
 /// Each adds one accessor and returns its number. Vertices are VEC3 floats; `with_bounds` writes min and max, which
 /// positions (including morphed ones) and key times must have. Indices are 16 bits wide if `vertex_count` permits.
 int add_vertices(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bounds);
+/// Adds displacements of a morph target, only those of vertices that it moves by more than `negligible` (sparse) if
+/// these are few.
+int add_displacements(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bounds, float negligible);
 int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, std::size_t vertex_count);
 /// Adds VEC2 floats: along and around, or in an atlas right and down.
 int add_texture_places(GltfDraft& draft, const std::vector<TexturePlace>& place);
 /// Adds VEC4 floats.
 int add_tangents(GltfDraft& draft, const std::vector<std::array<float, 4>>& tangent);
+/// Returns weights as a GLB has them, multiples of 1/255 that add up to 1.
+std::array<float, 4> byte_weights(const std::array<float, 4>& weight);
 /// Accessors for vertices that follow up to four joints of their skin; weights are bytes, which add up to 255.
 struct SkinAccessors {
   int joints, weights;
@@ -42,15 +47,17 @@ int add_keys(GltfDraft& draft, const std::vector<float>& value, int type, bool w
 /// Adds the inverse bind matrices of a skin, sixteen numbers each, column by column.
 int add_bind_matrices(GltfDraft& draft, const std::vector<float>& matrix);
 
-/// An animation of frames evenly spaced in time. All its channels share one list of key times, made with the first.
+/// An animation of frames evenly spaced in time. Channels with a key per frame share one list of key times, constant
+/// ones another list of the first and the last time. Each is made at first use.
 struct GltfAnimation {
   tinygltf::Animation animation;
   std::size_t frames = 0;
   double frame_s = 0;
-  int time_accessor = -1;
+  int all_times = -1, ends = -1;
 };
 
-/// Adds a channel of a node's `path` ("translation", "rotation", "weights"), linear between frames. `type` as add_keys.
+/// Adds a channel of a node's `path` ("translation", "rotation", "weights"), linear between frames. `value` has a key
+/// for each frame, or one for a constant channel. `type` as add_keys.
 void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std::string& path,
                  const std::vector<float>& value, int type);
 

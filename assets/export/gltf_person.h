@@ -9,6 +9,7 @@
 
 #include <mobil/engine/error.h>
 #include <mobil/gltf_writer.h>
+#include "assets/export/figure_pieces.h"
 #include "assets/export/gltf_buffers.h"
 #include "assets/export/recorded_people.h"
 #include "assets/export/skeleton_keys.h"
@@ -19,11 +20,12 @@ namespace mobil::inline v0_3 {
 /// A figure's surfaces, written once for all people who share it: a primitive for each cloth (without its material), in
 /// the standing place of the first person.
 struct GltfFigure {
-  std::array<Eigen::Vector3d, segment_count> standing_m;
+  StandingPlaces standing_m;
   std::vector<std::size_t> cloth;  // of each primitive
   std::vector<std::string> name;   // its name
   std::vector<bool> rigid;         // true for bones
   std::vector<tinygltf::Primitive> primitive;
+  std::vector<std::vector<float>> skin_weight;  // [frame][morph target] of the skin; empty without drawn places
 };
 
 /// A scene being written.
@@ -39,6 +41,6 @@ struct GltfScene {
 /// Adds a person: nodes, skin, meshes and channels of the animation. All names begin with `prefix`. Fails on a surface
 /// whose triangles have no area.
 Result<void> add_person(GltfScene& scene, const SeenPerson& person, const SeenFigure& figure, const std::string& prefix,
-                        const ExportOptions& options, std::vector<MuscleFidelity>& fidelity);
+                        const ExportOptions& options, ExportReport& report);
 
 }  // namespace mobil::inline v0_3

@@ -33,8 +33,7 @@ Result<std::string> encode_people(const RecordedPeople& recorded, const ExportOp
   scene.animation.frame_s = recorded.frame_s;
   scene.scene.name = "walk";
   for (const SeenPerson& person : recorded.people) {
-    auto added =
-        add_person(scene, person, recorded.figures[person.figure], recorded.prefix(person), options, report.muscles);
+    auto added = add_person(scene, person, recorded.figures[person.figure], recorded.prefix(person), options, report);
     if (!added) return tl::unexpected(added.error());
   }
   model.scenes.push_back(std::move(scene.scene));

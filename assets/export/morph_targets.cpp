@@ -75,6 +75,30 @@ void fit_normals(const MatrixXd& frames, const std::vector<std::uint32_t>& trian
   }
 }
 
+/// Moves the base shape to the lowest weights and scales targets, so that weights are 0 to 1: Blender limits negative
+/// ones.
+void make_weights_positive(MorphedSurface& surface) {
+  for (std::size_t k = 0; k < surface.target.size(); ++k) {
+    float low = surface.weight.front()[k], high = low;
+    for (const auto& weights : surface.weight) {
+      low = std::min(low, weights[k]);
+      high = std::max(high, weights[k]);
+    }
+    const float range = high - low;
+    surface.position += low * surface.target[k].position;
+    surface.normal += low * surface.target[k].normal;
+    surface.target[k].position *= range;
+    surface.target[k].normal *= range;
+    for (auto& weights : surface.weight) weights[k] = (weights[k] - low) / range;
+  }
+  for (Index v = 0; v < surface.normal.cols(); ++v) {
+    const float length = surface.normal.col(v).norm();
+    const bool vanishes = length < 0.05F;
+    surface.normal.col(v) = vanishes ? Eigen::Vector3f::UnitY() : Eigen::Vector3f(surface.normal.col(v) / length);
+    for (MorphTarget& target : surface.target) target.normal.col(v) *= vanishes ? 0 : 1 / length;
+  }
+}
+
 void measure(const MatrixXd& frames, MorphedSurface& surface) {
   double largest = 0, sum = 0;
   for (Index f = 0; f < frames.cols(); ++f) {
@@ -120,6 +144,7 @@ MorphedSurface morph_targets(const MatrixXd& frames, const std::vector<std::uint
     for (Index k = 0; k < weight.cols(); ++k) keys.push_back(static_cast<float>(weight(f, k)));
   }
   fit_normals(frames, triangle, weight, surface);
+  make_weights_positive(surface);
   measure(frames, surface);
   return surface;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A surface that deforms over time, as a mean shape and a few shapes added to it with varying weights.
+// A surface that deforms over time, as a shape and a few shapes added to it with varying weights.
 
 #include <cstdint>
 #include <vector>
@@ -14,10 +14,10 @@ struct MorphTarget {
 };
 
 struct MorphedSurface {
-  Eigen::Matrix3Xf position;                // mean over the frames, m
+  Eigen::Matrix3Xf position;                // without targets, m
   Eigen::Matrix3Xf normal;                  // unit length
   std::vector<MorphTarget> target;          // of falling importance
-  std::vector<std::vector<float>> weight;   // [frame][target], largest magnitude of each target 1 and positive there
+  std::vector<std::vector<float>> weight;   // [frame][target], 0 to 1, both of which each target reaches
   double max_error_m = 0, rms_error_m = 0;  // of the rounded numbers above against the frames
 };
 

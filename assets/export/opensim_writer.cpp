@@ -135,7 +135,7 @@ Result<void> write_opensim_motion(const std::filesystem::path& path, const WalkR
   if (auto ok = check_recording(recorded_people(recording)); !ok) {
     return fail(fmt::format("{}: {}", path.string(), ok.error().message));
   }
-  const SkeletonKeys skeleton = skeleton_keys(recording.frames);
+  const SkeletonKeys skeleton = skeleton_keys(recording.frames, standing_places(recording.frames, {}));
   OpensimTable table;
   add_pelvis(table, skeleton);
   for (const std::size_t side : {0U, 1U}) add_leg(table, skeleton, side);

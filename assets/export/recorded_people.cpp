@@ -4,6 +4,15 @@
 
 namespace mobil::inline v0_3 {
 
+namespace {
+
+template <class Recorded>
+const RecordedFacts* facts_of(const Recorded& recorded) {
+  return recorded.facts ? &*recorded.facts : nullptr;
+}
+
+}  // namespace
+
 std::size_t SeenFigure::cloths() const {
   std::size_t count = 0;
   for (std::size_t i = 0; i < surfaces.size(); ++i) count = std::max(count, cloth_of(i) + 1);
@@ -14,8 +23,17 @@ std::size_t SeenFigure::cloths() const {
 RecordedPeople recorded_people(const WalkRecording& recording) {
   RecordedPeople seen;
   seen.frame_s = recording.frame_s;
-  seen.figures.push_back({recording.bones, {}, recording.skin, &recording.standing_m});
-  seen.people.push_back({recording.name, 0, {1, 1, 1}, recording.colours, &recording.frames, recording.muscles});
+  seen.is_walk = true;
+  seen.figures.push_back({recording.bones, {}, recording.skin, recording.standing_m});
+  seen.people.push_back({recording.name,
+                         0,
+                         {1, 1, 1},
+                         recording.colours,
+                         &recording.frames,
+                         recording.muscles,
+                         recording.root,
+                         facts_of(recording),
+                         recording.loops});
   return seen;
 }
 
@@ -23,9 +41,10 @@ RecordedPeople recorded_people(const CrowdRecording& recording) {
   RecordedPeople seen;
   seen.frame_s = recording.frame_s;
   for (const RecordedFigure& figure : recording.figures)
-    seen.figures.push_back({figure.surfaces, figure.cloth, figure.skin, &figure.standing_m});
+    seen.figures.push_back({figure.surfaces, figure.cloth, figure.skin, figure.standing_m});
   for (const RecordedPerson& person : recording.people) {
-    seen.people.push_back({person.name, person.figure, person.scale, person.colours, &person.frames, person.muscles});
+    seen.people.push_back({person.name, person.figure, person.scale, person.colours, &person.frames, person.muscles,
+                           person.root, facts_of(person)});
   }
   return seen;
 }

@@ -17,8 +17,10 @@ struct SeenFigure {
   std::span<const BoneSurface> surfaces;
   std::span<const std::size_t> cloth;  // as in RecordedFigure
   std::span<const SkinnedSurface> skin;
-  const std::array<Vec3<float>, segment_count>* standing_m = nullptr;  // of a skin
+  std::span<const Vec3<float>> standing_m;
   std::size_t cloth_of(std::size_t surface) const { return cloth.empty() ? 0 : cloth[surface]; }
+  /// Returns true if the recording has a rest pose.
+  bool has_standing() const { return standing_m[index(Segment::head)].y != standing_m[index(Segment::foot_right)].y; }
   /// Returns one more than the largest cloth; 0 without surfaces.
   std::size_t cloths() const;
 };
@@ -30,11 +32,15 @@ struct SeenPerson {
   std::span<const Vec3<float>> colours;
   const std::vector<Pose<float>>* frames = nullptr;
   std::span<const RecordedMuscle> muscles;
+  std::span<const RecordedRoot> root;
+  const RecordedFacts* facts = nullptr;  // or null
+  bool loops = false;
   Vec3<float> colour(std::size_t cloth) const { return cloth < colours.size() ? colours[cloth] : ivory_colour; }
 };
 
 struct RecordedPeople {
   double frame_s = 0;
+  bool is_walk = false;  // of one person, not of a crowd
   std::vector<SeenFigure> figures;
   std::vector<SeenPerson> people;
   /// Returns the beginning of a person's part names: the person's own name if there are several people.

@@ -78,6 +78,19 @@ Result<void> check_muscle(const RecordedMuscle& muscle, std::size_t frame_count)
   return check_triangles(muscle.name, muscle.segment, muscle.triangle, vertex_count);
 }
 
+Result<void> check_drawn(const SkinnedSurface& surface, std::size_t frames) {
+  if (surface.drawn_m.empty()) return {};
+  if (surface.drawn_m.size() != frames)
+    return fail(fmt::format("skin '{}': {} frames of drawn places; give {} of a walk, and none of a crowd",
+                            surface.name, surface.drawn_m.size(), frames));
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (surface.drawn_m[f].size() != surface.position.size() || !all_finite(surface.drawn_m[f]))
+      return fail(fmt::format("skin '{}': frame {} has not a finite drawn place for each of {} vertices", surface.name,
+                              f, surface.position.size()));
+  }
+  return {};
+}
+
 Result<void> check_skin(const SkinnedSurface& surface) {
   const std::size_t vertices = surface.position.size();
   if (!all_finite(surface.position) || !all_finite(surface.normal))
@@ -124,7 +137,7 @@ Result<void> check_skin(const SkinnedSurface& surface) {
   return check_triangles(surface.name, Segment::pelvis, surface.triangle, vertices);
 }
 
-Result<void> check_figure(const SeenFigure& figure) {
+Result<void> check_figure(const SeenFigure& figure, std::size_t frames) {
   if (!figure.cloth.empty() && figure.cloth.size() != figure.surfaces.size()) {
     return fail(fmt::format("a figure has {} surfaces and {} cloths; give each surface one, or none at all",
                             figure.surfaces.size(), figure.cloth.size()));
@@ -137,13 +150,14 @@ Result<void> check_figure(const SeenFigure& figure) {
       return fail(fmt::format("bone '{}': cloth {}; the range is 0–{}", mesh.name, figure.cloth[i], max_cloths - 1));
     }
   }
-  if (!figure.skin.empty()) {
-    const auto& standing = *figure.standing_m;
-    if (!all_finite(standing) || standing[index(Segment::head)].y == standing[index(Segment::foot_right)].y)
-      return fail("a figure's skin is drawn about segments at places that are not finite, or not given (standing_m)");
-  }
+  if (!all_finite(figure.standing_m) || (!figure.skin.empty() && !figure.has_standing()))
+    return fail("a figure is drawn about segments at places that are not finite, or not given (standing_m)");
   for (const SkinnedSurface& surface : figure.skin) {
     if (auto ok = check_skin(surface); !ok) return ok;
+    if (auto ok = check_drawn(surface, frames); !ok) return ok;
+    if (surface.drawn_m.empty() != figure.skin.front().drawn_m.empty())
+      return fail(
+          fmt::format("skin '{}': drawn places of some of a figure's surfaces; give all or none", surface.name));
   }
   return {};
 }
@@ -155,6 +169,13 @@ Result<void> check_person(const RecordedPeople& recorded, const SeenPerson& pers
   if (frames.size() != expected) {
     return fail(fmt::format("{} has {} frames, {} has {}; record all over the same time", person.name, frames.size(),
                             recorded.people.front().name, expected));
+  }
+  if (!person.root.empty() && person.root.size() != frames.size())
+    return fail(fmt::format("{} has {} frames and {} roots; give each frame one, or none", person.name, frames.size(),
+                            person.root.size()));
+  for (const RecordedRoot& root : person.root) {
+    if (!std::isfinite(root.x_m) || !std::isfinite(root.z_m) || !std::isfinite(root.heading_rad))
+      return fail(fmt::format("{}: a root is not finite", person.name));
   }
   if (person.figure >= recorded.figures.size()) {
     return fail(fmt::format("{} looks like figure {} of {}", person.name, person.figure, recorded.figures.size()));
@@ -189,7 +210,7 @@ Result<void> check_recording(const RecordedPeople& recorded) {
     if (auto ok = check_person(recorded, person); !ok) return ok;
   }
   for (const SeenFigure& figure : recorded.figures) {
-    if (auto ok = check_figure(figure); !ok) return ok;
+    if (auto ok = check_figure(figure, recorded.is_walk ? recorded.people.front().frames->size() : 0); !ok) return ok;
   }
   return {};
 }

@@ -9,9 +9,6 @@ namespace {
 
 constexpr double still_m = 5e-6, still_rad = 2e-6;
 
-Eigen::Vector3d widened(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 Eigen::Quaterniond widened(const Quat<float>& q) {
   return Eigen::Quaterniond(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y),
                             static_cast<double>(q.z))
@@ -44,22 +41,49 @@ std::vector<Quat<float>> rotation_keys(std::vector<Eigen::Quaterniond> local) {
   return keys;
 }
 
-std::vector<Vec3<float>> translation_keys(const std::vector<Eigen::Vector3d>& local, double tolerance_m) {
+std::vector<Vec3<float>> translation_keys(const std::vector<Eigen::Vector3d>& local, const Vec3<float>& rest_m,
+                                          double tolerance_m) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const auto& t : local) mean += t;
   mean /= static_cast<double>(local.size());
-  const bool still =
-      std::all_of(local.begin(), local.end(), [&](const auto& t) { return (t - mean).norm() < tolerance_m; });
-  if (still) return {rounded(mean)};
+  const auto stays_at = [&](const Eigen::Vector3d& place) {
+    return std::all_of(local.begin(), local.end(), [&](const auto& t) { return (t - place).norm() < tolerance_m; });
+  };
+  if (stays_at(widened(rest_m))) return {rest_m};
+  if (stays_at(mean)) return {rounded(mean)};
   std::vector<Vec3<float>> keys;
   keys.reserve(local.size());
   for (const auto& t : local) keys.push_back(rounded(t));
   return keys;
 }
 
+/// Adds the keys of roots, without changing rounded numbers of equal ones.
+SegmentKeys root_keys(std::span<const RecordedRoot> root) {
+  SegmentKeys keys;
+  if (root.empty()) return {{{0, 0, 0}}, {{0, 0, 0, 1}}};
+  for (const RecordedRoot& at : root) {
+    const RigidTransform place = root_transform(at);
+    keys.translation_m.push_back(rounded(place.position_m));
+    keys.rotation.push_back(rounded(place.rotation));
+  }
+  const auto turns_not = [&](const RecordedRoot& at) { return at.heading_rad == root.front().heading_rad; };
+  const auto moves_not = [&](const RecordedRoot& at) {
+    return at.x_m == root.front().x_m && at.z_m == root.front().z_m;
+  };
+  if (std::ranges::all_of(root, turns_not)) keys.rotation.resize(1);
+  if (std::ranges::all_of(root, moves_not)) keys.translation_m.resize(1);
+  return keys;
+}
+
 }  // namespace
 
-SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames) {
+RigidTransform root_transform(const RecordedRoot& root) {
+  const double half = 0.5 * static_cast<double>(root.heading_rad);
+  return {{root.x_m, 0, root.z_m}, Eigen::Quaterniond(std::cos(half), 0, std::sin(half), 0)};
+}
+
+SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames, const StandingPlaces& rest,
+                           std::span<const RecordedRoot> root) {
   const std::size_t frame_count = frames.size();
   double farthest_m = 0;
   for (const auto& pose : frames) {
@@ -69,14 +93,15 @@ SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames) {
 
   SkeletonKeys keys;
   keys.segment.resize(segment_count);
+  keys.root = root_keys(root);
   keys.world.assign(frame_count, std::vector<RigidTransform>(segment_count));
   std::vector<Eigen::Vector3d> translation(frame_count);
   std::vector<Eigen::Quaterniond> rotation(frame_count);
   for (std::size_t s = 0; s < segment_count; ++s) {
     const bool is_root = segment_parent[s] == static_cast<Segment>(s);
     const auto parent = [&](std::size_t f) {
-      return is_root ? RigidTransform{Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity()}
-                     : keys.world[f][index(segment_parent[s])];
+      if (!is_root) return keys.world[f][index(segment_parent[s])];
+      return root_transform(root.empty() ? RecordedRoot{} : root[f]);
     };
     for (std::size_t f = 0; f < frame_count; ++f) {
       const RigidTransform from = parent(f);
@@ -84,7 +109,7 @@ SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames) {
       rotation[f] = (from.rotation.conjugate() * widened(frames[f].rotation[s])).normalized();
     }
     SegmentKeys& segment = keys.segment[s];
-    segment.translation_m = translation_keys(translation, tolerance_m);
+    segment.translation_m = translation_keys(translation, rest_offset(rest, s), tolerance_m);
     segment.rotation = rotation_keys(rotation);
     for (std::size_t f = 0; f < frame_count; ++f) {
       const RigidTransform from = parent(f);
@@ -96,15 +121,31 @@ SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames) {
   return keys;
 }
 
-std::array<Eigen::Vector3d, segment_count> standing_places(const SkeletonKeys& skeleton,
-                                                           std::span<const BoneSurface> surfaces) {
-  std::array<Eigen::Vector3d, segment_count> place;
+Vec3<float> rest_offset(const StandingPlaces& rest, std::size_t segment) {
+  const std::size_t parent = index(segment_parent[segment]);
+  return rounded(parent == segment ? rest[segment] : Eigen::Vector3d(rest[segment] - rest[parent]));
+}
+
+bool leaves_rest(const SegmentKeys& keys, const Vec3<float>& rest_offset_m) {
+  const Vec3<float>& t = keys.translation_m.front();
+  return keys.translation_m.size() > 1 || t.x != rest_offset_m.x || t.y != rest_offset_m.y || t.z != rest_offset_m.z;
+}
+
+bool turns(const SegmentKeys& keys) {
+  return keys.rotation.size() > 1 ||
+         widened(keys.rotation.front()).angularDistance(Eigen::Quaterniond::Identity()) > still_rad;
+}
+
+StandingPlaces standing_places(const std::vector<Pose<float>>& frames, std::span<const BoneSurface> surfaces) {
+  StandingPlaces place;
   place[0].setZero();
   for (std::size_t s = 1; s < segment_count; ++s) {
-    const auto& offsets = skeleton.segment[s].translation_m;
+    const std::size_t parent = index(segment_parent[s]);
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const auto& t : offsets) mean += widened(t);
-    place[s] = place[index(segment_parent[s])] + mean / static_cast<double>(offsets.size());
+    for (const auto& pose : frames)
+      mean +=
+          widened(pose.rotation[parent]).conjugate() * (widened(pose.position_m[s]) - widened(pose.position_m[parent]));
+    place[s] = place[parent] + mean / static_cast<double>(frames.size());
   }
   double lowest = std::numeric_limits<double>::infinity();
   for (const BoneSurface& surface : surfaces) {

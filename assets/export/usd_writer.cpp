@@ -5,16 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <mobil/assets/files/output_file.h>
 #include <mobil/assets/surfaces/texture_places.h>
+#include <mobil/gltf_writer.h>
 #include "assets/export/figure_pieces.h"
 #include "assets/export/mesh_shading.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
+#include "assets/export/skin_shapes.h"
 #include "assets/export/unique_names.h"
 
 namespace mobil::inline v0_3 {
@@ -128,7 +132,13 @@ void add_skeleton(UsdText& usd, const StandingPlaces& own, const StandingPlaces&
   usd.close();
 }
 
-void add_animation(UsdText& usd, const SkeletonKeys& keys) {
+std::string shape_names(std::size_t targets) {
+  std::vector<std::size_t> numbers(targets);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{1});
+  return usd_array(numbers, [](std::string& out, std::size_t number) { out += fmt::format("\"shape_{}\"", number); });
+}
+
+void add_animation(UsdText& usd, const SkeletonKeys& keys, const MorphedSurface& skin) {
   usd.open("def SkelAnimation", "Animation");
   usd.line("uniform token[] joints = " + joint_tokens());
   std::size_t frames = keys.world.size();
@@ -145,6 +155,12 @@ void add_animation(UsdText& usd, const SkeletonKeys& keys) {
       out += fmt::format("({:.7f}, {:.7f}, {:.7f}, {:.7f})", q.w, q.x, q.y, q.z);
     });
   });
+  if (!skin.target.empty()) {
+    usd.line("uniform token[] blendShapes = " + shape_names(skin.target.size()));
+    add_samples(usd, "float[] blendShapeWeights", frames, [&](std::size_t f) {
+      return usd_array(skin.weight[f], [](std::string& out, float w) { out += fmt::format("{:.7g}", w); });
+    });
+  }
   usd.line("half3[] scales = " +
            usd_array(keys.segment, [](std::string& out, const SegmentKeys&) { out += "(1, 1, 1)"; }));
   usd.close();
@@ -198,6 +214,58 @@ void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::str
   usd.close();
 }
 
+/// Adds the shapes of a cloth, whose vertices begin at column `first` of the skin.
+void add_shapes(UsdText& usd, const MorphedSurface& skin, std::size_t first, std::size_t vertices,
+                const std::string& path) {
+  constexpr float negligible_m = 2e-5F;
+  usd.line("uniform token[] skel:blendShapes = " + shape_names(skin.target.size()));
+  std::string targets;
+  for (std::size_t k = 0; k < skin.target.size(); ++k)
+    targets += fmt::format("{}<{}/shape_{}>", k == 0 ? "" : ", ", path, k + 1);
+  usd.line(fmt::format("rel skel:blendShapeTargets = [{}]", targets));
+  for (std::size_t k = 0; k < skin.target.size(); ++k) {
+    std::vector<std::uint32_t> moved;
+    std::vector<Vec3<float>> offset, turn;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const auto column = static_cast<Eigen::Index>(first + v);
+      const auto p = skin.target[k].position.col(column), n = skin.target[k].normal.col(column);
+      if (p.norm() <= negligible_m) continue;
+      moved.push_back(static_cast<std::uint32_t>(v));
+      offset.push_back({p.x(), p.y(), p.z()});
+      turn.push_back({n.x(), n.y(), n.z()});
+    }
+    usd.open("def BlendShape", fmt::format("shape_{}", k + 1));
+    usd.line("uniform vector3f[] offsets = " + usd_points(offset));
+    usd.line("uniform vector3f[] normalOffsets = " + usd_points(turn));
+    usd.line("uniform int[] pointIndices = " + usd_numbers(moved));
+    usd.close();
+  }
+}
+
+/// Adds the motion of a person's root.
+void add_way(UsdText& usd, std::span<const RecordedRoot> root) {
+  constexpr double usd_degrees = 180 / std::numbers::pi;
+  add_samples(usd, "double3 xformOp:translate", root.size(),
+              [&](std::size_t f) { return fmt::format("({:.6f}, 0, {:.6f})", root[f].x_m, root[f].z_m); });
+  add_samples(usd, "float xformOp:rotateY", root.size(), [&](std::size_t f) {
+    return fmt::format("{:.6f}", usd_degrees * static_cast<double>(root[f].heading_rad));
+  });
+  usd.line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:rotateY\"]");
+}
+
+/// Returns a muscle relative to the root of each frame.
+RecordedMuscle in_root(const RecordedMuscle& muscle, std::span<const RecordedRoot> root) {
+  RecordedMuscle moved = muscle;
+  for (std::size_t f = 0; f < root.size(); ++f) {
+    const RigidTransform from = root_transform(root[f]);
+    for (Vec3<float>& p : moved.position_m[f]) {
+      const Eigen::Vector3d own = from.rotation.conjugate() * (widened(p) - from.position_m);
+      p = {static_cast<float>(own.x()), static_cast<float>(own.y()), static_cast<float>(own.z())};
+    }
+  }
+  return moved;
+}
+
 /// A file's people, and the standing places of their figures.
 struct UsdScene {
   const RecordedPeople& recorded;
@@ -205,6 +273,7 @@ struct UsdScene {
   std::vector<std::vector<const SeenPerson*>> wearers{};  // by figure
   std::vector<StandingPlaces> standing{};                 // of figures
   std::vector<std::vector<FigurePiece>> pieces{};         // of figures
+  std::vector<MorphedSurface> skin{};                     // of figures with drawn places, else empty
   bool shared(std::size_t figure) const { return wearers[figure].size() > 1; }
 };
 
@@ -216,15 +285,14 @@ std::string cloth_name(const SeenPerson& person, const SeenFigure& figure, std::
 void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path) {
   UsdText& usd = scene.usd;
   const SeenFigure& figure = scene.recorded.figures[person.figure];
-  const SkeletonKeys keys = skeleton_keys(*person.frames);
+  const StandingPlaces rest = person_rest(scene.standing[person.figure], person.scale);
+  const SkeletonKeys keys = skeleton_keys(*person.frames, rest, person.root);
   const std::string body = path + "/Body";
   usd.open("def SkelRoot", "Body");
-  // At rest each person's joints are in their own skeleton's places, as high as the figure.
-  StandingPlaces rest = standing_places(keys, figure.surfaces);
-  const double up_m = person.scale.y * scene.standing[person.figure][index(Segment::pelvis)].y() - rest[0].y();
-  for (auto& place : rest) place.y() += figure.skin.empty() ? 0 : up_m;
   add_skeleton(usd, rest, scene.standing[person.figure], person.scale, body);
-  add_animation(usd, keys);
+  const MorphedSurface& skin = scene.skin[person.figure];
+  add_animation(usd, keys, skin);
+  std::size_t first_shaped = 0;
   for (const FigurePiece& piece : scene.pieces[person.figure]) {
     const std::size_t cloth = piece.cloth;
     const bool shared = scene.shared(person.figure);
@@ -234,6 +302,11 @@ void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path
     if (!shared) add_cloth(usd, piece);
     usd.line("color3f[] primvars:displayColor = " + usd_colour(person.colour(cloth)));
     usd.line(fmt::format("rel skel:skeleton = <{}/Skeleton>", body));
+    if (!piece.rigid && !skin.target.empty()) {
+      const std::size_t vertices = piece.position.size();
+      add_shapes(usd, skin, first_shaped, vertices, body + "/" + cloth_name(person, figure, cloth));
+      first_shaped += vertices;
+    }
     usd.close();
   }
   usd.close();
@@ -242,11 +315,13 @@ void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path
 void add_usd_person(UsdScene& scene, const SeenPerson& person, const std::string& name) {
   UsdText& usd = scene.usd;
   usd.open("def Xform", name);
+  if (!person.root.empty()) add_way(usd, person.root);
   add_body(scene, person, "/walk/" + name);
   if (!person.muscles.empty()) {
     UniqueNames names;
     usd.open("def Xform", "Muscles");
-    for (const auto& muscle : person.muscles) add_muscle_cache(usd, muscle, names.take(identifier(muscle.name)));
+    for (const auto& muscle : person.muscles)
+      add_muscle_cache(usd, in_root(muscle, person.root), names.take(identifier(muscle.name)));
     usd.close();
   }
   usd.close();
@@ -274,13 +349,28 @@ Result<std::string> usda_text(const RecordedPeople& recorded) {
   scene.wearers.resize(recorded.figures.size());
   scene.standing.resize(recorded.figures.size());
   scene.pieces.resize(recorded.figures.size());
+  scene.skin.resize(recorded.figures.size());
   for (const SeenPerson& person : recorded.people) {
     auto& wearers = scene.wearers[person.figure];
     if (wearers.empty()) {
       const SeenFigure& figure = recorded.figures[person.figure];
-      scene.standing[person.figure] = figure_standing(figure, skeleton_keys(*person.frames));
+      scene.standing[person.figure] = figure_standing(figure, person);
       auto pieces = figure_pieces(figure, scene.standing[person.figure]);
       if (!pieces) return tl::unexpected(pieces.error());
+      if (has_drawn_skin(*pieces)) {
+        const StandingPlaces& standing = scene.standing[person.figure];
+        const ExportOptions usual;
+        const auto muscles = [&](std::size_t frame) {
+          std::vector<Eigen::Vector3d> points;
+          for (const RecordedMuscle& muscle : person.muscles)
+            for (const Vec3<float>& p : muscle.position_m[frame]) points.push_back(widened(p));
+          return points;
+        };
+        scene.skin[person.figure] = skin_shapes(*pieces, muscles, skeleton_keys(*person.frames, standing), standing,
+                                                usual.morph_targets, static_cast<double>(usual.morph_tolerance_m))
+                                        .surface;
+        if (person.loops) scene.skin[person.figure].weight.back() = scene.skin[person.figure].weight.front();
+      }
       scene.pieces[person.figure] = std::move(*pieces);
     }
     wearers.push_back(&person);

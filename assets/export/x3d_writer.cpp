@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <mobil/assets/files/output_file.h>
+#include "assets/export/figure_pieces.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
 #include "assets/export/unique_names.h"
@@ -135,7 +136,8 @@ void add_movement(MovingScene& scene, double frame_s) {
 }
 
 std::string x3d_text(const WalkRecording& recording, SceneNotation notation) {
-  const SkeletonKeys skeleton = skeleton_keys(recording.frames);
+  const RecordedPeople people = recorded_people(recording);
+  const SkeletonKeys skeleton = skeleton_keys(recording.frames, figure_standing(people.figures[0], people.people[0]));
   MovingScene scene{.text = SceneText(notation, "walk")};
   scene.frames = recording.frames.size();
   scene.text.open("Transform", scene.names.take(identifier(recording.name)));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 
+#include <mobil/assets/export/root_motion.h>
 #include <mobil/assets/files/output_file.h>
 #include <mobil/local_transport.h>
 #include <mobil/mpi_transport.h>
@@ -63,9 +64,12 @@ Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
 /// Records the crowd from its current state and writes the exports.
 Result<void> export_crowd(const CrowdOptions& options, CrowdScene& scene) {
   if (options.exports.empty()) return {};
-  const auto recording = record_crowd(scene, options.export_s, show_progress);
+  auto recording = record_crowd(scene, options.export_s, show_progress);
   show("");
   if (!recording) return tl::unexpected(recording.error());
+  if (options.in_place) put_in_place(*recording);
+  for (RecordedPerson& person : recording->people)
+    if (!options.in_place && !options.root_motion) person.root.clear();
   return write_crowd_exports(*recording, options.exports);
 }
 

@@ -51,7 +51,15 @@ Result<CrowdEffects> read_effects(const std::string& text) {
 /// Reads and checks the options of exports before minutes of work.
 Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options, OptionReader& read) {
   options.export_s = read(read_value("--export-seconds", with_unit(text.export_seconds, "s"), Quantity::time, 0.1, 60));
-  if (text.exports.empty()) return {};
+  options.root_motion = text.root_motion;
+  options.in_place = text.in_place;
+  if (text.root_motion && text.in_place) return fail("--root-motion and --in-place exclude each other; remove one");
+  if (text.exports.empty()) {
+    if (text.root_motion || text.in_place)
+      return fail(fmt::format("--{}: is for exports; add --export FILE.glb, or remove it",
+                              text.in_place ? "in-place" : "root-motion"));
+    return {};
+  }
   options.exports.assign(text.exports.begin(), text.exports.end());
   if (options.raise) return fail("--raise: cannot export; remove --export");
   if (options.crowd.churn_per_s > 0 || options.crowd.burst > 0)
@@ -203,7 +211,9 @@ std::vector<Option> crowd_options(CrowdText& text) {
        {"--export", &text.exports,
         "Scene of all people walking after the measurement, FILE.glb or FILE.usda; repeat for both", of_results},
        {"--export-seconds", &text.export_seconds, "Duration of the scene, 0.1s to 60s, 30 poses per second",
-        of_results}},
+        of_results},
+       {"--root-motion", &text.root_motion, "Animate people's ways on their roots in exported scenes", of_results},
+       {"--in-place", &text.in_place, "Keep each person of an exported scene where they begin", of_results}},
       text);
 }
 

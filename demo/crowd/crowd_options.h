@@ -16,6 +16,7 @@ struct CrowdOptions {
   std::size_t frames = 0;                 // pictures in a folder; 0: one file
   std::vector<std::filesystem::path> exports;
   double export_s = 2;
+  bool root_motion = false, in_place = false;  // of exports
   bool raise = false;
   std::optional<AliveRequest> alive{};  // for `mobil city`, instead of `crowd`
   /// True for a city, several shards or ranks, or a saved run, which `run_city` runs instead of one scene.
@@ -32,7 +33,7 @@ struct CrowdText {
   std::string alive, in_view = "10000", export_seconds = "2";
   std::string shards, save, save_every = "10", resume, silence = "60", balance_every = "0";
   std::vector<std::string> exports;
-  bool all_seen = false, raise = false;
+  bool all_seen = false, raise = false, root_motion = false, in_place = false;
 };
 
 inline constexpr std::size_t max_crowd = 200'000, max_alive = 20'000'000;

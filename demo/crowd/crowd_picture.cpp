@@ -20,6 +20,7 @@
 #include <mobil/usd_writer.h>
 #include "demo/program/commands.h"
 #include "demo/walk/drawn_skin.h"
+#include "demo/walk/walk_export.h"
 
 namespace mobil {
 namespace {
@@ -76,6 +77,8 @@ Result<void> record_poses(const CrowdScene& scene, CrowdRecording& recording) {
     const auto pose = scene.simulation().get<Pose>(scene.walkers()[i].entity);
     if (!pose) return fail(fmt::format("{} has left", recording.people[i].name));
     recording.people[i].frames.push_back(*pose);
+    const Entity entity = scene.walkers()[i].entity;
+    if (auto done = record_root(scene.simulation(), entity, recording.people[i].root); !done) return done;
   }
   return {};
 }
@@ -310,6 +313,9 @@ Result<CrowdRecording> record_crowd(CrowdScene& scene, double seconds, const Cro
     if (!subject) return fail(fmt::format("{} has left", person.name));
     const auto shape = skins.of(subject->body.request, SkinDetail::far);
     if (!shape) return tl::unexpected(shape.error());
+    person.facts =
+        recorded_facts(subject->body.request, subject->gait,
+                       scene.simulation().get<GaitState>(walker.entity).value_or(GaitState<float>{}).heading_rad);
     person.figure = figure_of(*shape->skin, known, recording);
     person.scale = {shape->lengths, shape->lengths, shape->lengths};
     for (const Colour& colour : skin_colours(walker.number)) person.colours.push_back(linear_colour(colour));

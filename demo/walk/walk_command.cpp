@@ -1,5 +1,5 @@
-#include "demo/program/console.h"
 #include "demo/walk/walk_command.h"
+#include "demo/program/console.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <mobil/anthropometry.h>
 #include <mobil/assets/export/recorded_skin.h>
 #include <mobil/assets/files/output_file.h>
 #include <mobil/body_composition.h>
@@ -27,6 +28,7 @@
 #include "demo/walk/drawn_skin.h"
 #include "demo/walk/figure.h"
 #include "demo/walk/gait_parameters.h"
+#include "demo/walk/walk_export.h"
 #include "demo/walk/walk_lines.h"
 #include "demo/walk/walk_options.h"
 #include "demo/walk/walk_pictures.h"
@@ -113,7 +115,7 @@ void note_limits(const Simulation& simulation, Entity person, std::vector<LimitP
 void tell_limits(const std::vector<LimitPassed>& passed) {
   for (const LimitPassed& limit : passed)
     print_error("note: in {} ticks from {:.2f} s to {:.2f} s {}", limit.ticks, limit.first_s, limit.last_s,
-               described(limit.furthest));
+                described(limit.furthest));
 }
 
 /// Applies the changes that are due. Errors name the script's line.
@@ -149,9 +151,10 @@ WalkRecording begin_ticks(const Simulation& simulation, const Person& person) {
   return ticks;
 }
 
-void record_tick(const Simulation& simulation, Entity entity, WalkRecording& ticks) {
+Result<void> record_tick(const Simulation& simulation, Entity entity, WalkRecording& ticks) {
   ticks.frames.push_back(*simulation.get<Pose>(entity));
   if (const auto ground = simulation.get<GroundReaction>(entity)) ticks.ground.push_back(*ground);
+  return record_root(simulation, entity, ticks.root);
 }
 
 /// Returns the standing skin, with the anatomy's own skin of the legs if it has one.
@@ -163,8 +166,19 @@ Result<DrawnSkin> own_legs(const BodySkin& skin, const Body& body, const Figure&
   return standing;
 }
 
+/// Adds skin and clothes to a recording.
+void record_skin(const DrawnSkin& drawn, WalkRecording& recording) {
+  recording.skin = recorded_skin(*drawn.skin, 1, drawn.own ? &*drawn.own : nullptr);
+  if (drawn.own)
+    recording.skin.push_back(
+        recorded_custom_skin(*drawn.bare, *drawn.own, drawn.own_position, drawn.own_normal, 1 + skin_parts));
+  recording.colours = {ivory};
+  for (const Colour& colour : skin_colours(0)) recording.colours.push_back(linear_colour(colour));
+  recording.colours.push_back(recording.colours[1]);  // of the custom skin
+}
+
 Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& figure, const WalkOptions& options,
-                    const std::vector<ScriptedChange>& changes) {
+                    const WalkTiming& timing, const std::vector<ScriptedChange>& changes) {
   Walked walked{MotionTable(options.muscles.activation == ExcitationSource::moments),
                 MuscleTable(has_activation(options.muscles)),
                 {},
@@ -178,27 +192,29 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
   outcome.anatomy_said = figure.said;
   tell_style_changes(options.body, options.gait, outcome.style_changes);
   walked.recording = begin_recording(figure, ticks_per_frame * simulation.tick_s());
+  const Pose<float> standing = standing_pose(person.body);
+  std::ranges::copy(standing.position_m, walked.recording.standing_m.begin());
+  std::optional<BodySkin> skin;
+  DrawnSkin drawn;
   if (options.skin) {
-    const auto skin = make_body_skin(person.body, SkinDetail::near);
-    if (!skin) return tl::unexpected(skin.error());
+    auto made = make_body_skin(person.body, SkinDetail::near);
+    if (!made) return tl::unexpected(made.error());
+    skin = std::move(*made);
     auto own = own_legs(*skin, person.body, figure);
     if (!own) return tl::unexpected(own.error());
-    walked.recording.skin = recorded_skin(*skin, 1, own->own ? &*own->own : nullptr);
-    if (own->own)
-      walked.recording.skin.push_back(
-          recorded_custom_skin(*own->bare, *own->own, own->own_position, own->own_normal, 1 + skin_parts));
-    walked.recording.standing_m = standing_of(*skin);
-    walked.recording.colours = {ivory};
-    for (const Colour& colour : skin_colours(0)) walked.recording.colours.push_back(linear_colour(colour));
-    walked.recording.colours.push_back(walked.recording.colours[1]);  // of the custom skin
+    drawn = std::move(*own);
+    record_skin(drawn, walked.recording);
   }
+  simulation.tick(timing.warm_up_ticks);
+  walked.recording.facts =
+      recorded_facts(person.body.request, person.gait, simulation.get<GaitState>(person.entity)->heading_rad);
   walked.ticks = begin_ticks(simulation, person);
+  walked.ticks.standing_m = walked.recording.standing_m;
   const bool all_ticks = std::ranges::any_of(options.exports, of_every_tick);
   const std::string method = method_label(options.muscles);
-  const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
   simulation.schedule().reset_timings();
-  std::uint32_t steps_before = 0;
-  for (std::uint32_t i = 0; i < total; ++i) {
+  std::uint32_t steps_before = simulation.get<GaitState>(person.entity)->steps;
+  for (std::uint32_t i = 0; i < timing.ticks; ++i) {
     if (options.script) {
       auto done = apply_changes(changes, options.script->path, person.entity, simulation, outcome);
       if (!done) return tl::unexpected(done.error());
@@ -212,22 +228,31 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
     note_limits(simulation, person.entity, outcome.limits_passed);
     walked.motion.add(motion_row(simulation, person.entity), walk_forces(simulation, person.entity));
     add_muscle_rows(simulation, person, method, walked.muscles);
-    if (all_ticks) record_tick(simulation, person.entity, walked.ticks);
+    if (all_ticks) {
+      if (auto done = record_tick(simulation, person.entity, walked.ticks); !done) return tl::unexpected(done.error());
+    }
     if (i % ticks_per_frame == 0) {
-      show_progress("walking", i + std::size_t{1}, total);
+      show_progress("walking", i + std::size_t{1}, timing.ticks);
       record_frame(figure, simulation, person, walked.recording);
+      if (auto done = record_root(simulation, person.entity, walked.recording.root); !done)
+        return tl::unexpected(done.error());
       if (options.fat)
         walked.fat.push_back(shown_fat(body_size(person.body), *simulation.get<FatWobble>(person.entity)));
       if (options.view == WalkView::stick) walked.action_line.push_back(action_lines(simulation, person));
       if (options.view == WalkView::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, person));
     }
   }
-  outcome.ticks = simulation.ticks();
-  outcome.simulated_s = simulation.time_s();
+  outcome.ticks = timing.ticks;
+  outcome.simulated_s = timing.ticks * simulation.tick_s();
   const auto timings = simulation.schedule().timings();
   outcome.stages.assign(timings.begin(), timings.end());
   show("");
   tell_limits(outcome.limits_passed);
+  for (WalkRecording* const one : {&walked.recording, &walked.ticks}) {
+    if (options.cycle == 0 || one->frames.empty()) continue;
+    if (auto done = close_walk(*one); !done) return tl::unexpected(done.error());
+  }
+  if (options.skin_anatomy) record_drawn_skin(std::move(drawn), walked.recording);
   return walked;
 }
 
@@ -239,9 +264,8 @@ void print_said(const std::vector<std::string>& said, const WalkOptions& options
   print_note("anatomy: {} more lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
 }
 
-Result<void> write_results(const Walked& walked, const Simulation& simulation, const Person& person,
-                           const Figure& figure, const WalkOptions& options, SteadyClock::time_point start,
-                           OutputFolder& results) {
+Result<void> write_results(Walked walked, const Simulation& simulation, const Person& person, const Figure& figure,
+                           const WalkOptions& options, SteadyClock::time_point start, OutputFolder& results) {
   const auto& folder = results.inside();
   if (options.frames || options.video) {  // first, because a driver or ffmpeg can be missing
     const WalkDrawing drawing{&walked.recording,  &person.body,     &figure,
@@ -253,13 +277,14 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   }
   if (auto done = write_file(folder / "motion.csv", walked.motion.text); !done) return done;
   if (auto done = write_file(folder / "muscles.csv", walked.muscles.text); !done) return done;
-  const auto exported = write_glb(folder / "walk.glb", walked.recording);
+  const WalkFiles files = walk_files(std::move(walked.recording), std::move(walked.ticks), options);
+  const auto exported = write_glb(folder / "walk.glb", files.skinned());
   if (!exported) return tl::unexpected(exported.error());
   std::string others;
   for (const WalkExport& wanted : options.exports) {
     if (wanted.file == "walk.glb") continue;  // already written
     show(fmt::format("writing {}", wanted.file));
-    auto done = write_export(wanted, walked.recording, walked.ticks, folder);
+    auto done = write_export(wanted, files.pictures, files.skinned(), files.ticks, folder);
     show("");
     if (!done) return done;
     others += " " + one_line(wanted.file);
@@ -285,7 +310,9 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
 Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
   const auto start = SteadyClock::now();
   WalkOptions options = asked;
-  Simulation simulation;
+  const auto timing = walk_timing(options);
+  if (!timing) return tl::unexpected(timing.error());
+  Simulation simulation({.tick_s = timing->tick_s});
   const auto entity = simulation.spawn(options.body, options.gait);
   if (!entity) return tl::unexpected(entity.error());
   std::vector<ScriptedChange> changes;
@@ -314,13 +341,14 @@ Result<void> run_walk(const WalkOptions& asked, FigureReader read_figure) {
     simulation.terrain().set_options({.slows_down = options.scale_speed});
     if (auto done = simulation.terrain().manage({&*entity, 1}); !done) return done;
   }
-  const auto walked = walk(simulation, person, *figure, options, changes);
-  auto done = walked ? write_results(*walked, simulation, person, *figure, options, start, *results)
+  auto walked = walk(simulation, person, *figure, options, *timing, changes);
+  const std::size_t applied = walked ? walked->outcome.changes : 0;
+  auto done = walked ? write_results(std::move(*walked), simulation, person, *figure, options, start, *results)
                      : Result<void>(tl::unexpected(walked.error()));
   if (!done) show("");
-  if (done && changes.size() > walked->outcome.changes) {
+  if (done && changes.size() > applied) {
     print_note("script: {} of {} changes are after the end; increase --seconds to include them\n",
-               changes.size() - walked->outcome.changes, changes.size());
+               changes.size() - applied, changes.size());
   }
   return done;
 }

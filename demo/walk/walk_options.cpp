@@ -54,8 +54,8 @@ Result<MuscleSet> read_muscles(const std::string& text) {
 const char* const walk_exports_help =
     "Formats of --export, by the file's ending (lengths in m, +Y up, walking toward +Z; details are in\n"
     "assets/export/README.md):\n"
-    "  .glb   glTF, as walk.glb: a skin over 48 joints, bones, muscles as morph targets; for engines,\n"
-    "         Blender, browsers\n"
+    "  .glb   glTF, as walk.glb: 48 joints, bones, muscles as morph targets, or with --skin a skin alone; for\n"
+    "         engines, Blender, browsers\n"
     "  .usda  USD: skeleton, skinned bones, muscle point caches; for Houdini, Omniverse, Blender, Maya\n"
     "  .bvh   skeleton and joint angles of every tick; for character animation\n"
     "  .mot   OpenSim's coordinates of its gait2392 model, every tick, in its axes; .sto: ground forces\n"
@@ -88,12 +88,12 @@ bool of_every_tick(const WalkExport& wanted) {
   return wanted.format == WalkFormat::bvh || wanted.format == WalkFormat::mot || wanted.format == WalkFormat::sto;
 }
 
-Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& ticks,
-                          const std::filesystem::path& folder) {
+Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& skinned,
+                          const WalkRecording& ticks, const std::filesystem::path& folder) {
   const auto file = folder / wanted.file;
   switch (wanted.format) {
     case WalkFormat::glb: {
-      const auto written = write_glb(file, pictures);
+      const auto written = write_glb(file, skinned);
       return written ? Result<void>{} : tl::unexpected(written.error());
     }
     case WalkFormat::bvh:
@@ -103,7 +103,7 @@ Result<void> write_export(const WalkExport& wanted, const WalkRecording& picture
     case WalkFormat::sto:
       return write_opensim_forces(file, ticks);
     case WalkFormat::usda:
-      return write_usda(file, pictures);
+      return write_usda(file, skinned);
     case WalkFormat::wrl:
       return write_x3d(file, pictures, SceneNotation::vrml);
     case WalkFormat::x3d:
@@ -144,6 +144,8 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--list-parameters", &text.list_parameters, "Print names, ranges and meanings for --set, and exit", gait},
       {"--script", &text.script, "CSV file time_s,parameter,value of changes during the walk, see below", gait},
       {"--seconds", &text.seconds, "Duration of the walk, 0.1s to 60s", gait},
+      {"--cycle", &text.cycle, "Walk 1 to 20 whole strides, so that the animation is a loop, instead of --seconds",
+       gait},
       {"--ground", &text.ground, "level, slope:10%, cross:10%, hills:20cm, kerb:15cm or stairs:16cm/30cm, see below",
        gait},
       {"--slow-down", &text.scale_speed, "Scale speed on slopes and stairs, as people do; on level ground as requested",
@@ -172,7 +174,9 @@ std::vector<Option> walk_options(WalkText& text) {
        "stick (lines of action), wireframe (finite-element meshes), surface (muscles and bones), skin (dressed) or "
        "glass (muscles and bones through the skin)",
        pictures, words_of(views)},
-      {"--skin", &text.skin, "Add skin and clothes to walk.glb and .usda", pictures},
+      {"--skin", &text.skin, "Write skin and clothes to walk.glb and .usda, instead of bones and muscles", pictures},
+      {"--skin-anatomy", &text.skin_anatomy, "With --skin, also write bones and muscles, which the skin covers",
+       pictures},
       {"--fat", &text.fat, "Let fat under the skin wobble, in pictures with --view skin or glass", pictures},
       {"--contact", &text.contact, "Keep muscles from penetrating each other and bones, in pictures and files",
        pictures},
@@ -181,6 +185,8 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 per second", pictures},
       {"--video", &text.video, "Write walk.mp4", pictures},
       {"--export", &text.exports, "Also write the walk as NAME.bvh, .usda, .mot …, see below; repeat for more"},
+      {"--root-motion", &text.root_motion, "Animate the way on the root, with the pelvis relative to it (.glb, .usda)"},
+      {"--in-place", &text.in_place, "Write the walk without its way, on the spot"},
       {"--out", &text.out, "Folder for the results, created if missing"}};
   options.insert(options.end(), own.begin(), own.end());
   return options;
@@ -194,6 +200,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.forces = !text.no_forces;
   options.out = text.out;
   options.skin = text.skin;
+  options.skin_anatomy = text.skin_anatomy;
   options.fat = text.fat;
   options.contact = text.contact;
 
@@ -202,6 +209,14 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   for (const WalkExport& wanted : options.exports) {
     if (wanted.format == WalkFormat::sto && text.no_forces)
       read.refuse(fmt::format("--export {}: contains ground forces; remove --no-forces", wanted.file));
+  }
+  if (text.skin_anatomy && !text.skin)
+    read.refuse("--skin-anatomy: bones and muscles are written anyway without a skin; add --skin, or remove it");
+  if (text.root_motion && text.in_place) read.refuse("--root-motion and --in-place exclude each other; remove one");
+  options.way = text.root_motion ? WalkWay::root : text.in_place ? WalkWay::in_place : WalkWay::pelvis;
+  for (const WalkExport& wanted : options.exports) {
+    if (text.in_place && (wanted.format == WalkFormat::mot || wanted.format == WalkFormat::sto))
+      read.refuse(fmt::format("--export {}: OpenSim needs the way; remove --in-place", wanted.file));
   }
   options.eye_distance_m = read(read_value("--eye-distance", text.eye_distance, Quantity::length, 0.001, 0.5));
   if (text.eye_distance != WalkText{}.eye_distance && !text.stereo)
@@ -233,6 +248,12 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
     if (script) options.script = std::move(*script);
   }
   options.seconds = read(read_value("--seconds", text.seconds, Quantity::time, 0.1, 60));
+  if (!text.cycle.empty()) {
+    options.cycle = read(read_count("--cycle", text.cycle, 1, 20));
+    if (text.seconds != WalkText{}.seconds) read.refuse("--cycle and --seconds exclude each other; remove one");
+    if (options.script || !text.script.empty()) read.refuse("--cycle: needs a steady walk; remove --script");
+    if (options.ground.kind != GroundKind::level) read.refuse("--cycle: needs level ground; remove --ground");
+  }
 
   options.muscles.muscles = read(read_muscles(text.muscles));
   options.muscles.line_motion = true;

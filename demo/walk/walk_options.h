@@ -26,11 +26,15 @@ Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& nam
 bool of_every_tick(const WalkExport& wanted);
 
 /// Writes one file into `folder`. `ticks`: poses of every tick, and forces if there are any. `pictures`: with surfaces.
-Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& ticks,
-                          const std::filesystem::path& folder);
+/// `skinned`: pictures for formats with skins.
+Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& skinned,
+                          const WalkRecording& ticks, const std::filesystem::path& folder);
 
 /// Part of --help about export formats.
 extern const char* const walk_exports_help;
+
+/// Carrier of the way in files: the pelvis, the root, or none.
+enum class WalkWay { pelvis, root, in_place };
 
 enum class WalkView { stick, wireframe, surface, skin, glass };
 
@@ -39,15 +43,17 @@ struct WalkOptions {
   GaitRequest gait;
   std::optional<WalkScript> script;
   double seconds = 5;
+  std::size_t cycle = 0;  // whole strides instead of seconds; 0: none
   WalkGround ground;
   bool scale_speed = false;
   LegMuscles muscles;
   bool forces = true;  // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
   WalkView view = WalkView::surface;
-  bool skin = false, fat = false, contact = false, frames = false, video = false, stereo = false;
+  bool skin = false, skin_anatomy = false, fat = false, contact = false, frames = false, video = false, stereo = false;
   std::filesystem::path out = "out";
   std::vector<WalkExport> exports;
+  WalkWay way = WalkWay::pelvis;
   double eye_distance_m = 0.063;
 };
 
@@ -59,10 +65,11 @@ struct WalkText {
               activation = "none", anatomy, view = "surface", out = "out";
   std::string eye_distance = "63mm";
   std::vector<std::string> set, exports;
-  std::string script, ground = "level";
+  std::string script, ground = "level", cycle;
   bool list_parameters = false, scale_speed = false, no_forces = false, single_muscles = false, tuned = false,
        inertia = false;
-  bool skin = false, fat = false, contact = false, frames = false, video = false, stereo = false;
+  bool skin = false, skin_anatomy = false, fat = false, contact = false, frames = false, video = false, stereo = false,
+       root_motion = false, in_place = false;
 };
 
 std::vector<Option> walk_options(WalkText& text);

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include <mobil/assets/export/walk_recording.h>
+#include "assets/export/skeleton_keys.h"
 #include "engine/eigen.h"
 
 namespace mobil::export_fixture {
@@ -43,9 +45,7 @@ inline Said said_by(const std::string& command) {
 inline Vec3<float> rounded(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
-inline Vector3d widened(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
+using mobil::widened;
 inline Quaterniond widened(const Quat<float>& q) {
   return {static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z)};
 }
@@ -176,13 +176,40 @@ struct Viewer {
 
   std::vector<float> floats(int accessor_number) const {
     const auto& accessor = model.accessors[static_cast<std::size_t>(accessor_number)];
-    const auto& view = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
     EXPECT_EQ(accessor.componentType, TINYGLTF_COMPONENT_TYPE_FLOAT);
     const auto width =
         static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-    std::vector<float> values(accessor.count * width);
-    std::memcpy(values.data(), model.buffers[0].data.data() + view.byteOffset + accessor.byteOffset,
-                values.size() * sizeof(float));
+    std::vector<float> values(accessor.count * width);  // zeros without a view
+    if (accessor.bufferView >= 0) copy(accessor.bufferView, accessor.byteOffset, values);
+    if (!accessor.sparse.isSparse) return values;
+    const auto count = static_cast<std::size_t>(accessor.sparse.count);
+    std::vector<std::uint32_t> changed(count);
+    std::vector<float> replaced(count * width);
+    EXPECT_EQ(accessor.sparse.indices.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+    copy(accessor.sparse.indices.bufferView, static_cast<std::size_t>(accessor.sparse.indices.byteOffset), changed);
+    copy(accessor.sparse.values.bufferView, static_cast<std::size_t>(accessor.sparse.values.byteOffset), replaced);
+    for (std::size_t i = 0; i < count; ++i)
+      std::copy_n(replaced.data() + width * i, width, values.data() + width * changed[i]);
+    return values;
+  }
+
+  template <class T>
+  void copy(int view_number, std::size_t offset, std::vector<T>& values) const {
+    const auto& view = model.bufferViews[static_cast<std::size_t>(view_number)];
+    std::memcpy(values.data(), model.buffers[0].data.data() + view.byteOffset + offset, values.size() * sizeof(T));
+  }
+
+  std::vector<std::uint32_t> indices(int accessor_number) const {
+    const auto& accessor = model.accessors[static_cast<std::size_t>(accessor_number)];
+    std::vector<std::uint32_t> values(accessor.count);
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+      copy(accessor.bufferView, accessor.byteOffset, values);
+      return values;
+    }
+    EXPECT_EQ(accessor.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+    std::vector<std::uint16_t> narrow(accessor.count);
+    copy(accessor.bufferView, accessor.byteOffset, narrow);
+    values.assign(narrow.begin(), narrow.end());
     return values;
   }
 
@@ -193,8 +220,8 @@ struct Viewer {
       if (channel.target_node != static_cast<int>(n) || channel.target_path != path) continue;
       const auto& sampler = model.animations[0].samplers[static_cast<std::size_t>(channel.sampler)];
       const auto values = floats(sampler.output);
-      const std::size_t width = values.size() / floats(sampler.input).size();
-      const auto first = values.begin() + static_cast<std::ptrdiff_t>(f * width);
+      const std::size_t keys = floats(sampler.input).size(), width = values.size() / keys;
+      const auto first = values.begin() + static_cast<std::ptrdiff_t>(std::min(f, keys - 1) * width);
       return {first, first + static_cast<std::ptrdiff_t>(width)};
     }
     return {};
@@ -222,7 +249,7 @@ struct Viewer {
     const auto base = floats(primitive.attributes.at(attribute));
     std::vector<Vector3d> result(base.size() / 3);
     for (std::size_t v = 0; v < result.size(); ++v) result[v] = vertex(base, v);
-    const auto weight = key(n, "weights", f);
+    const auto weight = primitive.targets.empty() ? std::vector<double>() : key(n, "weights", f);
     EXPECT_EQ(weight.size(), primitive.targets.size());
     for (std::size_t k = 0; k < weight.size(); ++k) {
       const auto delta = floats(primitive.targets[k].at(attribute));
@@ -261,6 +288,21 @@ struct Viewer {
     EXPECT_EQ(bound.row(3), Eigen::RowVector4f(0, 0, 0, 1));
     const Eigen::Affine3d world_of(world(static_cast<std::size_t>(skin.joints.at(joint)), f).matrix());
     return Eigen::Affine3d(world_of.matrix() * bound.cast<double>());
+  }
+
+  /// Returns the vertices of a skinned mesh at a key, of which each follows up to four joints.
+  std::vector<Vector3d> blended(std::size_t n, std::size_t f, std::size_t part = 0) const {
+    auto shape = morphed(n, "POSITION", f, part);
+    const auto& attributes = mesh_of(n).primitives[part].attributes;
+    const auto joint = bytes(attributes.at("JOINTS_0")), weight = bytes(attributes.at("WEIGHTS_0"));
+    std::vector<Eigen::Matrix4d> map;
+    for (std::size_t s = 0; s < segment_count; ++s) map.push_back(skinning(n, s, f).matrix());
+    for (std::size_t v = 0; v < shape.size(); ++v) {
+      Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+      for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) sum += weight[k] / 255.0 * map[joint[k]];
+      shape[v] = (sum * shape[v].homogeneous()).head<3>();
+    }
+    return shape;
   }
 
   /// Returns the vertices of a skinned mesh at a key, as a viewer draws them.

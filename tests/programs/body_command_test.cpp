@@ -170,6 +170,7 @@ TEST(BodyCommand, WritesItsOutputAndAPicture) {
   for (const char* word : {"thigh", "soleus", "body mass index 21.3", "look at one/two"}) {
     EXPECT_NE(ran.out.find(word), std::string::npos) << word;
   }
+  EXPECT_EQ(run_mobil("body --height 1.65 --mass 58 --quiet --out quiet", folder.path).out, "");
   if (ran.err.find("EGL") != std::string::npos) GTEST_SKIP() << ran.err;
   EXPECT_EQ(ran.err, "");
   const Picture picture = read_picture(folder.path / "one/two/body.png");

@@ -34,6 +34,7 @@
 #include "demo/program/console.h"
 #include "demo/program/json.h"
 #include "demo/program/must.h"
+#include "demo/program/progress.h"
 
 namespace mobil {
 namespace {
@@ -376,7 +377,7 @@ void write_body(const Body& body, const std::filesystem::path& out) {
   must(results.put());
   std::error_code ignored;
   if (!picture) std::filesystem::remove(out / "body.png", ignored);  // of another body
-  write_note(body_table(body));
+  if (!quiet) write_note(body_table(body));
   say_where(fmt::format("\nlook at {}: body.json{}", out.string(), picture ? " body.png" : ""));
   if (!picture) print_error("mobil body: no picture: {}", picture.error().message);
 }

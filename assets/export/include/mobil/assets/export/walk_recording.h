@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,10 @@ struct SkinnedSurface {
   /// can be empty.
   std::vector<std::array<float, 2>> texture{};
   std::vector<std::array<float, 4>> tangent{};
+  /// Vertices in the world as they are drawn, [frame][vertex], of a WalkRecording; or empty. Formats with morph targets
+  /// add them to the blended joints, so that the skin covers bones and muscles. All of a skin's surfaces have them, or
+  /// none.
+  std::vector<std::vector<Vec3<float>>> drawn_m{};
 };
 
 /// Surfaces that follow segments, shared by people of the same look.
@@ -44,7 +49,21 @@ struct RecordedFigure {
   std::vector<BoneSurface> surfaces;
   std::vector<std::size_t> cloth;  // of each surface, a number of a person's colours; empty: the first
   std::vector<SkinnedSurface> skin;
-  std::array<Vec3<float>, segment_count> standing_m{};  // the segments' places for which the skin is drawn
+  std::array<Vec3<float>, segment_count> standing_m{};  // as in WalkRecording; needed with a skin
+};
+
+/// A person's place on the ground and heading (Root, mobil/systems/poses/roots.h): rad about +Y, 0 toward +Z.
+struct RecordedRoot {
+  double x_m = 0, z_m = 0;
+  float heading_rad = 0;
+};
+
+/// Facts about a person. GLB has them as `extras` of the root node.
+struct RecordedFacts {
+  std::string sex;
+  float height_m = 0, mass_kg = 0;
+  float heading_rad = 0;              // of the first frame
+  float stride_s = 0, speed_m_s = 0;  // of the gait; 0 for standing people
 };
 
 /// A walk sampled every `frame_s` seconds; frame i is at i · frame_s.
@@ -52,14 +71,19 @@ struct WalkRecording {
   double frame_s = 1.0 / 30;
   std::vector<Pose<float>> frames;
   std::vector<BoneSurface> bones;
-  std::vector<RecordedMuscle> muscles;                  // each with as many frames as `frames`
-  std::string name = "walker";                          // of the person; in files the root of all their parts
-  double start_s = 0;                                   // time of frame 0; tables start there, animations at 0
-  std::vector<GroundReaction<float>> ground;            // of each frame; empty without simulated forces
-  std::vector<SkinnedSurface> skin;                     // in addition to the bones, in `colours`; can be empty
-  std::array<Vec3<float>, segment_count> standing_m{};  // the segments' places for which the skin is drawn
-  std::vector<Vec3<float>> colours;                     // linear, of cloths: bones', then the skin's; empty: ivory
-  std::vector<Vec3<float>> tip_m;  // of each segment, its far end in its frame (Body::tip_m); can be empty
+  std::vector<RecordedMuscle> muscles;        // each with as many frames as `frames`
+  std::string name = "walker";                // of the person; in files the root of all their parts
+  double start_s = 0;                         // time of frame 0; tables start there, animations at 0
+  std::vector<GroundReaction<float>> ground;  // of each frame; empty without simulated forces
+  std::vector<SkinnedSurface> skin;           // in addition to the bones, in `colours`; can be empty
+  /// Origins of the segments in the rest pose, in which no segment is turned (standing_pose, mobil/anthropometry.h).
+  /// The skin is drawn for it. Without a skin it can be left at 0; segments then have their mean offsets.
+  std::array<Vec3<float>, segment_count> standing_m{};
+  std::vector<Vec3<float>> colours;  // linear, of cloths: bones', then the skin's; empty: ivory
+  std::vector<Vec3<float>> tip_m;    // of each segment, its far end in its frame (Body::tip_m); can be empty
+  std::vector<RecordedRoot> root{};  // of each frame, in GLB and USD the motion of the person's root; can be empty
+  std::optional<RecordedFacts> facts{};
+  bool loops = false;  // the last frame is the first one after the way (close_cycle)
 };
 
 /// One of several people.
@@ -70,6 +94,8 @@ struct RecordedPerson {
   std::vector<Vec3<float>> colours;  // linear, 0–1; bones' ivory where one is missing
   std::vector<Pose<float>> frames;
   std::vector<RecordedMuscle> muscles;
+  std::vector<RecordedRoot> root{};  // as in WalkRecording
+  std::optional<RecordedFacts> facts{};
 };
 
 /// Several people over the same time, with the same number of frames, sampled as in WalkRecording.

@@ -30,7 +30,6 @@ BvhSkeleton bvh_skeleton(const SkeletonKeys& keys) {
   for (std::size_t s = 0; s < segment_count; ++s) {
     const std::size_t parent = index(segment_parent[s]);
     made.slides[s] = parent == s || keys.segment[s].translation_m.size() > 1;
-    // A joint without positions stays at its offset, so that of L5 is the walk's, where the sacrum is level.
     made.offset_m[s] = made.slides[s] ? Eigen::Vector3d::Zero() : widened(keys.segment[s].translation_m.front());
     if (parent != s) made.children[parent].push_back(s);
   }

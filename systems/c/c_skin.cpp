@@ -100,11 +100,19 @@ int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t st
     if (const int code = struct_stride(s.line, targets, count, "targets", stride)) return code;
     std::vector<PosedSkin> posed(count);
     std::vector<SkinRequest> requests(count);
+    std::vector<std::array<Vec3<float>, 2>> boxes(count);
+    std::vector<float*> bounds(count);
     for (std::size_t i = 0; i < count; ++i) {
       mobil_skin_target as;
       if (const int code = read_struct(s.line, row_at(targets, i, stride, 0), "targets", as)) return code;
       if (const int code = request_of(s, as, posed[i], requests[i])) return code;
+      if (as.bounds == nullptr) continue;
+      bounds[i] = as.bounds;
+      requests[i].bounds = &boxes[i];
     }
-    return code_of(s.line, s.skin_writer.write(s.world().world(), requests, s.jobs, s.axes));
+    const auto done = s.skin_writer.write(s.world().world(), requests, s.jobs, s.axes);
+    for (std::size_t i = 0; done && i < count; ++i)
+      if (bounds[i] != nullptr) std::memcpy(bounds[i], boxes[i].data(), sizeof boxes[i]);
+    return code_of(s.line, done);
   });
 }

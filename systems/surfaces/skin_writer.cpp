@@ -94,6 +94,7 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
               wobbles ? &beside : nullptr, maps, out);
     convert_axes(request.positions, 0, skin.rest.size(), VertexField::position, work.axes);
     convert_axes(request.normals, 0, skin.rest.size(), VertexField::normal, work.axes);
+    if (request.bounds != nullptr) *request.bounds = bounds_of(request.positions, skin.rest.size());
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -28,6 +29,21 @@ void convert_axes(const VertexStream& stream, std::size_t first, std::size_t cou
     theirs[3] = map.mirrored() * ours[3];
     std::memcpy(at, theirs, floats * sizeof(float));
   }
+}
+
+std::array<Vec3<float>, 2> bounds_of(const VertexStream& positions, std::size_t count) {
+  const auto at = [&](std::size_t v) {
+    Vec3<float> place;
+    std::memcpy(&place, positions.bytes.data() + v * positions.stride, sizeof place);
+    return place;
+  };
+  Vec3<float> least = at(0), greatest = least;
+  for (std::size_t v = 1; v < count; ++v) {
+    const Vec3<float> p = at(v);
+    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+    greatest = {std::max(greatest.x, p.x), std::max(greatest.y, p.y), std::max(greatest.z, p.z)};
+  }
+  return {least, greatest};
 }
 
 Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices, std::size_t bytes) {

@@ -56,7 +56,13 @@ struct Drawn {
     skin.resize(shape.skin->rest.size());
     SkinRequest on{person, shape, {bytes_of(skin), 12}};
     on.ahead_s = ahead_s;
+    std::array<Vec3<float>, 2> bounds;
+    on.bounds = &bounds;
     ASSERT_TRUE(skin_writer.write(simulation.world(), {&on, 1}, {}, axes));
+    for (const Vec3<float>& v : skin) {
+      ASSERT_TRUE(bounds[0].x <= v.x && bounds[0].y <= v.y && bounds[0].z <= v.z);
+      ASSERT_TRUE(bounds[1].x >= v.x && bounds[1].y >= v.y && bounds[1].z >= v.z);
+    }
     inside.resize(surfaces.vertices);
     SurfaceRequest in{person, muscles, &surfaces, {bytes_of(inside), 12}};
     in.ahead_s = ahead_s;

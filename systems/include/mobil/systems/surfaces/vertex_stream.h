@@ -1,6 +1,7 @@
 #pragma once
 // Layout of vertices in a caller's buffer.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,6 +30,9 @@ enum class VertexField : std::uint8_t { position, normal, tangent };
 /// Converts `count` written vertices of a stream from the first on to other axes; of an empty stream, none.
 void convert_axes(const VertexStream& stream, std::size_t first, std::size_t count, VertexField field,
                   const VertexAxes& axes);
+
+/// Returns the least and the greatest coordinates of the first `count` positions, at least one.
+std::array<Vec3<float>, 2> bounds_of(const VertexStream& positions, std::size_t count);
 
 /// Checks that the stream has room for so many vertices of `bytes` bytes each. Errors, with `what` in the message: a
 /// stride or a buffer that is too small.

@@ -1,14 +1,14 @@
 # Sourced by demo/run and tests/run: lists of the Debian packages that each needs, and functions that install missing
 # ones. Expects set -euo pipefail in the caller.
 
-walk_packages="g++ cmake ninja-build libeigen3-dev libhwy-dev libtbb-dev libexpected-dev libfmt-dev
-  libmeshoptimizer-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1
+walk_packages="g++ cmake ninja-build libeigen3-dev libhwy-dev libexpected-dev libfmt-dev
+  libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1
   libgles2 libgl1-mesa-dri ffmpeg"
 crowd_packages="libgl-dev libglfw3-dev libimgui-dev librecast-dev"  # mobil-lab needs them too
 rivals_packages="libbullet-dev"
 build_packages="$walk_packages $crowd_packages $rivals_packages"
 test_packages="libassimp-dev libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
-  python3-numpy python3-cffi python3-setuptools python3-wheel xvfb xauth"
+  python3-numpy python3-cffi python3-venv python3-yaml xvfb xauth"
 cluster_packages="libopenmpi-dev openmpi-bin"
 # Documents as pages and the reference (demo/site/run); the spelling checker, which its test uses if installed.
 site_packages="python3 doxygen cmark-gfm"
@@ -18,7 +18,7 @@ spelling_packages="codespell"
 web_packages="cmake ninja-build clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32
   wasi-libc libeigen3-dev libhwy-dev libexpected-dev libfmt-dev"
 arm_packages="g++-aarch64-linux-gnu qemu-user"
-windows_packages="g++-mingw-w64-x86-64-posix wine64"
+windows_packages="g++-mingw-w64-x86-64-posix wine64 clang lld llvm"
 
 # need PACKAGE…: installs missing packages through apt; for a user other than root, prints the command to run and fails.
 need() {

@@ -14,7 +14,7 @@ nm -D --defined-only "$1/libmobil.so" | awk '$2 ~ /[TDBRVW]/ {print $3}' | sed '
 cat "$2"/systems/c/include/mobil/mobil.h "$2"/systems/c/include/mobil/c/*.h | tr '\n' ' ' | sed 's/MOBIL_DEPRECATED([^)]*)//g' | grep -oE 'MOBIL_API [^;(]*\(' | grep -oE 'mobil_[a-z_]+\($' | tr -d '(' | sort >"$scratch/declared"
 [ "$(wc -l <"$scratch/declared")" -gt 40 ]
 diff "$scratch/declared" "$scratch/exported"
-# A host that closes the library while the pool's threads are still running continues.
+# A host can close the library and open it again.
 cat >"$scratch/closes.c" <<'C'
 #include <dlfcn.h>
 #include <stdio.h>

@@ -21,6 +21,24 @@ if grep -q '^flags.* avx2' /proc/cpuinfo; then
 else
   echo "game_host not run: this processor has no AVX2"
 fi
+# A C host needs the C interface alone, also from a prefix that was moved: by find_package, and by pkg-config.
+if [ -e "$scratch/prefix/include/mobil/mobil.h" ]; then
+  cp -r "$scratch/prefix" "$scratch/moved"
+  cmake -G Ninja -S "$2/tests/consumer/c" -B "$scratch/c" -DCMAKE_PREFIX_PATH="$scratch/moved" \
+    -DSOURCE="$2/demo/examples/crowd.c" >/dev/null
+  cmake --build "$scratch/c" >/dev/null
+  "$scratch/c/c_host" >"$scratch/c.txt"
+  if command -v pkg-config >/dev/null; then
+    PKG_CONFIG_PATH=$(dirname "$(find "$scratch/moved" -name mobil.pc)")
+    export PKG_CONFIG_PATH
+    grep -q " VERSION $(pkg-config --modversion mobil) " "$2/CMakeLists.txt"
+    # shellcheck disable=SC2046
+    "${CC:-cc}" "$2/demo/examples/crowd.c" $(pkg-config --cflags --libs mobil) -o "$scratch/pc_host"
+    LD_LIBRARY_PATH=$(pkg-config --variable=libdir mobil) "$scratch/pc_host" | diff "$scratch/c.txt" -
+  else
+    echo "mobil.pc not tried: pkg-config is not there"
+  fi
+fi
 # The version is stored in few places, which agree.
 version=$(sed -n 's/^#define MOBIL_VERSION "\(.*\)"/\1/p' "$scratch/prefix/include/mobil/version.h")
 grep -q "\"version\": \"$version\"" "$2/systems/javascript/package.json"

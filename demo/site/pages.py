@@ -18,7 +18,8 @@ import urllib.parse
 # Chapters of the navigation, in reading order. Documents that are not listed follow at the end.
 CHAPTERS = [
     ('Begin', ['README.md', 'demo/README.md', 'demo/gallery/README.md', 'demo/web/README.md']),
-    ('Use it', ['systems/README.md', 'demo/examples/README.md', 'systems/python/README.md', 'systems/javascript/README.md',
+    ('Use it', ['systems/README.md', 'demo/examples/README.md', 'demo/packaging/README.md',
+                'systems/python/README.md', 'systems/javascript/README.md',
                 'assets/export/README.md', '@reference']),
     ('Understand it', ['ARCHITECTURE.md', 'assets/gait/README.md', 'assets/reference/README.md', 'tests/README.md']),
     ('The project', ['CHANGELOG.md', 'CONTRIBUTING.md', 'SECURITY.md']),

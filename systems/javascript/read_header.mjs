@@ -57,11 +57,15 @@ export function readHeader(text) {
   return { structs, constants, functions };
 }
 
-const [, , header, out, exportsFile] = process.argv;
-if (out) {
-  const whole = readFileSync(header, 'utf8')
+// Returns the text of mobil.h with the parts that it includes.
+export function wholeHeader(header) {
+  return readFileSync(header, 'utf8')
     .replace(/#include <mobil\/(c\/\w+\.h)>/g, (_, part) => readFileSync(join(dirname(header), part), 'utf8'));
-  const read = readHeader(whole);
+}
+
+const [, program, header, out, exportsFile] = process.argv;
+if (out && program.endsWith('read_header.mjs')) {
+  const read = readHeader(wholeHeader(header));
   writeFileSync(out, '// Made from mobil.h by read_header.mjs.\n' +
     Object.entries(read).map(([name, value]) => `export const ${name} = ${JSON.stringify(value)};\n`).join(''));
   if (exportsFile) writeFileSync(exportsFile, read.functions.map((name) => `-Wl,--export-if-defined=${name}\n`).join(''));

@@ -33,8 +33,9 @@ void in_parallel(const Jobs& jobs, std::size_t count, Work work) {
       [](void* context, std::size_t begin, std::size_t end) { (*static_cast<Work*>(context))(begin, end); }, &work);
 }
 
-/// A pool (oneTBB). One thread runs everything inline and starts no threads; 0 uses all hardware threads. A larger
-/// count is accepted and reduced to the hardware threads.
+/// A pool. One thread runs everything inline and starts no threads; 0 uses all processors of this process. A larger
+/// count is reduced to these. All pools of a process share their workers. The first loop starts workers, which sleep
+/// between ticks, and the destructor of the last pool joins them. A forked child starts its own.
 class Threads {
  public:
   /// Creates a pool of `count` threads, including the caller.

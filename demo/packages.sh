@@ -2,7 +2,7 @@
 # ones. Expects set -euo pipefail in the caller.
 
 walk_packages="g++ cmake ninja-build libeigen3-dev libhwy-dev libexpected-dev libfmt-dev
-  libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1
+  libmeshoptimizer-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1
   libgles2 libgl1-mesa-dri ffmpeg"
 crowd_packages="libgl-dev libglfw3-dev libimgui-dev librecast-dev"  # mobil-lab needs them too
 rivals_packages="libbullet-dev"

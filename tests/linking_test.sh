@@ -7,7 +7,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 compile=("${CXX:-c++}" -std=c++20 -O1)
 archives=("$1"/libmobil_systems.a "$1"/libmobil_assets.a "$1"/libmobil_engine.a)
-others=(-lfmt -lhwy)
+others=(-lfmt -lhwy -lmeshoptimizer)
 
 nm -D --defined-only -C "$1/libmobil_core.so" | cut -d' ' -f3- >"$scratch/exported"
 grep -q '^mobil::.*::Simulation::tick' "$scratch/exported"

@@ -76,15 +76,14 @@ SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, 
 SkinMeshes make_meshes(Sex sex) {
   const Body body = *make_body(skin_body(sex));
   const BodyForm form(body);
-  SurfaceMesh surface = mesh_form(form);
-  constexpr std::array<double, skin_details> share = {1, 0.14, 0.035, 0.012};
+  const SurfaceMesh surface = mesh_form(form);
+  constexpr std::array<double, skin_details> share = {1, 0.14, 0.035, 0.012}, coarseness = {1, 1.8, 3.5, 6};
   // Flat skin bends as well: a coarser mesh must not have edges from the knee to the middle of the thigh.
   constexpr std::array<double, skin_details> longest_m = {1, 0.042, 0.07, 1};
   SkinMeshes mesh;
   for (std::size_t d = 0; d < skin_details; ++d) {
     check_interrupt();
-    surface = coarser(surface, share[d] / share[d == 0 ? 0 : d - 1]);
-    SurfaceMesh light = surface;
+    SurfaceMesh light = can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]);
     split_long_edges(form, light, longest_m[d]);
     mesh[d] = make_mesh(form, body, std::move(light), static_cast<SkinDetail>(d));
   }

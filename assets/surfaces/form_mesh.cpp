@@ -59,7 +59,8 @@ constexpr int width(int level) {
 
 class Mesher {
  public:
-  explicit Mesher(const BodyForm& body) : body_(body), cell_m_(coarse_m * body.size() / width(0)) {}
+  Mesher(const BodyForm& body, double coarseness)
+      : body_(body), cell_m_(coarseness * coarse_m * body.size() / width(0)) {}
 
   SurfaceMesh run() {
     collect();
@@ -257,8 +258,8 @@ form::Vec onto_surface(const BodyForm& body, Vec p, int steps) {
   return p;
 }
 
-SurfaceMesh mesh_form(const BodyForm& body) {
-  SurfaceMesh mesh = Mesher(body).run();
+SurfaceMesh mesh_form(const BodyForm& body, double coarseness) {
+  SurfaceMesh mesh = Mesher(body, coarseness).run();
   mesh.name = "skin";
   relax(body, mesh);
   return mesh;

@@ -14,8 +14,8 @@ namespace mobil::inline v0_3 {
 /// the surface to 0.1 mm. Cells are 12 mm wide (at 1.75 m), half of that on head, hands and feet, a quarter on face and
 /// fingers. Each cell that the surface crosses has one vertex, in the middle of its crossings of the cell's edges
 /// (surface nets, Gibson 1998; between cells of two sizes as in Ju et al. 2002). It then moves along the surface for
-/// even triangles. Takes about a second.
-SurfaceMesh mesh_form(const form::BodyForm& body);
+/// even triangles. Takes about a second. `coarseness` is a factor on cell widths, from 1.
+SurfaceMesh mesh_form(const form::BodyForm& body, double coarseness = 1);
 
 /// Splits the edges of a mesh of the body that are longer than `longest_m` and moves their middles onto the surface. A
 /// few can stay longer, in triangles that are split repeatedly. Closed meshes stay closed.

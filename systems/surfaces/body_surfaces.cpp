@@ -132,6 +132,8 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
   DrawnSurfaces drawn;
   if (!(choice.detail >= 0.05 && choice.detail <= 1))
     return fail(fmt::format("surfaces of {} of their triangles; choose 0.05 to 1", choice.detail));
+  if (choice.detail < 1 && !can_be_coarser())
+    return fail("this library was built without what makes surfaces coarser (MOBIL_PORTABLE); choose a detail of 1");
   if (choice.bones) drawn.bones = make_bone_surfaces(body);
   for (BoneSurface& bone : drawn.bones) bone.mesh = coarser(bone.mesh, choice.detail);
   if (choice.simulated.none()) return drawn;

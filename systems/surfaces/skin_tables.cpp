@@ -18,6 +18,7 @@
 #include "assets/body/bent_legs.h"
 #include "assets/reduction/dense.h"
 #include "assets/reduction/symmetric_eigen.h"
+#include "assets/surfaces/coarser_surface.h"
 #include "engine/eigen.h"
 
 namespace mobil::inline v0_3 {
@@ -131,7 +132,7 @@ Result<std::unique_ptr<SkinTable>> make_skin_table(const BodyRequest& request) {
   if (!model) return tl::unexpected(model.error());
   if (auto done = simulation.set_muscles(*model, choice); !done) return tl::unexpected(done.error());
   const Body body = simulation.person(*model)->body;
-  auto bound = bind_surfaces(body, {.bones = false, .sides = {true, false}, .detail = 0.3F});
+  auto bound = bind_surfaces(body, {.bones = false, .sides = {true, false}, .detail = can_be_coarser() ? 0.3F : 1.0F});
   if (!bound) return tl::unexpected(bound.error());
   auto skin = make_body_skin(body, SkinDetail::distant);
   if (!skin) return tl::unexpected(skin.error());

@@ -117,6 +117,7 @@ TEST(CInterrupt, ACallWithinACallIsBusyAndChangesNothing) {
     return 0;
   };
   reentry.tick = MOBIL_OK;
+  ASSERT_EQ(mobil_set_interrupt(sim, nullptr, nullptr), MOBIL_OK);
   ASSERT_EQ(mobil_terrain_set_heights(sim, heights, &reentry), MOBIL_OK);
   ASSERT_EQ(mobil_terrain_manage(sim, ids.data(), ids.size(), 1), MOBIL_OK);
   ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);

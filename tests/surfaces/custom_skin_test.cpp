@@ -82,22 +82,18 @@ TEST(CustomSkin, KeepsItsPlaceAndMeetsTheBodyAtItsTop) {
   const std::size_t count = one.leg.mesh.position.size();
   ASSERT_GT(count, 1000U);
   ASSERT_EQ(at.position.size(), 2 * count) << "both legs";
-  double max_top = 0;
-  std::size_t low = 0, moved = 0;
+  double furthest = 0, max_top = 0;
   for (std::size_t v = 0; v < count; ++v) {
     const Vec3<float>&own = one.leg.mesh.position[v], &right = at.position[v], &left = at.position[count + v];
     const auto off = static_cast<double>(length(right - own));
-    if (own.y < top_m - seam_m - 0.02F) {
-      ++low;
-      moved += off > 1e-5;
-    }
+    if (own.y < top_m - seam_m - 0.02F) furthest = std::max(furthest, off);
     if (own.y > top_m - 0.004F) max_top = std::max(max_top, std::abs(off - 0.012));
     // The body's skin has different triangles on the two sides.
     EXPECT_NEAR(left.x, -right.x, 0.003F);
-    EXPECT_NEAR(left.y, right.y, 0.01F);
+    EXPECT_NEAR(left.y, right.y, 0.005F);
     EXPECT_NEAR(length(at.normal[v]), 1, 1e-3F);
   }
-  EXPECT_LT(200 * moved, low) << "needles of the coarser skin, which turn over when they are pushed out";
+  EXPECT_LT(furthest, 1e-5);
   EXPECT_LT(max_top, 0.004) << "drawn in by what it stood off";
 }
 
@@ -143,17 +139,13 @@ TEST(CustomSkin, CanHaveSeveralPieces) {
   EXPECT_EQ(own.triangle.size(), one.own.triangle.size());
   std::vector<Vec3<float>> at(own.vertex.size()), normal(own.vertex.size());
   follow_skin(own, standing.position, standing.normal, at, normal);
-  std::size_t low = 0, moved = 0;
   for (std::size_t v = 0; v < pieces[0].position.size() + pieces[1].position.size(); ++v) {
     const std::size_t upper = pieces[0].position.size();
     const Vec3<float>& is = v < upper ? pieces[0].position[v] : pieces[1].position[v - upper];
     if (is.y < top_m - seam_m - 0.02F) {
-      ++low;
-      moved += length(at[v] - is) > 1e-5F;
+      EXPECT_LT(length(at[v] - is), 1e-5F) << v;
     }
   }
-  EXPECT_GT(low, 1000U);
-  EXPECT_LT(200 * moved, low);
 }
 
 /// A coarser mesh of the same skin matches that skin's positions, in poses up to a knee of 110 degrees.

@@ -132,8 +132,8 @@ TEST(SurfaceContacts, SeparateMusclesAndKeepTheirVolume) {
     float hip, knee, ankle;
     double p95_mm, p99_mm;  // at most
   };
-  for (const Posed& posed : {Posed{20, 10, 0, 0.2, 5}, Posed{-10, 5, 5, 0.5, 3}, Posed{30, 60, -15, 1.3, 13},
-                             Posed{0, 60, -10, 1.3, 13}, Posed{0, 90, 0, 5, 15}, Posed{60, 110, -10, 10, 20}}) {
+  for (const Posed& posed : {Posed{20, 10, 0, 0.2, 5}, Posed{-10, 5, 5, 0.5, 3}, Posed{30, 60, -15, 0.5, 11},
+                             Posed{0, 60, -10, 0.5, 11}, Posed{0, 90, 0, 5, 15}, Posed{60, 110, -10, 10, 20}}) {
     leg.pose(posed.hip, posed.knee, posed.ankle);
     const double before95 = new_mm(leg, rest, 0.95), before99 = new_mm(leg, rest, 0.99);
     std::vector<double> volume;
@@ -195,7 +195,7 @@ TEST(SurfaceContacts, AreIndependentOfPlaceAndLeaveBones) {
         std::max(contacts.band[v] == SurfaceContacts::no_band ? bones : moved, by);
     EXPECT_NEAR(length(leg.normal[v]), 1, 1e-3F);
   }
-  EXPECT_LT(most, 1e-3);
+  EXPECT_LT(most, 2e-4);
   EXPECT_GT(moved, 0.002);
   EXPECT_LT(moved, 0.05);
   EXPECT_EQ(bones, 0);

@@ -83,7 +83,7 @@ struct SkinRequest {
   /// Instant after the last tick, 0 to 0.2 s, as in PoseWriter: a frame's alpha times the tick. It has no effect on a
   /// given `pose`. `muscles` must be of the same instant; the fat's displacement is that of the tick.
   double ahead_s = 0;
-  /// Receives the least and the greatest coordinates of the written positions, for culling, unless null.
+  /// Receives the minimum and the maximum coordinates of the written positions, for culling, unless null.
   std::array<Vec3<float>, 2>* bounds = nullptr;
 };
 

@@ -48,7 +48,7 @@ typedef struct mobil_skin_target {
                 * (3 kg/m2) takes one second */
   int unused;
   double ahead_s; /* time after the last tick, 0 to 0.2: alpha times tick_s for a frame; of sleepers ignored */
-  float* bounds;  /* receives the least and the greatest coordinates of the positions, 6 floats; can be null */
+  float* bounds;  /* receives the minimum and the maximum coordinates of the positions, 6 floats; can be null */
 } mobil_skin_target;
 /* Writes the skins of people. The first person of a sex takes two seconds, the first of a build
  * (1.5 kg/m2) 0.25 to 0.5 s. */

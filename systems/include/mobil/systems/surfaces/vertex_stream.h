@@ -31,7 +31,7 @@ enum class VertexField : std::uint8_t { position, normal, tangent };
 void convert_axes(const VertexStream& stream, std::size_t first, std::size_t count, VertexField field,
                   const VertexAxes& axes);
 
-/// Returns the least and the greatest coordinates of the first `count` positions, at least one.
+/// Returns the minimum and the maximum coordinates of the first `count` positions, at least one.
 std::array<Vec3<float>, 2> bounds_of(const VertexStream& positions, std::size_t count);
 
 /// Checks that the stream has room for so many vertices of `bytes` bytes each. Errors, with `what` in the message: a

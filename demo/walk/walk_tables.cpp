@@ -33,6 +33,8 @@ MotionTable::MotionTable(bool reserves) {
     for (const auto side : side_name)
       text += fmt::format(",hip_reserve_{0}_nm,knee_reserve_{0}_nm,ankle_reserve_{0}_nm,muscles_at_most_{0}", side);
   }
+  for (const auto side : side_name)
+    text += fmt::format(",hip_abduction_{0}_nm,hip_rotation_{0}_nm,free_moment_{0}_nm", side);
   text += '\n';
 }
 
@@ -65,6 +67,14 @@ void MotionTable::add(const MotionRow& row, const std::optional<WalkForces>& for
     for (std::size_t side = 0; side < 2; ++side)
       fmt::format_to(out, ",{:.4f},{:.4f},{:.4f},{}", reserve->hip_nm[side], reserve->knee_nm[side],
                      reserve->ankle_nm[side], reserve->at_most[side]);
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (forces) {
+      fmt::format_to(out, ",{:.4f},{:.4f},{:.4f}", forces->moments.hip_abduction_nm[side],
+                     forces->moments.hip_rotation_nm[side], forces->ground.free_moment_nm[side]);
+    } else {
+      text += ",,,";
+    }
   }
   text += '\n';
 }

@@ -242,7 +242,9 @@ const std::vector<std::string> force_columns = [] {
   std::vector<std::string> names;
   for (const auto& side : sides) {
     for (const std::string column : {"grf_vertical_", "grf_anterior_"}) names.push_back(column + side + "_n");
-    for (const std::string column : {"hip_", "knee_", "ankle_"}) names.push_back(column + "moment_" + side + "_nm");
+    for (const std::string column :
+         {"hip_moment_", "knee_moment_", "ankle_moment_", "hip_abduction_", "hip_rotation_", "free_moment_"})
+      names.push_back(column + side + "_nm");
   }
   return names;
 }();
@@ -258,6 +260,9 @@ TEST(Motion, GroundReactionIsWrittenAlongTheHeading) {
       forces.moments.hip_nm[side] = number();
       forces.moments.knee_nm[side] = number();
       forces.moments.ankle_nm[side] = number();
+      forces.moments.hip_abduction_nm[side] = number();
+      forces.moments.hip_rotation_nm[side] = number();
+      forces.ground.free_moment_nm[side] = number();
     }
     MotionTable table;
     table.add(row, forces);
@@ -279,6 +284,9 @@ TEST(Motion, GroundReactionIsWrittenAlongTheHeading) {
       RC_ASSERT(near("hip_moment_" + sides[side] + "_nm", forces.moments.hip_nm[side]));
       RC_ASSERT(near("knee_moment_" + sides[side] + "_nm", forces.moments.knee_nm[side]));
       RC_ASSERT(near("ankle_moment_" + sides[side] + "_nm", forces.moments.ankle_nm[side]));
+      RC_ASSERT(near("hip_abduction_" + sides[side] + "_nm", forces.moments.hip_abduction_nm[side]));
+      RC_ASSERT(near("hip_rotation_" + sides[side] + "_nm", forces.moments.hip_rotation_nm[side]));
+      RC_ASSERT(near("free_moment_" + sides[side] + "_nm", forces.ground.free_moment_nm[side]));
     }
     for (const auto& column : force_columns) RC_ASSERT(motion.text(1, column).empty());
   }));

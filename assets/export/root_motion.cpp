@@ -40,9 +40,21 @@ void move_points(const RootStep& step, std::vector<Vec3<float>>& points) {
   for (Vec3<float>& p : points) p = step(p);
 }
 
+/// Moves the forces of feet on the ground. A foot in the air keeps its zeros.
+void move_ground(const RootStep& step, GroundReaction<float>& ground) {
+  for (const std::size_t side : {0U, 1U}) {
+    if (ground.force_n[side].y == 0) continue;
+    ground.force_n[side] = rotated(step.turn, ground.force_n[side]);
+    ground.centre_m[side] = step(ground.centre_m[side]);
+  }
+}
+
 /// Moves frame `f` of a recorded walk.
 void move_frame(const RootStep& step, std::size_t f, WalkRecording& recording) {
   move_pose(step, recording.frames[f]);
+  if (!recording.around.empty())
+    for (Pose<float>& pose : recording.around[f]) move_pose(step, pose);
+  if (!recording.ground.empty()) move_ground(step, recording.ground[f]);
   for (RecordedMuscle& muscle : recording.muscles) move_points(step, muscle.position_m[f]);
   for (SkinnedSurface& surface : recording.skin)
     if (!surface.drawn_m.empty()) move_points(step, surface.drawn_m[f]);
@@ -94,6 +106,14 @@ CycleGap close_cycle(WalkRecording& recording) {
   for (std::size_t s = 0; s < segment_count; ++s)
     gap.joints_m = std::max(gap.joints_m, length_m(closed.position_m[s] - recording.frames[last].position_m[s]));
   recording.frames[last] = closed;
+  if (!recording.around.empty()) {
+    recording.around[last] = recording.around.front();
+    for (Pose<float>& pose : recording.around[last]) move_pose(step, pose);
+  }
+  if (!recording.ground.empty()) {
+    recording.ground[last] = recording.ground.front();
+    move_ground(step, recording.ground[last]);
+  }
   const auto close = [&](std::vector<std::vector<Vec3<float>>>& frames) {
     std::vector<Vec3<float>> again = frames.front();
     move_points(step, again);

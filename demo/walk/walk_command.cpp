@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include <mobil/body_composition.h>
 #include <mobil/components/fat.h>
 #include <mobil/engine/world.h>
+#include <mobil/pose_writer.h>
 #include <mobil/schedule.h>
 #include <mobil/systems/gait/shown_fat.h>
 #include <mobil/systems/limits/limit_monitor.h>
@@ -151,6 +154,28 @@ WalkRecording begin_ticks(const Simulation& simulation, const Person& person) {
   return ticks;
 }
 
+/// Records the poses around the coming tick.
+Result<void> record_around(const Simulation& simulation, Entity entity, PoseWriter& writer, WalkRecording& ticks) {
+  std::array<Pose<float>, 2> around;
+  const double differences_s[2] = {-motion_difference_s, motion_difference_s};
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    struct PlaceAndTurn {
+      Vec3<float> position_m;
+      Quat<float> rotation;
+    };
+    std::array<PlaceAndTurn, segment_count> written;
+    auto done = writer.write(simulation.world(), {&entity, 1}, simulation.tick_s() + differences_s[i], {},
+                             {std::as_writable_bytes(std::span(written))});
+    if (!done) return done;
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      around[i].position_m[s] = written[s].position_m;
+      around[i].rotation[s] = written[s].rotation;
+    }
+  }
+  ticks.around.push_back(around);
+  return {};
+}
+
 Result<void> record_tick(const Simulation& simulation, Entity entity, WalkRecording& ticks) {
   ticks.frames.push_back(*simulation.get<Pose>(entity));
   if (const auto ground = simulation.get<GroundReaction>(entity)) ticks.ground.push_back(*ground);
@@ -211,6 +236,8 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
   walked.ticks = begin_ticks(simulation, person);
   walked.ticks.standing_m = walked.recording.standing_m;
   const bool all_ticks = std::ranges::any_of(options.exports, of_every_tick);
+  const bool velocities = std::ranges::any_of(options.exports, &needs_velocities);
+  PoseWriter writer;
   const std::string method = method_label(options.muscles);
   simulation.schedule().reset_timings();
   std::uint32_t steps_before = simulation.get<GaitState>(person.entity)->steps;
@@ -218,6 +245,10 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
     if (options.script) {
       auto done = apply_changes(changes, options.script->path, person.entity, simulation, outcome);
       if (!done) return tl::unexpected(done.error());
+    }
+    if (velocities) {
+      if (auto done = record_around(simulation, person.entity, writer, walked.ticks); !done)
+        return tl::unexpected(done.error());
     }
     const auto start = SteadyClock::now();
     simulation.tick();
@@ -284,10 +315,11 @@ Result<void> write_results(Walked walked, const Simulation& simulation, const Pe
   for (const WalkExport& wanted : options.exports) {
     if (wanted.file == "walk.glb") continue;  // already written
     show(fmt::format("writing {}", wanted.file));
-    auto done = write_export(wanted, files.pictures, files.skinned(), files.ticks, folder);
+    auto done = write_export(wanted, person.body, files.pictures, files.skinned(), files.ticks, folder);
     show("");
     if (!done) return done;
     others += " " + one_line(wanted.file);
+    if (needs_velocities(wanted)) others += " " + one_line(motion_file(wanted));
   }
   WalkOutcome outcome = walked.outcome;
   outcome.wall_s = seconds_since(start);

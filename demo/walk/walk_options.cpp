@@ -9,6 +9,7 @@
 #include <mobil/bvh_writer.h>
 #include <mobil/gl_writer.h>
 #include <mobil/gltf_writer.h>
+#include <mobil/mujoco_writer.h>
 #include <mobil/muscle_table.h>
 #include <mobil/opensim_writer.h>
 #include <mobil/usd_writer.h>
@@ -20,7 +21,7 @@ namespace mobil {
 namespace {
 
 /// Endings of file names, in the order of WalkFormat.
-constexpr std::string_view endings[] = {".glb", ".bvh", ".mot", ".sto", ".usda", ".wrl", ".x3d", ".gl"};
+constexpr std::string_view endings[] = {".glb", ".bvh", ".mot", ".sto", ".xml", ".usda", ".wrl", ".x3d", ".gl"};
 
 constexpr std::string_view drives[] = {"displacement", "force"};                          // in the order of Drive
 constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "glass"};  // in the order of WalkView
@@ -59,6 +60,7 @@ const char* const walk_exports_help =
     "  .usda  USD: skeleton, skinned bones, muscle point caches; for Houdini, Omniverse, Blender, Maya\n"
     "  .bvh   skeleton and joint angles of every tick; for character animation\n"
     "  .mot   OpenSim's coordinates of its gait2392 model, every tick, in its axes; .sto: ground forces\n"
+    "  .xml   MJCF: the body with muscles as a model for MuJoCo; NAME_motion.csv is its motion, every tick\n"
     "  .x3d   X3D, and .wrl VRML97: geometry with interpolators for joints and muscles\n"
     "  .gl    vertices, normals and triangles for OpenGL, one block per picture\n";
 
@@ -85,11 +87,21 @@ Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& nam
 }
 
 bool of_every_tick(const WalkExport& wanted) {
-  return wanted.format == WalkFormat::bvh || wanted.format == WalkFormat::mot || wanted.format == WalkFormat::sto;
+  using enum WalkFormat;
+  return wanted.format == bvh || wanted.format == mot || wanted.format == sto || wanted.format == xml;
 }
 
-Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& skinned,
-                          const WalkRecording& ticks, const std::filesystem::path& folder) {
+bool needs_velocities(const WalkExport& wanted) {
+  return wanted.format == WalkFormat::xml;
+}
+
+std::string motion_file(const WalkExport& model) {
+  return std::filesystem::path(model.file).stem().string() + "_motion.csv";
+}
+
+Result<void> write_export(const WalkExport& wanted, const Body& body, const WalkRecording& pictures,
+                          const WalkRecording& skinned, const WalkRecording& ticks,
+                          const std::filesystem::path& folder) {
   const auto file = folder / wanted.file;
   switch (wanted.format) {
     case WalkFormat::glb: {
@@ -102,6 +114,10 @@ Result<void> write_export(const WalkExport& wanted, const WalkRecording& picture
       return write_opensim_motion(file, ticks);
     case WalkFormat::sto:
       return write_opensim_forces(file, ticks);
+    case WalkFormat::xml: {
+      if (auto done = write_mujoco_model(file, body, ticks); !done) return done;
+      return write_mujoco_motion(folder / motion_file(wanted), body, ticks);
+    }
     case WalkFormat::usda:
       return write_usda(file, skinned);
     case WalkFormat::wrl:
@@ -217,6 +233,8 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   for (const WalkExport& wanted : options.exports) {
     if (text.in_place && (wanted.format == WalkFormat::mot || wanted.format == WalkFormat::sto))
       read.refuse(fmt::format("--export {}: OpenSim needs the way; remove --in-place", wanted.file));
+    if (text.in_place && wanted.format == WalkFormat::xml)
+      read.refuse(fmt::format("--export {}: MuJoCo needs the way; remove --in-place", wanted.file));
   }
   options.eye_distance_m = read(read_value("--eye-distance", text.eye_distance, Quantity::length, 0.001, 0.5));
   if (text.eye_distance != WalkText{}.eye_distance && !text.stereo)

@@ -12,7 +12,7 @@
 
 namespace mobil {
 
-enum class WalkFormat { glb, bvh, mot, sto, usda, wrl, x3d, gl };
+enum class WalkFormat { glb, bvh, mot, sto, xml, usda, wrl, x3d, gl };
 
 struct WalkExport {
   std::string file;  // in the folder of results
@@ -24,11 +24,16 @@ Result<std::vector<WalkExport>> read_exports(const std::vector<std::string>& nam
 
 /// Returns true for a format with every tick and without surfaces; other formats have every picture.
 bool of_every_tick(const WalkExport& wanted);
+/// Returns true for a format with velocities, of which WalkRecording::around is needed.
+bool needs_velocities(const WalkExport& wanted);
+/// Returns the name of a model's table: NAME_motion.csv.
+std::string motion_file(const WalkExport& model);
 
-/// Writes one file into `folder`. `ticks`: poses of every tick, and forces if there are any. `pictures`: with surfaces.
-/// `skinned`: pictures for formats with skins.
-Result<void> write_export(const WalkExport& wanted, const WalkRecording& pictures, const WalkRecording& skinned,
-                          const WalkRecording& ticks, const std::filesystem::path& folder);
+/// Writes one file into `folder`, for .xml also its motion. `ticks`: poses of every tick, and forces if there are any.
+/// `pictures`: with surfaces. `skinned`: pictures for formats with skins.
+Result<void> write_export(const WalkExport& wanted, const Body& body, const WalkRecording& pictures,
+                          const WalkRecording& skinned, const WalkRecording& ticks,
+                          const std::filesystem::path& folder);
 
 /// Part of --help about export formats.
 extern const char* const walk_exports_help;

@@ -84,6 +84,9 @@ struct WalkRecording {
   std::vector<RecordedRoot> root{};  // of each frame, in GLB and USD the motion of the person's root; can be empty
   std::optional<RecordedFacts> facts{};
   bool loops = false;  // the last frame is the first one after the way (close_cycle)
+  /// Poses `motion_difference_s` before and after each frame (mobil/forces.h), from which MJCF has velocities and
+  /// accelerations; or empty.
+  std::vector<std::array<Pose<float>, 2>> around{};
 };
 
 /// One of several people.

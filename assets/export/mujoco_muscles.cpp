@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include <mobil/assets/muscles/muscle_path.h>
 #include <mobil/engine/geometry.h>
 #include "assets/body/joint_limits.h"
-#include "assets/muscles/muscle_architecture.h"
+#include "assets/export/model_muscles.h"
 #include "engine/exact_math.h"
 
 namespace mobil::inline v0_3 {
@@ -17,13 +16,7 @@ namespace {
 
 using namespace geometry;
 
-constexpr double specific_force_pa = 30e4;  // the simulation's (systems/muscles/member_design.cpp)
 constexpr double edge_radius_m = 1e-4, beside_edge_m = 0.02, edge_half_length_m = 0.02;
-
-Quat<double> about_x(double degrees) {
-  const double half = degrees * std::numbers::pi / 360;
-  return {exact::sin(half), 0, 0, exact::cos(half)};
-}
 
 const JointLimit& limit_of(std::string_view joint, std::string_view motion) {
   return *std::ranges::find_if(limb_limits,
@@ -33,9 +26,7 @@ const JointLimit& limit_of(std::string_view joint, std::string_view motion) {
 /// Returns the shortest and longest path of a member over the sagittal range of hip, knee and ankle, m.
 std::array<double, 2> length_range(const Body& body, const MemberMuscle& member) {
   constexpr int parts = 6;
-  const LegFrames<double> standing = anatomical_leg(body);
   const LegScale<double> scale = leg_scale(body);
-  const Vec3<double> thigh = standing.knee_m - standing.hip_m, shank = standing.ankle_m - standing.knee_m;
   const JointLimit& hip = limit_of("hip", "flexion-extension");
   const JointLimit& knee = limit_of("knee", "flexion-extension");
   const JointLimit& ankle = limit_of("ankle", "dorsiflexion-plantarflexion");
@@ -46,13 +37,7 @@ std::array<double, 2> length_range(const Body& body, const MemberMuscle& member)
   for (int h = 0; h <= parts; ++h) {
     for (int k = 0; k <= parts; ++k) {
       for (int a = 0; a <= parts; ++a) {
-        LegFrames<double> leg = standing;
-        leg.thigh = about_x(-at(hip, h));
-        leg.shank = product(leg.thigh, about_x(at(knee, k)));
-        leg.foot = product(leg.shank, about_x(-at(ankle, a)));
-        leg.knee_m = leg.hip_m + rotated(leg.thigh, thigh);
-        leg.ankle_m = leg.knee_m + rotated(leg.shank, shank);
-        const double length = member_length(member, scale, leg);
+        const double length = member_length(member, scale, bent_leg(body, at(hip, h), at(knee, k), at(ankle, a)));
         range = {std::min(range[0], length), std::max(range[1], length)};
       }
     }
@@ -85,19 +70,9 @@ class MujocoMember {
   }
 
  private:
-  /// Returns a point in the frame of its segment, m; on this side.
-  Vec3<double> place(const PathPoint& point) const {
-    const LegFrames<double> leg = anatomical_leg(body_);
-    Vec3<double> at = path_point(point, leg_scale(body_), leg) - bone_origin(point.bone, leg);
-    if (point.bone == LegBone::pelvis) at = at + to_double(body_.joint_offset_m[index(Segment::thigh_right)]);
-    return side_ == Side::right ? at : mirrored(at);
-  }
+  Vec3<double> place(const PathPoint& point) const { return member_place(body_, point, side_); }
   std::string& on(Segment right_segment) { return into_.on_segment[index(on_side(right_segment, side_))]; }
-  std::string& on(LegBone bone) {
-    using enum Segment;
-    constexpr Segment segment[] = {pelvis, thigh_right, shank_right, foot_right};
-    return bone == LegBone::pelvis ? into_.on_segment[0] : on(segment[static_cast<std::size_t>(bone)]);
-  }
+  std::string& on(LegBone bone) { return into_.on_segment[index(bone_segment(bone, side_))]; }
   std::string site_on(std::string& text, const std::string& name, const Vec3<double>& at) {
     text += fmt::format("<site name=\"{}\" class=\"muscle\" pos=\"{:.9g} {:.9g} {:.9g}\"/>\n", name, at.x, at.y, at.z);
     return name;
@@ -127,16 +102,14 @@ class MujocoMember {
   }
   /// MuJoCo's fibre is (longest − shortest) / (range₁ − range₀), its tendon is shortest − range₀ · fibre.
   void add_actuator() {
-    const MuscleParameters parameters = member_parameters(body_, member_);
+    const HillMuscle muscle = hill_muscle(body_, member_);
     const auto [shortest, longest] = length_range(body_, member_);
-    const double pennation = member_.model_path_m > 0 ? member_.model_pennation_deg : member_.pennation_deg;
-    const double section =
-        parameters.volume_m3 / parameters.model_fibre_m * exact::cos(pennation * std::numbers::pi / 180);
-    const auto of_fibre = [&](double length) { return (length - parameters.tendon_m) / parameters.model_fibre_m; };
+    const auto of_fibre = [&](double length) { return (length - muscle.tendon_m) / muscle.fibre_m; };
     into_.actuators += fmt::format(
         "<muscle name=\"{0}\" tendon=\"{0}\" force=\"{1:.6g}\" lengthrange=\"{2:.6g} {3:.6g}\" range=\"{4:.6g} "
         "{5:.6g}\"/>\n",
-        name_, specific_force_pa * section, shortest, longest, of_fibre(shortest), of_fibre(longest));
+        name_, muscle.force_n * exact::cos(muscle.pennation_rad), shortest, longest, of_fibre(shortest),
+        of_fibre(longest));
   }
 
   const Body& body_;

@@ -9,6 +9,7 @@
 
 #include <mobil/assets/files/output_file.h>
 #include "assets/export/joint_angles.h"
+#include "assets/export/opensim_axes.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
 
@@ -16,8 +17,6 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr double opensim_degrees = 180 / std::numbers::pi;
-/// Distance of the hips in gait2392, and offset of the pelvis' origin above and ahead of their middle, m.
-constexpr double model_hips_m = 2 * 0.0835, model_above_m = 0.0661, model_ahead_m = 0.0707;
 
 /// A vector in OpenSim's axes.
 struct OpensimVector {
@@ -124,8 +123,9 @@ void add_ground(OpensimTable& table, const WalkRecording& recording) {
     add(before[side] + "ground_force_p", [side](const auto& ground) { return in_opensim(ground.centre_m[side]); });
   }
   for (const std::size_t side : {0U, 1U}) {
-    add(before[side] + "ground_torque_",
-        [side](const auto& ground) { return in_opensim(Vec3<float>{0, ground.free_moment_nm[side], 0}); });
+    add(before[side] + "ground_torque_", [side](const auto& ground) {
+      return in_opensim(Vec3<float>{0, ground.free_moment_nm[side], 0});
+    });
   }
 }
 

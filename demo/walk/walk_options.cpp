@@ -21,7 +21,7 @@ namespace mobil {
 namespace {
 
 /// Endings of file names, in the order of WalkFormat.
-constexpr std::string_view endings[] = {".glb", ".bvh", ".mot", ".sto", ".xml", ".usda", ".wrl", ".x3d", ".gl"};
+constexpr std::string_view endings[] = {".glb", ".bvh", ".mot", ".sto", ".xml", ".osim", ".usda", ".wrl", ".x3d", ".gl"};
 
 constexpr std::string_view drives[] = {"displacement", "force"};                          // in the order of Drive
 constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "glass"};  // in the order of WalkView
@@ -59,7 +59,8 @@ const char* const walk_exports_help =
     "         engines, Blender, browsers\n"
     "  .usda  USD: skeleton, skinned bones, muscle point caches; for Houdini, Omniverse, Blender, Maya\n"
     "  .bvh   skeleton and joint angles of every tick; for character animation\n"
-    "  .mot   OpenSim's coordinates of its gait2392 model, every tick, in its axes; .sto: ground forces\n"
+    "  .mot   OpenSim's coordinates of its gait2392 model, every tick, in its axes; .sto: ground forces;\n"
+    "         .osim: the body with muscles as a model that they move\n"
     "  .xml   MJCF: the body with muscles as a model for MuJoCo; NAME_motion.csv is its motion, every tick\n"
     "  .x3d   X3D, and .wrl VRML97: geometry with interpolators for joints and muscles\n"
     "  .gl    vertices, normals and triangles for OpenGL, one block per picture\n";
@@ -118,6 +119,8 @@ Result<void> write_export(const WalkExport& wanted, const Body& body, const Walk
       if (auto done = write_mujoco_model(file, body, ticks); !done) return done;
       return write_mujoco_motion(folder / motion_file(wanted), body, ticks);
     }
+    case WalkFormat::osim:
+      return write_opensim_model(file, body);
     case WalkFormat::usda:
       return write_usda(file, skinned);
     case WalkFormat::wrl:

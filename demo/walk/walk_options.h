@@ -12,7 +12,7 @@
 
 namespace mobil {
 
-enum class WalkFormat { glb, bvh, mot, sto, xml, usda, wrl, x3d, gl };
+enum class WalkFormat { glb, bvh, mot, sto, xml, osim, usda, wrl, x3d, gl };
 
 struct WalkExport {
   std::string file;  // in the folder of results

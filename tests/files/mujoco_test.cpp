@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <set>
 #include <span>
 #include <sstream>
@@ -18,56 +17,20 @@
 #include <mobil/mujoco_writer.h>
 #include <mobil/pose_writer.h>
 #include "tests/files/formats_fixture.h"
+#include "tests/files/xml_elements.h"
 #include "tests/refused.h"
 
 namespace mobil::mujoco_file_test {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using formats_test::widened;
+using xml::elements_of;
+using xml::numbers;
+using xml::vector3;
+using xml::XmlElement;
 namespace fs = std::filesystem;
 
 constexpr double exact_m = 1e-5;
-
-struct Element {
-  std::string tag;
-  std::map<std::string, std::string> attribute;
-  std::size_t parent;  // number in the list
-};
-
-/// Reads elements in the order of the file. The first one is the document.
-std::vector<Element> elements_of(const fs::path& file) {
-  const std::string text = read_bytes(file);
-  const std::regex tag("<(/?)(\\w+)([^<>]*?)(/?)>"), pair("(\\w+)=\"([^\"]*)\"");
-  std::vector<Element> all{{"", {}, 0}};
-  std::size_t open = 0;
-  for (std::sregex_iterator it(text.begin(), text.end(), tag), end; it != end; ++it) {
-    const std::smatch& m = *it;
-    if (m[1].length() > 0) {
-      EXPECT_EQ(all[open].tag, m[2]);
-      open = all[open].parent;
-      continue;
-    }
-    Element element{m[2], {}, open};
-    const std::string attributes = m[3];
-    for (std::sregex_iterator a(attributes.begin(), attributes.end(), pair); a != end; ++a)
-      element.attribute[(*a)[1]] = (*a)[2];
-    all.push_back(element);
-    if (m[4].length() == 0) open = all.size() - 1;
-  }
-  EXPECT_EQ(open, 0U);
-  return all;
-}
-
-std::vector<double> numbers(const std::string& text) {
-  std::vector<double> values;
-  std::istringstream in(text);
-  for (double value = 0; in >> value;) values.push_back(value);
-  return values;
-}
-Vector3d vector(const std::string& text) {
-  const auto v = numbers(text);
-  return {v.at(0), v.at(1), v.at(2)};
-}
 
 struct Place {
   Vector3d position = Vector3d::Zero();
@@ -75,7 +38,7 @@ struct Place {
 };
 
 /// Poses the bodies of the file as MuJoCo does, by its own order of joints.
-std::map<std::string, Place> posed(const std::vector<Element>& file, const std::vector<double>& qpos) {
+std::map<std::string, Place> posed(const std::vector<XmlElement>& file, const std::vector<double>& qpos) {
   std::map<std::string, Place> by_name;
   std::map<std::size_t, Place> places;
   std::size_t q = 0;
@@ -84,10 +47,10 @@ std::map<std::string, Place> posed(const std::vector<Element>& file, const std::
     return Quaterniond(qpos.at(q - 4), qpos.at(q - 3), qpos.at(q - 2), qpos.at(q - 1));
   };
   for (std::size_t i = 0; i < file.size(); ++i) {
-    const Element& e = file[i];
+    const XmlElement& e = file[i];
     if (e.tag == "body") {
       const Place from = places[e.parent];
-      places[i] = {from.position + from.rotation * vector(e.attribute.at("pos")), from.rotation};
+      places[i] = {from.position + from.rotation * vector3(e.attribute.at("pos")), from.rotation};
     }
     if (file[e.parent].tag == "body" && (e.tag == "joint" || e.tag == "freejoint")) {
       Place& place = places[e.parent];
@@ -98,9 +61,9 @@ std::map<std::string, Place> posed(const std::vector<Element>& file, const std::
       } else if (e.attribute.at("type") == "ball") {
         place.rotation = place.rotation * quaternion();
       } else {
-        const Vector3d anchor = e.attribute.contains("pos") ? vector(e.attribute.at("pos")) : Vector3d::Zero();
+        const Vector3d anchor = e.attribute.contains("pos") ? vector3(e.attribute.at("pos")) : Vector3d::Zero();
         const Vector3d at = place.position + place.rotation * anchor;
-        place.rotation = place.rotation * Eigen::AngleAxisd(qpos.at(q++), vector(e.attribute.at("axis")));
+        place.rotation = place.rotation * Eigen::AngleAxisd(qpos.at(q++), vector3(e.attribute.at("axis")));
         place.position = at - place.rotation * anchor;
       }
     }
@@ -111,7 +74,7 @@ std::map<std::string, Place> posed(const std::vector<Element>& file, const std::
   return by_name;
 }
 
-void expect_pose(const std::vector<Element>& file, const std::vector<double>& qpos, const Pose<float>& pose) {
+void expect_pose(const std::vector<XmlElement>& file, const std::vector<double>& qpos, const Pose<float>& pose) {
   const auto places = posed(file, qpos);
   ASSERT_EQ(places.size(), segment_count);
   for (std::size_t s = 0; s < segment_count; ++s) {
@@ -184,7 +147,7 @@ struct MotionRows {
 
 struct Files {
   TemporaryFolder folder;
-  std::vector<Element> model;
+  std::vector<XmlElement> model;
   std::unique_ptr<MotionRows> motion;
 
   explicit Files(const Walked& walk) {
@@ -210,17 +173,17 @@ TEST(Mujoco, MassesAndInertiasAreTheBodys) {
     const Walked walk = walked(height_m, mass_kg, 1);
     const Files files(walk);
     double sum_kg = 0;
-    for (const Element& e : files.model) {
+    for (const XmlElement& e : files.model) {
       if (e.tag != "inertial") continue;
       const auto* const name = std::ranges::find(segment_name, files.model[e.parent].attribute.at("name"));
       const auto segment = static_cast<std::size_t>(name - segment_name.begin());
       const double mass = std::stod(e.attribute.at("mass"));
       EXPECT_NEAR(mass, walk.body.mass_kg[segment], 1e-6 * mass);
-      const Vector3d inertia = vector(e.attribute.at("diaginertia"));
+      const Vector3d inertia = vector3(e.attribute.at("diaginertia"));
       const Vec3<double> own = segment_inertia_kg_m2(walk.body, static_cast<Segment>(segment));
       EXPECT_LT((inertia - Vector3d(own.x, own.y, own.z)).norm(), 1e-6 * inertia.norm());
       for (int axis = 0; axis < 3; ++axis) EXPECT_LE(inertia[axis], 0.5 * inertia.sum()) << *name;
-      EXPECT_LT((vector(e.attribute.at("pos")) - widened(walk.body.centre_of_mass_m[segment])).norm(), 1e-7);
+      EXPECT_LT((vector3(e.attribute.at("pos")) - widened(walk.body.centre_of_mass_m[segment])).norm(), 1e-7);
       sum_kg += mass;
     }
     EXPECT_NEAR(sum_kg, mass_kg, 1e-4);
@@ -230,11 +193,11 @@ TEST(Mujoco, MassesAndInertiasAreTheBodys) {
 TEST(Mujoco, NamesAreUniqueAndReferencesExist) {
   const Files files(walked(1.8F, 80, 1));
   std::map<std::string, std::set<std::string>> names;
-  const auto kind = [&](const Element& e) {
+  const auto kind = [&](const XmlElement& e) {
     const std::string& in = files.model[e.parent].tag;
     return in == "tendon" || in == "actuator" || in == "sensor" || in == "equality" ? in : e.tag;
   };
-  for (const Element& e : files.model) {
+  for (const XmlElement& e : files.model) {
     const auto name = e.attribute.find("name");
     if (name != e.attribute.end()) {
       EXPECT_TRUE(names[kind(e)].insert(name->second).second) << kind(e) << " " << name->second;
@@ -244,7 +207,7 @@ TEST(Mujoco, NamesAreUniqueAndReferencesExist) {
   EXPECT_EQ(names["tendon"].size(), 26U);
   EXPECT_EQ(names["actuator"], names["tendon"]);
   EXPECT_EQ(names["sensor"].size(), 4U);
-  for (const Element& e : files.model) {
+  for (const XmlElement& e : files.model) {
     const auto refers = [&](const char* attribute, const char* to) {
       const auto found = e.attribute.find(attribute);
       if (found == e.attribute.end()) return;
@@ -266,7 +229,7 @@ TEST(Mujoco, JointsOfEveryFrameAreWithinAHundredthOfAMillimetre) {
     ASSERT_EQ(files.motion->rows, walk.recording.frames.size());
     for (std::size_t f = 0; f < walk.recording.frames.size(); ++f)
       expect_pose(files.model, files.values(f, "qpos"), walk.recording.frames[f]);
-    const auto key = std::ranges::find(files.model, "key", &Element::tag);
+    const auto key = std::ranges::find(files.model, "key", &XmlElement::tag);
     ASSERT_NE(key, files.model.end());
     expect_pose(files.model, numbers(key->attribute.at("qpos")), walk.recording.frames[0]);
     const auto qvel = numbers(key->attribute.at("qvel")), own = files.values(0, "qvel");
@@ -297,7 +260,7 @@ TEST(Mujoco, VelocitiesAndAccelerationsLeadToThePosesAround) {
         const Quaterniond then = now * Eigen::AngleAxisd(by.norm(), by.stableNormalized());
         for (const double part : {then.w(), then.x(), then.y(), then.z()}) moved.at(q++) = part;
       };
-      for (const Element& e : files.model) {
+      for (const XmlElement& e : files.model) {
         if (e.tag == "freejoint") {
           for (; q < 3; ++q) moved.at(q) += step();
           turn();

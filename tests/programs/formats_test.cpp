@@ -22,7 +22,7 @@ MOBIL_TEST_LABELS("long");
 namespace mobil::formats_program_test {
 namespace fs = std::filesystem;
 
-const std::vector<std::string> files = {"walk.bvh",  "walk.mot", "walk.sto", "walk.xml",
+const std::vector<std::string> files = {"walk.bvh",  "walk.mot", "walk.sto", "walk.xml", "walk.osim",
                                         "walk.usda", "walk.wrl", "walk.x3d", "walk.gl"};
 
 /// One walk in all formats.

@@ -14,14 +14,14 @@ namespace mobil::inline v0_3 {
 /// Joints have the names of their segments: a free joint for the pelvis, hinges for knees, kneecaps and toes, balls for
 /// all others. A kneecap turns about the knee by `kneecap_part` of its flexion, which is an equality. Ranges are those
 /// of assets/body/joint_limits.h; a ball has the angle to the farthest corner of its joint's. Each leg has the thirteen
-/// muscles of the table, as spatial tendons over sites with an actuator of type muscle: 0.3 MPa on the physiological
-/// section, with fibre and slack tendon as in member_parameters, for path lengths over the range of the leg's joints.
-/// Geoms are capsules of the segment's mass, which touch the floor and not each other. Two touch sensors a foot are
-/// under sole and toes. The keyframe `walk` is the recording's first frame, with velocities.
+/// muscles of the table, as spatial tendons over sites with an actuator of type muscle. It has the simulation's force,
+/// fibre and slack tendon, and the path's lengths over the range of the joints. Geoms are capsules of the segment's
+/// mass, which touch the floor and not each other. Two touch sensors a foot are under sole and toes. The keyframe
+/// `walk` is the recording's first frame, with velocities.
 ///
-/// Fails as check_recording, or without as many `around` as frames, on a joint that turns by more than 0.1° out of its
-/// hinge, a joint more than 0.1 mm from its place in `body`, or a file that cannot be written. Format: MuJoCo's XML
-/// reference.
+/// Fails as check_recording, or without as many `around` as frames. Also fails if a joint turns by more than 0.1° out
+/// of its hinge or is more than 0.1 mm from its place in `body`, or on a file that cannot be written. Format: MuJoCo's
+/// XML reference.
 Result<void> write_mujoco_model(const std::filesystem::path& path, const Body& body, const WalkRecording& recording);
 
 /// Writes `path`, completely or not at all: a CSV table with a row per frame. Columns are time_s; qpos_0 …, qvel_0 …,

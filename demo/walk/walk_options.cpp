@@ -21,7 +21,8 @@ namespace mobil {
 namespace {
 
 /// Endings of file names, in the order of WalkFormat.
-constexpr std::string_view endings[] = {".glb", ".bvh", ".mot", ".sto", ".xml", ".osim", ".usda", ".wrl", ".x3d", ".gl"};
+constexpr std::string_view endings[] = {".glb",  ".bvh",  ".mot", ".sto", ".xml",
+                                        ".osim", ".usda", ".wrl", ".x3d", ".gl"};
 
 constexpr std::string_view drives[] = {"displacement", "force"};                          // in the order of Drive
 constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "glass"};  // in the order of WalkView

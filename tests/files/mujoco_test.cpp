@@ -16,6 +16,7 @@
 #include <mobil/assets/export/root_motion.h>
 #include <mobil/mujoco_writer.h>
 #include <mobil/pose_writer.h>
+#include "assets/export/model_muscles.h"
 #include "tests/files/formats_fixture.h"
 #include "tests/files/xml_elements.h"
 #include "tests/refused.h"
@@ -219,6 +220,29 @@ TEST(Mujoco, NamesAreUniqueAndReferencesExist) {
     refers("tendon", "tendon");
     refers("joint1", "joint");
     refers("joint2", "joint");
+  }
+}
+
+TEST(Mujoco, MusclesHaveTheSimulationsFibresAndTendons) {
+  for (const auto& [height_m, mass_kg] : bodies) {
+    const Walked walk = walked(height_m, mass_kg, 1);
+    const Files files(walk);
+    const auto members = member_muscles();
+    std::size_t count = 0;
+    for (const XmlElement& e : files.model) {
+      if (e.tag != "muscle" || !e.attribute.contains("tendon")) continue;
+      const std::string& name = e.attribute.at("name");
+      const auto member = std::ranges::find(members, name.substr(0, name.rfind('_')), &MemberMuscle::name);
+      ASSERT_NE(member, members.end()) << name;
+      const HillMuscle own = hill_muscle(walk.body, *member);
+      const auto length = numbers(e.attribute.at("lengthrange")), range = numbers(e.attribute.at("range"));
+      const double fibre = (length.at(1) - length.at(0)) / (range.at(1) - range.at(0));  // MuJoCo's formula
+      EXPECT_NEAR(fibre, own.fibre_m, 1e-5) << name;
+      EXPECT_NEAR(length[0] - range[0] * fibre, own.tendon_m, 2e-5) << name;
+      EXPECT_NEAR(std::stod(e.attribute.at("force")), own.force_n * std::cos(own.pennation_rad), 0.01) << name;
+      ++count;
+    }
+    EXPECT_EQ(count, 2 * members.size());
   }
 }
 

@@ -20,7 +20,14 @@ if (!found) {
   process.exit(77);
 }
 
-const text = (name) => readFileSync(join(folder, name), 'utf8');
+function text(name) {
+  try {
+    return readFileSync(join(folder, name), 'utf8');
+  } catch (error) {
+    console.error(`${join(folder, name)}: cannot be read (${error.code})`);
+    process.exit(2);
+  }
+}
 function table(name) {
   const [head, ...lines] = text(name).trim().split('\n');
   const columns = head.split(',');

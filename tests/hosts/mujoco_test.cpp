@@ -73,9 +73,12 @@ TEST_P(Mujoco, HasTheSameMomentsAndLittleResidual) {
     EXPECT_LT(of("roll", 0), walk.roll_nm_kg * walk.mass_kg);
     EXPECT_LT(of("yaw", 0), 0.05 * walk.mass_kg);
   }
-  for (const char* side : {"_right", "_left"}) {
-    for (const char* muscle : {"tendon_soleus", "tendon_gastrocnemius_medial", "tendon_gastrocnemius_lateral"})
-      EXPECT_LT(of(std::string(muscle) + side, 2), 1) << muscle << side;
+  for (const auto& [name, values] : results) {
+    if (!name.starts_with("tendon_")) continue;
+    const auto is = [&name = name](const char* muscle) { return name.find(muscle) != std::string::npos; };
+    const bool follows = is("soleus") || is("tibialis"), calf = is("gastrocnemius") || is("plantaris");
+    const bool kneecap = is("vastus") || is("rectus");  // it leaves the published track
+    EXPECT_LT(values.at(2), follows ? 0.01 : calf ? 1 : kneecap ? 23 : 1.3) << name;
   }
   EXPECT_GT(of("touch", 0), 0.1 * 9.81 * walk.mass_kg);
 }

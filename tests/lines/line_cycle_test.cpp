@@ -190,7 +190,7 @@ TEST(LineCycle, SimulatedWalkLengthensMusclesAsMeasured) {
         // The published lengths are of the laboratory's pelvis, tilted where the model's is level.
         const LegAngles tilted = angles_of(measured[i]);
         LegAngles level = tilted;
-        level.hip -= neutral_tilt_deg;
+        level.hip_deg -= neutral_tilt_deg;
         const double turned = normalised_length(group_curves[c], level) - normalised_length(group_curves[c], tilted);
         fit.add(walker.cycle[i][c], curve[i](name) + turned);
         if (std::abs(fit.ours.back() - fit.published.back()) <= curve[i](name + "_sd")) ++inside;

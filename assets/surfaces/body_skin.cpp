@@ -90,6 +90,15 @@ SkinMeshes make_meshes(Sex sex) {
   return mesh;
 }
 
+#if defined(__wasm__)  // one thread, and a standard library without std::mutex
+struct Mutex {
+  void lock() {}
+  void unlock() {}
+};
+#else
+using Mutex = std::mutex;
+#endif
+
 /// Meshes of one sex, made at first use unless they were given before.
 class SharedMeshes {
  public:
@@ -115,7 +124,7 @@ class SharedMeshes {
     made_[d].store(&kept_[d], std::memory_order_release);
   }
 
-  std::mutex making_;
+  Mutex making_;
   SkinMeshes kept_;
   std::array<std::atomic<const SkinMesh*>, skin_details> made_{};
 };

@@ -1,5 +1,5 @@
-/* Skin, clothes and hair as triangles, custom skins, and contact of muscles; not in WebAssembly. A part of mobil.h,
- * which includes it. Since interface 2; custom skins and contact since 3. */
+/* Skin, clothes and hair as triangles, custom skins, and contact of muscles. The last two are not in WebAssembly. A part
+ * of mobil.h, which includes it. Since interface 2; custom skins and contact since 3. */
 #ifndef MOBIL_SKIN_H
 #define MOBIL_SKIN_H
 

@@ -22,7 +22,7 @@ function typeOf(c) {  // "const mobil_person*" → "mobil_person*"
 }
 
 const fields = ([name, { type, count }]) => {
-  const of = type === 'pointer' ? 'IntPtr' : typeOf(type);
+  const of = type === 'pointer' || type === 'text' ? 'IntPtr' : typeOf(type);
   if (!count) return [`public ${of} ${named(name)};`];
   if (plain[type] && of !== 'UIntPtr') return [`public fixed ${of} ${named(name)}[${count}];`];
   return Array.from({ length: count }, (_, i) => `public ${of} ${name}${i};`);

@@ -10,7 +10,7 @@ export class MobilError extends Error {
   }
 }
 
-const views = { pointer: 'Uint32', size_t: 'Uint32', int: 'Int32', 'unsigned int': 'Uint32', float: 'Float32', double: 'Float64' };
+const views = { pointer: 'Uint32', text: 'Uint32', size_t: 'Uint32', int: 'Int32', 'unsigned int': 'Uint32', float: 'Float32', double: 'Float64' };
 const bytesOf = (type) => (type === 'double' ? 8 : 4);
 
 const ranges = { pointer: [0, 2 ** 32 - 1], size_t: [0, 2 ** 32 - 1], 'unsigned int': [0, 2 ** 32 - 1], int: [-(2 ** 31), 2 ** 31 - 1] };
@@ -40,14 +40,40 @@ export function canFuse() {
   return m(a, a, -(1 + 2 ** -11)) === 2 ** -24;
 }
 
+/** Returns the bytes of a file, or an answer to fetch. Node reads `file:` addresses with its own module. */
+async function request(address) {
+  if (!address.startsWith('file:')) {
+    const answer = await fetch(address);
+    if (!answer.ok) throw new MobilError(`${address} is missing: ${answer.status}; copy mobil.wasm and mobil-plain.wasm there, or give their address to load()`, constants.MOBIL_REFUSED);
+    return answer;
+  }
+  const files = 'node:fs/promises';  // not a literal, because bundlers for browsers would look for it
+  const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ files);
+  try {
+    return await readFile(new URL(address));
+  } catch {
+    throw new MobilError(`${address} cannot be read; give the folder of mobil.wasm and mobil-plain.wasm to load()`, constants.MOBIL_REFUSED);
+  }
+}
+
+/** Compiles a module. `source`: its address, or bytes. Servers that do not know the type of .wasm are allowed. */
+async function instantiate(source, imports) {
+  const answer = source instanceof Uint8Array ? source : await request(source), named = typeof source === 'string' ? source : 'this module';
+  if (!(answer instanceof Uint8Array) && answer.headers.get('content-type')?.startsWith('application/wasm')) {
+    return WebAssembly.instantiateStreaming(answer, imports);
+  }
+  const bytes = answer instanceof Uint8Array ? answer : new Uint8Array(await answer.arrayBuffer());
+  if ([0, 97, 115, 109].some((byte, i) => bytes[i] !== byte)) {
+    throw new MobilError(`${named} is not WebAssembly; a server may have answered with a page (Vite's needs optimizeDeps.exclude: ['mobil'])`, constants.MOBIL_REFUSED);
+  }
+  if (!WebAssembly.validate(bytes)) throw new MobilError(`${named} needs features that this engine lacks${canFuse() ? '' : ', such as relaxed SIMD; use mobil-plain.wasm'}`, constants.MOBIL_REFUSED);
+  return WebAssembly.instantiate(bytes, imports);
+}
+
 export class Library {
   /** Loads a module. `source`: its address or bytes. */
   static async load(source) {
-    const self = new Library();
-    const imports = { wasi_snapshot_preview1: self.#wasi() };
-    let made;
-    if (source instanceof Uint8Array) made = await WebAssembly.instantiate(source, imports);
-    else made = await WebAssembly.instantiateStreaming(fetch(source), imports);
+    const self = new Library(), made = await instantiate(source, { wasi_snapshot_preview1: self.#wasi() });
     self.x = made.instance.exports;
     self.memory = self.x.memory;
     self.x._initialize();
@@ -125,15 +151,15 @@ export class Library {
     if (place.count) for (let i = 0; i < place.count; ++i) this.data[put](at + place.at + bytesOf(place.type) * i, numberOf(value[i], `${field}[${i}]`, place.type), true);
     else this.data[put](at + place.at, numberOf(value, field, place.type), true);
   }
-  /** Returns a field: a number, or an array of numbers. */
+  /** Returns a field: a number, an array of numbers, or a string. */
   get(name, at, field) {
     const { at: begin, type, count } = structs[name].fields[field], one = (i) => this.data[`get${views[type]}`](at + begin + bytesOf(type) * i, true);
+    if (type === 'text') return this.text(one(0));
     return count ? Array.from({ length: count }, (_, i) => one(i)) : one(0);
   }
-  /** Converts a struct to an object; `strings` are fields to be read as text. */
-  object(name, at, strings = []) {
-    return Object.fromEntries(Object.keys(structs[name].fields).filter((f) => f !== 'size')
-      .map((f) => [f, strings.includes(f) ? this.text(this.get(name, at, f)) : this.get(name, at, f)]));
+  /** Converts a struct to an object. */
+  object(name, at) {
+    return Object.fromEntries(Object.keys(structs[name].fields).filter((f) => f !== 'size').map((f) => [f, this.get(name, at, f)]));
   }
 
   #views = {};

@@ -1,6 +1,6 @@
 // mobil for JavaScript: the C interface as WebAssembly.
-//   import { load } from './mobil.js';
-//   const mobil = await load('.');                       // the folder of mobil.wasm and mobil-plain.wasm
+//   import { METHODS, load } from 'mobil';
+//   const mobil = await load();
 //   const world = mobil.world();
 //   const people = world.spawn([{ height_m: 1.8, mass_kg: 80, speed_m_s: 1.4 }], { method: METHODS.explicit_central });
 //   world.tick(60);
@@ -10,6 +10,8 @@ import { Library, MobilError, canFuse, canRun } from './library.js';
 import { World } from './world.js';
 
 export { AXES, CONSTITUTIONS, FEATURES, METHODS, People, STATES, World } from './world.js';
+export { Avoidance, Lod, Terrain } from './subjects.js';
+export { DETAILS, SKIN_PARTS } from './skins.js';
 export { Surfaces } from './surfaces.js';
 export { MobilError, canFuse, canRun };
 export const constants = c;
@@ -20,7 +22,7 @@ const listed = (name) => {
   return all;
 };
 
-class Mobil {
+export class Mobil {
   constructor(library, fused) {
     const { x } = library, text = (at) => (at === 0 ? null : library.text(at));
     this.library = library;
@@ -33,7 +35,7 @@ class Mobil {
     /** Parameters of a walk's style, {name, unit, meaning, low, high, usual}, in the order of spawn and changeWalk. */
     this.style = library.within((take) => {
       const at = take(structs.mobil_style_number.size);
-      return listed((i) => (x.mobil_style(i, at) === 0 ? library.object('mobil_style_number', at, ['name', 'unit', 'meaning']) : null));
+      return listed((i) => (x.mobil_style(i, at) === 0 ? library.object('mobil_style_number', at) : null));
     });
   }
   /** Returns the segment of each bone of a host's skeleton, or null, by its name or the end of it (person_7_head):
@@ -46,7 +48,7 @@ class Mobil {
   levels(muscle, { speed_m_s = 1.4, height_m = 1.8, inertia = false, pulling = false } = {}) {
     return this.library.within((take) => {
       const at = take(structs.mobil_level.size);
-      return listed((i) => (this.library.x.mobil_lod_level(i, muscle, speed_m_s, height_m, inertia ? 1 : 0, pulling ? 1 : 0, at) === 0 ? this.library.object('mobil_level', at, ['name']) : null));
+      return listed((i) => (this.library.x.mobil_lod_level(i, muscle, speed_m_s, height_m, inertia ? 1 : 0, pulling ? 1 : 0, at) === 0 ? this.library.object('mobil_level', at) : null));
     });
   }
   /** Deprecated, removed in 0.5; use levels. */
@@ -55,9 +57,23 @@ class Mobil {
   world(options = {}) { return new World(this.library, options); }
 }
 
-/** Loads the library. `from`: the folder with the modules, or the bytes of one; then `fused` is true for mobil.wasm. */
-export async function load(from = '.', fused = canFuse()) {
+/** Returns the address of a module in a folder, which is an address or, in Node, a path. */
+async function addressIn(from, file) {
+  const isFile = /\.wasm$/.test(from), at = isFile ? from : `${from.replace(/\/$/, '')}/${file}`;
+  if (typeof document === 'object' || typeof process === 'undefined' || /^[a-z][a-z+.-]+:/i.test(from)) return at;
+  const urls = 'node:url';
+  return (await import(/* webpackIgnore: true */ /* @vite-ignore */ urls)).pathToFileURL(at).href;
+}
+
+/** Loads the library. `from`: the folder with the modules, the address of one, or the bytes of one; without it the modules
+ *  of this package. `fuse`: takes mobil.wasm from a folder, otherwise mobil-plain.wasm. */
+export async function load(from, fuse = canFuse()) {
   if (!canRun()) throw new MobilError('this browser has no WebAssembly SIMD; Chrome 91, Firefox 89, Safari 16.4 and later have', c.MOBIL_REFUSED);
-  const source = from instanceof Uint8Array ? from : `${from}/${fused ? 'mobil' : 'mobil-plain'}.wasm`;
-  return new Mobil(await Library.load(source), fused);
+  let source;
+  // Bundlers look for these two expressions, and copy the files.
+  if (from === undefined) source = (fuse ? new URL('./mobil.wasm', import.meta.url) : new URL('./mobil-plain.wasm', import.meta.url)).href;
+  else if (from instanceof ArrayBuffer || ArrayBuffer.isView(from)) source = new Uint8Array(from.buffer ?? from, from.byteOffset ?? 0, from.byteLength);
+  else source = await addressIn(String(from), fuse ? 'mobil.wasm' : 'mobil-plain.wasm');
+  const library = await Library.load(source);
+  return new Mobil(library, library.x.mobil_fuses() !== 0);
 }

@@ -20,7 +20,7 @@ export class Surfaces {
       /** {name, segment, muscle, side, first_vertex, vertices, first_index, indices}; `muscle` is negative for bones. */
       this.parts = [];
       const part = take(structs.mobil_part.size);
-      while (library.x.mobil_surface_part(this.at, this.parts.length, part) === 0) this.parts.push(library.object('mobil_part', part, ['name']));
+      while (library.x.mobil_surface_part(this.at, this.parts.length, part) === 0) this.parts.push(library.object('mobil_part', part));
     });
     this.buffer = library.allocate(24 * this.vertices);
   }

@@ -3,6 +3,7 @@
 import { constants as c, structs } from './interface.js';
 import { MobilError, numberOf } from './library.js';
 import { Avoidance, Lod, Terrain } from './subjects.js';
+import { DETAILS, skinBinding } from './skins.js';
 import { Surfaces } from './surfaces.js';
 
 export const METHODS = { static: c.MOBIL_STATIC, explicit_central: c.MOBIL_EXPLICIT_CENTRAL, implicit_central: c.MOBIL_IMPLICIT_CENTRAL, newmark: c.MOBIL_NEWMARK, modal: c.MOBIL_MODAL, none: c.MOBIL_NONE, finite: c.MOBIL_FINITE };
@@ -338,12 +339,17 @@ export class World {
   cost() {
     return this.library.within((take) => {
       const at = take(structs.mobil_system.size), all = [];
-      while (this.library.x.mobil_cost(this.at, all.length, at) === 0) all.push(this.library.object('mobil_system', at, ['name', 'module']));
+      while (this.library.x.mobil_cost(this.at, all.length, at) === 0) all.push(this.library.object('mobil_system', at));
       return all;
     });
   }
   /** Binds bones and muscles as triangles. `choice`: fields of mobil_surface_choice. */
   surfaces(like, choice = {}) { return new Surfaces(this, like, choice); }
+  /** Returns the skin of a person for the graphics card, for people of the same sex and similar build, as typed arrays of
+   *  its own: the fields of mobil_skin_binding, and `parts` {name, first_index, indices}. A vertex is at the sum of weight
+   *  * matrix * inverse bind * position over its joints, with the matrices of matrices(). The first call for each sex takes
+   *  several seconds. */
+  skinBinding(person, detail = DETAILS.near) { return skinBinding(this, person, detail); }
 
   // ---- State
   save() {

@@ -237,7 +237,7 @@ TEST(House, ProgramsIncludeOnlyPublicHeaders) {
   for (const auto& header : still_internal) EXPECT_TRUE(needed.contains(header)) << "no program includes " << header;
 }
 
-/// CMakeLists.txt, version.h and the namespace of every public header contain the same version.
+/// CMakeLists.txt, version.h, the npm package and the namespace of every public header contain the same version.
 TEST(House, VersionIsTheSameEverywhere) {
   static const std::regex opened("^namespace mobil(.*) \\{");
   const std::string version = MOBIL_CMAKE_VERSION;
@@ -245,6 +245,8 @@ TEST(House, VersionIsTheSameEverywhere) {
   const std::string space =
       "::inline v" + version.substr(0, minor) + "_" + version.substr(minor + 1, patch - minor - 1);
   EXPECT_EQ(version, MOBIL_VERSION);
+  const auto package = lines(root / "systems/javascript/package.json");
+  EXPECT_TRUE(std::ranges::count(package, "  \"version\": \"" + version + "\",") == 1) << "package.json of npm";
   for (const auto* room : {"components", "engine", "assets", "systems"}) {
     for (const auto& file : sources(room)) {
       for (const auto& line : lines(file)) {

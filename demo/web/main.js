@@ -7,6 +7,7 @@ import { download, strideAsGlb } from './files.js';
 import { Ground, groundNames } from './ground.js';
 import { drawTrace, drawWays } from './plots.js';
 import { fromAddress, methodNames, request, toAddress, usual } from './scene.js';
+import { Skins } from './skins.js';
 import { Stage } from './stage.js';
 import { Trace, groups } from './trace.js';
 
@@ -14,8 +15,9 @@ const query = new URLSearchParams(location.search), still = query.has('still');
 const element = (id) => document.getElementById(id);
 
 class Page {
-  constructor(mobil, baked) {
+  constructor(mobil, baked, skins) {
     this.mobil = mobil;
+    this.skins = new Skins(skins);
     this.scene = fromAddress(location.search);
     if (!groundNames[this.scene.ground]) this.scene.ground = usual.ground;
     this.world = mobil.world();
@@ -115,7 +117,7 @@ class Page {
   // ---- The crowd
   crowded() {
     const { world, scene } = this;
-    const made = scene.crowd > 0 ? new Crowd(world, scene.crowd, this.figure, scene.height, this.stage.scene, scene.clear, this.#place()) : undefined;
+    const made = scene.crowd > 0 ? new Crowd(world, scene.crowd, this.skins, this.stage.scene, scene.clear, this.#place()) : undefined;
     this.crowd?.drop();
     this.crowd = made;
     if (this.ground && this.crowd) world.terrain.manage(this.crowd.people);
@@ -186,7 +188,7 @@ class Page {
     this.stage.follow(x, this.ground ? y - 0.53 * this.scene.height : 0, z);
     if (this.choosing) this.#lookAt();
     if (this.crowd) {
-      this.crowd.pose(x, z);
+      this.crowd.pose(x, z, this.stage.camera);
       if (this.choosing && this.scene.heat) this.crowd.heat();
     }
     if (this.scene.pull) {
@@ -332,9 +334,9 @@ async function start() {
     document.title = 'mobil: poster';
     return;
   }
-  const [mobil, baked] = await Promise.all([load('.'), bytes('bases.bin')]);
+  const [mobil, baked, skins] = await Promise.all([load(), bytes('bases.bin'), bytes('skins.bin')]);
   performance.mark('library');
-  const page = new Page(mobil, baked);
+  const page = new Page(mobil, baked, skins);
   performance.mark('people');
   globalThis.mobilPage = page;
   page.constants = { METHODS };

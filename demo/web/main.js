@@ -212,10 +212,10 @@ class Page {
     element('told').textContent = `tick ${this.told.tick.toFixed(2)} ms, picture ${this.told.draw.toFixed(1)} ms, ${(1 + (this.crowd?.people.count ?? 0)).toLocaleString('en')} people, ${(this.mobil.library.memory.buffer.byteLength / 2 ** 20).toFixed(0)} MB${did}${this.mobil.fused ? '' : '; this browser does not fuse multiply-adds, so results differ from desktops in the last bits'}`;
   }
   run() {
-    let last = performance.now(), told = 0;
+    let last, told = 0;
     const frame = (now) => {
       requestAnimationFrame(frame);  // first, so that nothing thrown below stops the page
-      const passed_s = (now - last) / 1000;
+      const passed_s = (now - (last ?? now)) / 1000;  // a first frame's time can be before this call
       last = now;
       try {
         if (!this.paused) this.advance(Math.min(passed_s * +element('pace').value, 0.1));

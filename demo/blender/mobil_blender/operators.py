@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
-from . import person, presets, settings
+from . import library, person, presets, settings
 from .library import Refused
 
 
@@ -58,6 +58,7 @@ class MOBIL_OT_walk(MobilOperator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         draw_sections(self.layout, self)
+        draw_muscles(self.layout, self)
 
 
 class MOBIL_OT_crowd(MobilOperator):
@@ -111,17 +112,23 @@ class MOBIL_OT_preset(bpy.types.Operator):
 
 def draw_sections(layout: bpy.types.UILayout, of: Any) -> None:
     """Draws all settings of a person except the style."""
-    hidden = {"strides"} if of.length == "SECONDS" else {"seconds", "turn_rad"}
+    hidden = {"muscles", "contract"} | ({"strides"} if of.length == "SECONDS" else {"seconds", "turn_rad"})
     for title, names in settings.SECTIONS.items():
         box = layout.box().column()
         box.label(text=title)
         for name in names:
-            if name == "muscles":
-                box.label(text="Muscles")
-                grid = box.column_flow(columns=2, align=True)
-                grid.prop(of, name)
-            elif name not in hidden:
+            if name not in hidden:
                 box.prop(of, name)
+
+
+def draw_muscles(layout: bpy.types.UILayout, of: Any) -> None:
+    """Draws muscles at full width, groups first."""
+    for text, names in (("Groups", library.MUSCLES[:4]), ("Single muscles", library.MUSCLES[4:])):
+        box = layout.column(align=True)
+        box.use_property_split = False
+        box.label(text=text)
+        for name in names:
+            box.prop_enum(of, "muscles", name)
 
 
 CLASSES = (MOBIL_OT_walk, MOBIL_OT_crowd, MOBIL_OT_read, MOBIL_OT_preset)

@@ -6,7 +6,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 
 from . import person, presets, settings
-from .operators import draw_sections
+from .operators import draw_muscles, draw_sections
 
 
 class MOBIL_MT_presets(bpy.types.Menu):
@@ -60,6 +60,16 @@ class MOBIL_PT_person(MobilPanel, bpy.types.Panel):
             row.operator("mobil.read", text="", icon="EYEDROPPER")
 
 
+class MOBIL_PT_muscles(MobilPanel, bpy.types.Panel):
+    bl_label = "Muscles"
+    bl_parent_id = "MOBIL_PT_person"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_muscles(self.layout, context.scene.mobil)
+        self.layout.prop(context.scene.mobil, "contract")
+
+
 class MOBIL_PT_style(MobilPanel, bpy.types.Panel):
     bl_label = "Style"
     bl_parent_id = "MOBIL_PT_person"
@@ -84,4 +94,4 @@ class MOBIL_PT_crowd(MobilPanel, bpy.types.Panel):
         layout.operator("mobil.crowd", icon="OUTLINER_OB_ARMATURE")
 
 
-CLASSES = (MOBIL_MT_presets, MOBIL_OT_add_preset, MOBIL_PT_person, MOBIL_PT_style, MOBIL_PT_crowd)
+CLASSES = (MOBIL_MT_presets, MOBIL_OT_add_preset, MOBIL_PT_person, MOBIL_PT_muscles, MOBIL_PT_style, MOBIL_PT_crowd)

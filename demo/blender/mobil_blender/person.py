@@ -54,7 +54,9 @@ def make(context: bpy.types.Context, asked: Any, old: Any = None) -> tuple[bpy.t
     first, cycle = context.scene.frame_start, clip.strides > 0
     if old is None:
         armature = bpy.data.armatures.new("person")
+        armature.display_type = "STICK"
         of = bpy.data.objects.new("person", armature)
+        of.show_in_front = True
         context.collection.objects.link(of)
         of.location = context.scene.cursor.location
         of.rotation_euler.z = asked.heading_rad

@@ -28,7 +28,7 @@ WALKS = {
     "Catwalk": Preset(
         "Feet on one line, moving hips", 1.3, {"step_width_h": 0.02, "pelvis_rotation_deg": 11.0, "pelvis_list_deg": 8.0, "toe_out_deg": 2.0}
     ),
-    "Limp": Preset("Short, quick steps of the left leg", 0.9, {"step_asymmetry": 0.15, "time_asymmetry": 0.12}),
+    "Limp": Preset("Short, quick steps of the left leg", 0.9, {"step_asymmetry": 0.08, "time_asymmetry": 0.1}),
 }
 
 

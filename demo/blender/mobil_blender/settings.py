@@ -23,10 +23,10 @@ def _choice(names: tuple[str, ...], meanings: tuple[str, ...] | None = None) -> 
 
 def _style_property(one: library.StyleNumber) -> Any:
     suffix = f"_{one.unit.replace('/', '_per_').lower()}"
-    unit = {"1": "", "height": "of the height", "cycle": "of the cycle"}.get(one.unit, one.unit)
+    unit = {"1": "", "height": " × height", "cycle": " × cycle"}.get(one.unit, f" ({one.unit})")
     name = one.name.removesuffix(suffix).removesuffix("_h")
     return FloatProperty(
-        name=f"{_label(name)} ({unit})" if unit else _label(name),
+        name=_label(name) + unit,
         description=f"{one.meaning}; {one.low:g} to {one.high:g}, usually {one.usual:g}",
         default=one.usual,
         min=one.low,
@@ -40,7 +40,7 @@ STYLE = {one.name: _style_property(one) for one in library.STYLE}
 
 BODY = {
     "height_m": FloatProperty(
-        name="Height", description="Height without shoes", default=1.75, min=1.2, max=2.2, unit="LENGTH"
+        name="Height", description="Height without shoes", default=1.75, min=1.2, max=2.2, precision=3, unit="LENGTH"
     ),
     "mass_kg": FloatProperty(
         name="Mass (kg)", description="Mass in kg, within the range of real bodies of that height", default=75, min=30, max=200
@@ -52,7 +52,7 @@ BODY = {
 }
 WALK = {
     "speed_m_s": FloatProperty(
-        name="Speed", description="Speed of the walk; 0 stands", default=1.4, min=0.0, max=4.0, unit="VELOCITY"
+        name="Speed", description="Speed of the walk; 0 stands", default=1.4, min=0.0, max=4.0, precision=2, unit="VELOCITY"
     ),
     "step_length_m": FloatProperty(
         name="Step length",
@@ -60,6 +60,7 @@ WALK = {
         default=0.0,
         min=0.0,
         max=2.0,
+        precision=3,
         unit="LENGTH",
     ),
     "heading_rad": FloatProperty(

@@ -141,6 +141,8 @@ class Binding(NamedTuple):
 
     positions: np.ndarray
     """(vertices, 3)."""
+    normals: np.ndarray
+    """(vertices, 3)."""
     triangles: np.ndarray
     """(n, 3)."""
     texture: np.ndarray
@@ -149,8 +151,8 @@ class Binding(NamedTuple):
     """(vertices, 4): segments."""
     weights: np.ndarray
     """(vertices, 4)."""
-    parts: tuple[int, ...]
-    """First triangle of each of PARTS."""
+    parts: np.ndarray
+    """(n,): part of each triangle, as an index into PARTS."""
 
 
 class SurfacePart(NamedTuple):
@@ -275,6 +277,7 @@ class World:
         count = lib.mobil_binding_vertex_count(*of)
         arrays = {
             "positions": np.empty((count, 3), np.float32),
+            "normals": np.empty((count, 3), np.float32),
             "texture": np.empty((count, 2), np.float32),
             "joints": np.empty((count, 4), np.uint8),
             "weights": np.empty((count, 4), np.float32),
@@ -288,15 +291,25 @@ class World:
         self.do(lib.mobil_get_skin_binding(self._sim, one, ctypes.byref(to)))
         single = np.zeros(lib.mobil_skin_vertex_count(*of), np.intp)
         single[arrays["same_as"]] = np.arange(count)
-        texture = arrays["texture"][arrays["indices"]].reshape(-1, 3, 2)
+        triangles = corners.reshape(-1, 3)
+        kept = _without_fins(triangles)
+        texture = arrays["texture"][arrays["indices"]].reshape(-1, 3, 2)[kept]
         return Binding(
             axes.places(arrays["positions"][single]),
-            corners.reshape(-1, 3),
+            axes.places(arrays["normals"][single]),
+            triangles[kept],
             np.stack((texture[..., 0], 1 - texture[..., 1]), -1),
             arrays["joints"][single],
             arrays["weights"][single],
-            tuple(int(n) for n in first),
+            np.repeat(np.arange(len(PARTS)), np.diff(first))[kept],
         )
+
+
+def _without_fins(triangles: np.ndarray) -> np.ndarray:
+    """Returns which triangles remain without pairs of opposite ones on three vertices, of which coarse skins have a few.
+    Blender would remove one of each pair and leave a hole."""
+    _, same, count = np.unique(np.sort(triangles, axis=1), axis=0, return_inverse=True, return_counts=True)
+    return count[same.ravel()] == 1
 
 
 class Surfaces:

@@ -75,14 +75,16 @@ def _put_materials(mesh: bpy.types.Mesh, names: list[str], look: int, slots: np.
 
 
 def skin_mesh(name: str, binding: Binding, look: int) -> bpy.types.Mesh:
-    """Makes the skin in the anatomical position, with a UV map and a material for each part."""
+    """Makes the skin in the anatomical position, with the library's normals, a UV map and a material for each part."""
     mesh = bpy.data.meshes.new(name)
     _fill(mesh, binding.positions, binding.triangles)
     uv = mesh.uv_layers.new(name="UVMap")
     uv.data.foreach_set("uv", binding.texture.astype(np.float32).ravel())
-    counts = np.diff(binding.parts)
-    _put_materials(mesh, list(PARTS), look, np.repeat(np.arange(len(PARTS)), counts))
+    _put_materials(mesh, list(PARTS), look, binding.parts)
     _finish(mesh)
+    mesh.normals_split_custom_set_from_vertices(binding.normals.tolist())
+    if hasattr(mesh, "use_auto_smooth"):  # until Blender 4.0
+        mesh.use_auto_smooth = True
     return mesh
 
 

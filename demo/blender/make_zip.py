@@ -26,7 +26,8 @@ def main(out: pathlib.Path, libraries: list[pathlib.Path]) -> None:
     unfinished = out.with_name(out.name + ".part")
     with zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as made:
         for name, path in files.items():
-            made.writestr(zipfile.ZipInfo(f"mobil_blender/{name}", (1980, 1, 1, 0, 0, 0)), path.read_bytes(), zipfile.ZIP_DEFLATED)
+            entry = zipfile.ZipInfo(f"mobil_blender/{name}")  # of 1980: equal files give an equal zip
+            made.writestr(entry, path.read_bytes(), zipfile.ZIP_DEFLATED)
     unfinished.replace(out)
 
 

@@ -1,6 +1,6 @@
 """Renders a skinned person in mid-stride beside another one's muscles and bones.
 
-Usage: blender --background --python picture.py -- OUT.jpg, with the add-on installed (demo/blender/run --picture OUT.jpg)
+demo/blender/run --picture OUT.jpg installs the add-on and runs this: blender --background --python picture.py -- OUT.jpg
 """
 
 import math
@@ -16,7 +16,8 @@ def main(out: str) -> None:
     bpy.ops.preferences.addon_enable(module="mobil_blender")
     scene = bpy.context.scene
     walk = dict(height_m=1.8, mass_kg=80, constitution="athletic", speed_m_s=1.5, root="IN_PLACE", heading_rad=-0.5)
-    for x, meshes in ((0.0, dict(skin="hero")), (1.15, dict(skin="NONE", muscles=GROUPS, contract=True, bones=True, surface_detail=1.0))):
+    anatomy = dict(skin="NONE", muscles=GROUPS, contract=True, bones=True, surface_detail=1.0)
+    for x, meshes in ((0.0, dict(skin="hero")), (1.15, anatomy)):
         scene.cursor.location.x = x
         bpy.ops.mobil.walk(**walk, **meshes)
     scene.frame_set(scene.frame_start + 2)

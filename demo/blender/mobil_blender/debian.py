@@ -1,7 +1,7 @@
 """Two faults of Debian 12's Blender 3.4.1 beside newer Python packages, mended while the add-on is enabled.
 
-The importer of glTF names `numpy.bool`, which numpy 1.24 has no more. The importer of BVH opens files with the mode "rU",
-which Python 3.11 has no more.
+The importer of glTF uses `numpy.bool`, which numpy 1.24 no longer has. The importer of BVH opens files with the mode
+"rU", which Python 3.11 no longer accepts.
 """
 
 from __future__ import annotations

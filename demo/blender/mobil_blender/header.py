@@ -34,7 +34,7 @@ class Header:
             fields = [field for line in body.split(";") if line.strip() for field in self._fields(line)]
             self.structs[name] = type(name, (ctypes.Structure,), {"_fields_": fields})
         self.functions = {
-            name: (self._result(result.strip()), [self._argument(one.strip()) for one in arguments.split(",") if one.strip() != "void"])
+            name: (self._result(result.strip()), self._arguments(arguments))
             for result, name, arguments in re.findall(r"MOBIL_API\s+([\w\s]+?[\s*]+)(mobil_\w+)\(([^)]*)\);", code)
         }
 
@@ -72,6 +72,9 @@ class Header:
         if "*" in text:
             return ctypes.c_char_p if re.match(r"const char\b", text) else ctypes.c_void_p
         return None if text == "void" else self._type(text)
+
+    def _arguments(self, text: str) -> list:
+        return [] if text.strip() == "void" else [self._argument(one.strip()) for one in text.split(",")]
 
     def _argument(self, text: str):
         if "*" in text or "[" in text:

@@ -26,14 +26,15 @@ def _load() -> tuple[header.Header, ctypes.CDLL]:
     try:
         lib = ctypes.CDLL(path)
     except OSError as error:
-        raise ImportError(f"mobil: {path} cannot be loaded ({error}); install the zip of demo/blender/run for this system")
+        raise ImportError(f"mobil: {path} cannot be loaded ({error}); make a zip for this system with demo/blender/run")
     for name, (result, arguments) in read.functions.items():
         function = getattr(lib, name, None)
         if function is not None:
             function.restype, function.argtypes = result, arguments
     needed = read.constants["MOBIL_INTERFACE"]
     if lib.mobil_interface() < needed:
-        raise ImportError(f"mobil: {path} has interface {lib.mobil_interface()}, the add-on needs {needed}; install one zip")
+        found = lib.mobil_interface()
+        raise ImportError(f"mobil: {path} has interface {found}, and the add-on needs {needed}; use files of one zip")
     return read, lib
 
 
@@ -85,12 +86,12 @@ def struct(name: str) -> Any:
     made = HEADER.structs[f"mobil_{name}"]()
     code = lib.mobil_defaults(C[f"MOBIL_{name.upper()}"], ctypes.byref(made), ctypes.sizeof(made))
     if code != 0:
-        raise Refused(f"mobil_defaults refuses a mobil_{name} of {ctypes.sizeof(made)} bytes; install one zip")
+        raise Refused(f"mobil_defaults refuses a mobil_{name} of {ctypes.sizeof(made)} bytes; use files of one zip")
     return made
 
 
 class Person(NamedTuple):
-    """A request for a person. Zeros of `step_length_m` mean the usual one; `style` has values by name."""
+    """A request for a person. A `step_length_m` of 0 means the usual one; `style` has values by name."""
 
     height_m: float = 1.75
     mass_kg: float = 75.0
@@ -190,7 +191,7 @@ class World:
             raise Refused(lib.mobil_message(self._sim).decode())
 
     def spawn(self, people: Sequence[Person], muscles: Muscles | None = None, posed: bool = False) -> Any:
-        """Spawns people, all or none, and returns an array of their ids. Posed people stay in the anatomical position."""
+        """Spawns people, all or none, and returns an array of their ids. Posed ones stay in the anatomical position."""
         requests = (HEADER.structs["mobil_person"] * len(people))()
         kept = []
         for request, person in zip(requests, people):
@@ -247,7 +248,7 @@ class World:
         self.do(lib.mobil_avoidance_set_desired_velocity(self._sim, ids, len(ids), _pointer(rows), 0))
 
     def poses(self, ids: Any, to_parent: bool = True) -> tuple[np.ndarray, np.ndarray]:
-        """Returns positions (n, 48, 3) and rotations (n, 48, 4), relative to the parent; of the pelvis, in the world."""
+        """Returns positions (n, 48, 3) and rotations (n, 48, 4), relative to the parent; the pelvis in the world."""
         layout = struct("pose_layout")
         layout.to_parent = int(to_parent)
         rows = np.empty((len(ids), len(SEGMENTS), 7), np.float32)
@@ -306,8 +307,8 @@ class World:
 
 
 def _without_fins(triangles: np.ndarray) -> np.ndarray:
-    """Returns which triangles remain without pairs of opposite ones on three vertices, of which coarse skins have a few.
-    Blender would remove one of each pair and leave a hole."""
+    """Returns true for triangles without an opposite one on the same vertices. Coarse skins have a few such pairs, and
+    Blender would remove one of each, which leaves a hole."""
     _, same, count = np.unique(np.sort(triangles, axis=1), axis=0, return_inverse=True, return_counts=True)
     return count[same.ravel()] == 1
 
@@ -340,6 +341,7 @@ class Surfaces:
         """Returns the vertices of a person, (vertices, 3)."""
         rows = np.empty((self.count, 3), np.float32)
         target = struct("surface_target")
-        target.id, target.surfaces, target.positions, target.position_bytes = one, self._surfaces, _pointer(rows), rows.nbytes
+        target.id, target.surfaces = one, self._surfaces
+        target.positions, target.position_bytes = _pointer(rows), rows.nbytes
         self._world.do(lib.mobil_write_surfaces(self._world._sim, ctypes.byref(target), 0, 1))
         return axes.places(rows.astype(np.float64))

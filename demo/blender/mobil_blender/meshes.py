@@ -113,7 +113,8 @@ def surface_mesh(name: str, of: Mesh, muscles: bool) -> bpy.types.Mesh:
 def weigh_surface(body: bpy.types.Object, of: Mesh) -> None:
     """Puts each part into the vertex group of the segment that carries it. Muscles have groups by name as well."""
     for number in np.unique(of.segments):
-        body.vertex_groups.new(name=SEGMENTS[number]).add(np.nonzero(of.segments == number)[0].tolist(), 1.0, "REPLACE")
+        carried = np.nonzero(of.segments == number)[0].tolist()
+        body.vertex_groups.new(name=SEGMENTS[number]).add(carried, 1.0, "REPLACE")
     for part, triangles in of.parts if of.displacements is not None else ():
         body.vertex_groups.new(name=part).add(np.unique(of.triangles[triangles]).tolist(), 1.0, "REPLACE")
 

@@ -102,7 +102,7 @@ class MOBIL_OT_preset(bpy.types.Operator):
     bl_label = "Preset"
     bl_options = {"REGISTER", "UNDO"}
     __annotations__ = {
-        "name": EnumProperty(name="Walk", items=[(name, name, preset.meaning) for name, preset in presets.WALKS.items()])
+        "name": EnumProperty(name="Walk", items=[(name, name, of.meaning) for name, of in presets.WALKS.items()])
     }
 
     def execute(self, context: bpy.types.Context) -> set[str]:

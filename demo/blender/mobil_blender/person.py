@@ -69,7 +69,8 @@ def make(context: bpy.types.Context, asked: Any, old: Any = None) -> tuple[bpy.t
     rig.build_armature(of.data, walk.body)
     rig.animate(of, f"{of.name}_walk", walk.body, walk.way, first, asked.root == "IN_PLACE", cycle)
     _store(of, settings.values(asked))
-    of["mobil_tick_s"], of["mobil_ticks"], of["mobil_settle"] = walk.timing.tick_s, walk.timing.ticks, walk.timing.settle
+    for name in ("tick_s", "ticks", "settle"):
+        of[f"{KEY}_{name}"] = getattr(walk.timing, name)
     lines = _corrections(request, walk.style)
     _put(context, of, "skin", binding and meshes.skin_mesh(f"{of.name}_skin", binding, 0))
     if binding:

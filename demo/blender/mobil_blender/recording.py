@@ -48,8 +48,8 @@ class Way(NamedTuple):
 
 
 class Mesh(NamedTuple):
-    """Bones or muscles of one person: positions in the anatomical position, and displacements from where the bone of each
-    vertex would carry it, in the frame of that bone."""
+    """Bones or muscles of one person: positions in the anatomical position, and displacements of vertices in the frame
+    of the segment that carries them."""
 
     parts: tuple[tuple[str, slice], ...]
     """Name and triangles of each."""
@@ -73,8 +73,8 @@ class Walk(NamedTuple):
 
 
 def timing(person: Person, clip: Clip) -> Timing:
-    """Returns ticks and frames. Whole strides get a whole number of frames, so a cycle is up to half a frame shorter or
-    longer in the scene than in the library."""
+    """Returns ticks and frames. Whole strides get a whole number of frames, so a cycle in the scene is up to half a
+    frame longer or shorter than in the library."""
     if clip.strides and clip.turn_rad:
         raise Refused("turn: whole strides go straight ahead; set the turn to 0, or the length to seconds")
     world = World()

@@ -49,10 +49,13 @@ def _edit(bones: bpy.types.ArmatureEditBones, body: Body) -> None:
 
 def _bases(armature: bpy.types.Armature) -> np.ndarray:
     """Returns the rest rotations of segments' bones, (48, 4)."""
-    return axes.of_matrices(np.array([np.array(armature.bones[name].matrix_local)[:3, :3] for name in SEGMENTS], np.float64))
+    rest = [np.array(armature.bones[name].matrix_local, np.float64)[:3, :3] for name in SEGMENTS]
+    return axes.of_matrices(np.array(rest))
 
 
-def channels(armature: bpy.types.Armature, body: Body, way: Way, in_place: bool) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def channels(
+    armature: bpy.types.Armature, body: Body, way: Way, in_place: bool
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Returns locations (keys, 3) and rotations (keys, 4) of each bone, relative to its rest pose.
 
     A segment's matrix is T(place) R B, where B is the rest rotation of its bone. Relative to the parent, and with the
@@ -118,7 +121,9 @@ def pose_at_rest(rig: bpy.types.Object) -> None:
         bone.location, bone.rotation_quaternion, bone.scale = (0, 0, 0), (1, 0, 0, 0), (1, 1, 1)
 
 
-def animate(rig: bpy.types.Object, name: str, body: Body, way: Way, first: int, in_place: bool, cycle: bool) -> bpy.types.Action:
+def animate(
+    rig: bpy.types.Object, name: str, body: Body, way: Way, first: int, in_place: bool, cycle: bool
+) -> bpy.types.Action:
     """Bakes the walk to the armature's action. Bones that only rotate have no keys of location."""
     pose_at_rest(rig)
     action = new_action(rig, name)
@@ -126,7 +131,8 @@ def animate(rig: bpy.types.Object, name: str, body: Body, way: Way, first: int, 
     for bone, (location, rotation) in channels(rig.data, body, way, in_place).items():
         path = f'pose.bones["{bone}"].'
         if np.abs(location).max() > 2e-6:
-            _write(action, path + "location", frames, location, bone, cycle, "REPEAT_OFFSET" if bone == ROOT else "REPEAT")
+            mode = "REPEAT_OFFSET" if bone == ROOT else "REPEAT"
+            _write(action, path + "location", frames, location, bone, cycle, mode)
         _write(action, path + "rotation_quaternion", frames, rotation, bone, cycle, "REPEAT")
     set_range(action, frames, cycle)
     return action

@@ -43,7 +43,11 @@ BODY = {
         name="Height", description="Height without shoes", default=1.75, min=1.2, max=2.2, precision=3, unit="LENGTH"
     ),
     "mass_kg": FloatProperty(
-        name="Mass (kg)", description="Mass in kg, within the range of real bodies of that height", default=75, min=30, max=200
+        name="Mass (kg)",
+        description="Mass in kg, within the range of real bodies of that height",
+        default=75,
+        min=30,
+        max=200,
     ),
     "sex": EnumProperty(name="Sex", description="Girths of the skin", items=_choice(library.SEXES)),
     "constitution": EnumProperty(
@@ -52,7 +56,13 @@ BODY = {
 }
 WALK = {
     "speed_m_s": FloatProperty(
-        name="Speed", description="Speed of the walk; 0 stands", default=1.4, min=0.0, max=4.0, precision=2, unit="VELOCITY"
+        name="Speed",
+        description="Speed of the walk; 0 stands",
+        default=1.4,
+        min=0.0,
+        max=4.0,
+        precision=2,
+        unit="VELOCITY",
     ),
     "step_length_m": FloatProperty(
         name="Step length",
@@ -88,7 +98,9 @@ CLIP = {
         ),
     ),
     "strides": IntProperty(name="Strides", description="Number of strides, two steps each", default=2, min=1, max=20),
-    "seconds": FloatProperty(name="Seconds", description="Duration", default=2.0, min=0.1, max=60.0, subtype="TIME_ABSOLUTE"),
+    "seconds": FloatProperty(
+        name="Seconds", description="Duration", default=2.0, min=0.1, max=60.0, subtype="TIME_ABSOLUTE"
+    ),
     "root": EnumProperty(
         name="Way",
         description="Where the way is stored",
@@ -118,7 +130,7 @@ MESHES = {
         options={"ENUM_FLAG"},
         default=set(),
     ),
-    "contract": BoolProperty(name="Contract", description="Muscles pull and thicken as in people who walk", default=False),
+    "contract": BoolProperty(name="Contract", description="Muscles pull and thicken as in people who walk"),
     "bones": BoolProperty(name="Bones", description="The anatomical skeleton as a mesh", default=False),
     "surface_detail": FloatProperty(
         name="Detail", description="Share of the triangles of muscles and bones", default=0.5, min=0.05, max=1.0
@@ -127,7 +139,12 @@ MESHES = {
 CROWD = {
     "count": IntProperty(name="People", description="Number of people", default=20, min=1, max=1000),
     "side_m": FloatProperty(
-        name="Side", description="Side of the square in which they walk", default=12.0, min=2.0, max=500.0, unit="LENGTH"
+        name="Side",
+        description="Side of the square in which they walk",
+        default=12.0,
+        min=2.0,
+        max=500.0,
+        unit="LENGTH",
     ),
     "builds": IntProperty(
         name="Builds", description="Different bodies; people of one build share meshes", default=6, min=1, max=100

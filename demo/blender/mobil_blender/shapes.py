@@ -18,7 +18,7 @@ class Shapes(NamedTuple):
 
 
 def reduce(displacements: np.ndarray, rms_m: float = 0.0003, most: int = 32) -> Shapes:
-    """Returns the fewest shapes that keep the rms within `rms_m`, at most `most`, of displacements (frames, vertices, 3)."""
+    """Returns the fewest shapes, at most `most`, within `rms_m` of displacements (frames, vertices, 3)."""
     frames, vertices, _ = displacements.shape
     rows = displacements.reshape(frames, -1).astype(np.float64)
     squares, vectors = np.linalg.eigh(rows @ rows.T)  # few frames, many vertices

@@ -371,12 +371,14 @@ def undo_takes_a_person_back():
     if not bpy.ops.ed.undo_push.poll():
         print("skipped undo: this Blender has none without a window")
         return
-    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.ed.undo_push(message="empty")
+    bpy.data.objects.new("earlier", None)
+    bpy.ops.ed.undo_push(message="earlier")
     before = counts()
-    bpy.ops.mobil.walk(skin="far")
-    bpy.ops.ed.undo_push(message="walk")
+    bpy.ops.mobil.walk("EXEC_DEFAULT", True, skin="far", muscles={"soleus"})  # True: with a step of undo
+    expect(counts()["objects"] == before["objects"] + 3, "nobody was made")
     bpy.ops.ed.undo()
-    expect(counts() == before, f"{before} became {counts()}")
+    expect(counts() == before and "earlier" in bpy.data.objects, f"{before} became {counts()}")
 
 
 @test

@@ -17,7 +17,7 @@ import urllib.parse
 
 # Chapters of the navigation, in reading order. Documents that are not listed follow at the end.
 CHAPTERS = [
-    ('Begin', ['README.md', 'demo/README.md', 'demo/gallery/README.md', 'demo/web/README.md']),
+    ('Begin', ['README.md', 'demo/README.md', 'demo/gallery/README.md', 'demo/web/README.md', 'demo/blender/README.md']),
     ('Use it', ['systems/README.md', 'demo/examples/README.md', 'demo/packaging/README.md',
                 'systems/python/README.md', 'systems/javascript/README.md',
                 'assets/export/README.md', '@reference']),

@@ -176,7 +176,7 @@ TEST(CSkinBinding, BlendsToTheWrittenSkinInTheHostsAxes) {
         for (std::size_t r = 0; r < 3; ++r) at[r] += double{weights[4 * v + k]} * part[r];
       }
       for (std::size_t r = 0; r < 3; ++r)
-        ASSERT_NEAR(at[r], double{written[3 * same_as[v] + r]}, 30 * mm) << "vertex " << v;
+        ASSERT_NEAR(at[r], double{written[3 * same_as[v] + r]}, 45 * mm) << "vertex " << v << ", a forearm slides";
     }
   }
 }

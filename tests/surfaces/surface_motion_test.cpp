@@ -298,7 +298,7 @@ void expect_volumes(const std::vector<Moving>& all, double plantaris) {
   for (const Moving& m : all) {
     if (is_tendon(m) || m.cut) continue;
     const double more = m.surface.mesh.name.starts_with("plantaris") ? plantaris : 0;
-    EXPECT_LT(worst(m).volume, (m.crosses ? 0.10 : 0.03) + more) << m.label;
+    EXPECT_LT(worst(m).volume, (m.crosses ? 0.10 : 0.035) + more) << m.label;
   }
 }
 

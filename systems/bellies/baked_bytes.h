@@ -1,13 +1,15 @@
 #pragma once
-// Writes numbers and arrays to bytes and reads them back.
+// Writes numbers and arrays to bytes and reads them back. Baked bytes begin with a header: magic, maker, length, seal.
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include <mobil/engine/error.h>
 #include <mobil/engine/interrupt.h>
 #include "engine/snapshot_bytes.h"
 
@@ -80,5 +82,12 @@ class BakeReader {
   ByteReader in_;
   bool sound_ = true;
 };
+
+/// Returns the contents behind a header. The maker is a hash of everything that determines their bits.
+std::vector<std::byte> sealed(const BakeWriter& contents, std::uint64_t magic, std::uint64_t maker);
+/// Returns the contents of sealed bytes. `what`, for messages, is "bellies" or "skins". Errors: bytes of another kind,
+/// cut or altered bytes, those of another maker.
+Result<std::span<const std::byte>> opened(std::span<const std::byte> baked, std::uint64_t magic,
+                                          std::uint64_t (*maker)(), std::string_view what);
 
 }  // namespace mobil::inline v0_3

@@ -1,8 +1,7 @@
-// Contents of a library as bytes: header (magic, maker, length, seal), then counts, templates, solvers, bases. A
+// Contents of a library as baked bytes (baked_bytes.h): counts, templates, solvers, bases. A
 // template stores only the tables that are expensive to compute, solvers and bases only their arrays. The lengths of
 // these arrays follow from the choice, so an altered length cannot mislead the reader.
 #include <algorithm>
-#include <cstring>
 
 #include "assets/fem/solver_arrays.h"
 #include "assets/reduction/basis_arrays.h"
@@ -16,7 +15,6 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint64_t magic = 0x346b626c69626f6d;  // "mobilbk4", little-endian
-constexpr std::size_t header_bytes = 32;
 constexpr double any_tick_s = 1;  // a choice without its own step is in range at any tick
 
 void write(BakeWriter& out, Muscle muscle, const LegMuscles& choice) {
@@ -148,12 +146,6 @@ ModalBasis read_basis(BakeReader& in, const Cells& cells, ModalBasisOptions opti
   return std::move(*basis);
 }
 
-std::uint64_t number_at(std::span<const std::byte> bytes, std::size_t word) {
-  std::uint64_t number = 0;
-  std::memcpy(&number, bytes.data() + 8 * word, sizeof number);
-  return number;
-}
-
 }  // namespace
 
 /// Returns a hash of everything that determines the bits of a file: the muscles' meshes, and the results for a small
@@ -199,7 +191,6 @@ std::uint64_t BellyLibrary::find_maker() {
 
 std::vector<std::byte> BellyLibrary::bake() const {
   BakeWriter out;
-  for (std::size_t word = 0; word < header_bytes / 8; ++word) out.put(std::uint64_t{0});
   for (const std::size_t count : {templates_.size(), solvers_.size(), bases_.size()})
     out.put(static_cast<std::uint32_t>(count));
   for (const auto& made : templates_) {
@@ -220,22 +211,13 @@ std::vector<std::byte> BellyLibrary::bake() const {
     out.put(static_cast<std::uint32_t>(made.cut.size()));
     for (const auto& cut : made.cut) write(out, *cut);
   }
-  const std::uint64_t header[] = {magic, maker(), out.bytes.size(),
-                                  hash_bytes(out.bytes.data() + header_bytes, out.bytes.size() - header_bytes)};
-  static_assert(sizeof header == header_bytes);
-  std::memcpy(out.bytes.data(), header, sizeof header);
-  return std::move(out.bytes);
+  return sealed(out, magic, maker());
 }
 
 Result<BellyLibrary::Loaded> BellyLibrary::read(std::span<const std::byte> baked) const {
-  if (baked.size() < header_bytes || number_at(baked, 0) != magic)
-    return fail("these are no baked bellies; give what `bake` made");
-  const auto rest = baked.subspan(header_bytes);
-  if (number_at(baked, 2) != baked.size() || number_at(baked, 3) != hash_bytes(rest.data(), rest.size()))
-    return fail("the baked bellies were cut or altered; bake them again");
-  if (number_at(baked, 1) != maker())
-    return fail("these bellies were baked by another version, or on another kind of processor; bake them again");
-  BakeReader in(rest);
+  const auto contents = opened(baked, magic, &BellyLibrary::maker, "bellies");
+  if (!contents) return tl::unexpected(contents.error());
+  BakeReader in(*contents);
   Loaded loaded;
   const auto templates = in.take<std::uint32_t>(), solvers = in.take<std::uint32_t>(), bases = in.take<std::uint32_t>();
   for (std::uint32_t i = 0; i < templates && in.sound(); ++i) {

@@ -1,7 +1,6 @@
-// Shared meshes and skins as bytes: header (magic, maker, length, seal), meshes of men and women, fits, skins.
+// Shared meshes and skins as baked bytes (systems/bellies/baked_bytes.h): meshes of men and women, fits, skins.
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -18,7 +17,6 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::uint64_t magic = 0x31736b6c69626f6d;  // "mobilks1", little-endian
-constexpr std::size_t header_bytes = 32;
 constexpr std::array sexes = {Sex::man, Sex::woman};
 
 /// The finest meshes are most of the bytes and seldom needed.
@@ -148,12 +146,6 @@ std::uint64_t find_maker() {
   return hash_bytes(out.bytes.data(), out.bytes.size());
 }
 
-std::uint64_t number_at(std::span<const std::byte> bytes, std::size_t word) {
-  std::uint64_t number = 0;
-  std::memcpy(&number, bytes.data() + 8 * word, sizeof number);
-  return number;
-}
-
 }  // namespace
 
 void BodySkins::prepare(const std::function<void(std::size_t made, std::size_t all)>& progress) {
@@ -161,7 +153,7 @@ void BodySkins::prepare(const std::function<void(std::size_t made, std::size_t a
   constexpr std::array details = {SkinDetail::near, SkinDetail::far, SkinDetail::distant};
   std::vector<std::pair<BodyRequest, SkinDetail>> wanted;
   for (const Sex sex : sexes) {
-    for (float index = lowest; index <= highest; index += 1.5F) {
+    for (float index = lowest; index <= highest; index += index_step) {
       BodyRequest body = skin_body(sex);
       body.mass_kg = index * body.height_m * body.height_m;
       for (const SkinDetail detail : details) wanted.emplace_back(body, detail);
@@ -175,7 +167,6 @@ void BodySkins::prepare(const std::function<void(std::size_t made, std::size_t a
 
 std::vector<std::byte> BodySkins::bake() const {
   BakeWriter out;
-  for (std::size_t word = 0; word < header_bytes / 8; ++word) out.put(std::uint64_t{0});
   out.put(static_cast<std::uint32_t>(dress_.dressed ? 1 : 0));
   const bool any_hero =
       std::ranges::any_of(skin_, [](const auto& one) { return std::get<1>(one.first) == SkinDetail::hero; });
@@ -204,22 +195,13 @@ std::vector<std::byte> BodySkins::bake() const {
     for (const auto* const grid : {&skin->leg.base, &skin->leg.fat})
       for (const float number : *grid) out.put(number);
   }
-  const std::uint64_t header[] = {magic, find_maker(), out.bytes.size(),
-                                  hash_bytes(out.bytes.data() + header_bytes, out.bytes.size() - header_bytes)};
-  static_assert(sizeof header == header_bytes);
-  std::memcpy(out.bytes.data(), header, sizeof header);
-  return std::move(out.bytes);
+  return sealed(out, magic, find_maker());
 }
 
 Result<void> BodySkins::load(std::span<const std::byte> baked) {
-  if (baked.size() < header_bytes || number_at(baked, 0) != magic)
-    return fail("these are no baked skins; give what `bake` made");
-  const auto rest = baked.subspan(header_bytes);
-  if (number_at(baked, 2) != baked.size() || number_at(baked, 3) != hash_bytes(rest.data(), rest.size()))
-    return fail("the baked skins were cut or altered; bake them again");
-  if (number_at(baked, 1) != find_maker())
-    return fail("these skins were baked by another version, or on another kind of processor; bake them again");
-  BakeReader in(rest);
+  const auto contents = opened(baked, magic, &find_maker, "skins");
+  if (!contents) return tl::unexpected(contents.error());
+  BakeReader in(*contents);
   if ((in.take_up_to(1) != 0) != dress_.dressed) return fail("these skins have other clothes; bake them again");
   const std::size_t finest = first_detail(in.take_up_to(1) != 0);
   std::array<std::array<SkinMesh, skin_details>, sexes.size()> meshes;

@@ -18,8 +18,6 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr float index_step = 1.5F;  // kg/m², between builds with a skin of their own
-
 Result<void> check_skin(const World& world, const SkinRequest& request) {
   if (request.shape.skin == nullptr) return fail("no skin; BodySkins::of gives one");
   const std::size_t vertices = request.shape.skin->rest.size(), bytes = sizeof(Vec3<float>);

@@ -27,7 +27,7 @@ def _target(target: Any, person: People, out: npt.NDArray[np.float32], flexing: 
 
 
 def bake_skins(world: World) -> bytes:
-    """Returns the skins of usual builds as bytes for load_skins, made in some 20 s."""
+    """Returns the skins of usual builds as bytes for load_skins, made in some 10 s."""
     size = ffi.new("size_t*")
     world._do(lib.mobil_bake_skins(world._sim, ffi.NULL, 0, size))
     out = bytearray(size[0])
@@ -110,7 +110,6 @@ class Skin:
             targets[i].detail, targets[i].sex = self.detail, self.sex
         world._do(lib.mobil_write_skin(world._sim, targets, 0, people.size))
         return out
-
 
     def binding(self, world: World, person: People) -> Binding:
         """Returns the skin of a person of this sex as joints and weights, for people of similar build."""

@@ -1,5 +1,5 @@
-/* Skin, clothes and hair as triangles, custom skins, and contact of muscles. The last two are not in WebAssembly. A part
- * of mobil.h, which includes it. Since interface 2; custom skins and contact since 3. */
+/* Skin, clothes and hair as triangles, custom skins, and contact of muscles. The last two are not in WebAssembly. A
+ * part of mobil.h, which includes it. Since interface 2; custom skins and contact since 3. */
 #ifndef MOBIL_SKIN_H
 #define MOBIL_SKIN_H
 
@@ -54,10 +54,10 @@ typedef struct mobil_skin_target {
  * (1.5 kg/m2) 0.25 to 0.5 s. */
 MOBIL_API int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count);
 
-/* Makes the skins of usual builds in some 20 s, and writes them with the shared meshes (some 17 MB) to `out`, if `room`
+/* Makes the skins of usual builds in some 10 s, and writes them with the shared meshes (some 10 MB) to `out`, if `room`
  * is enough; `bytes` (can be null) receives their number. Since interface 4. */
 MOBIL_API int mobil_bake_skins(mobil_sim* sim, void* out, size_t room, size_t* bytes);
-/* Loads the bytes of mobil_bake_skins in some 10 ms. The first skins of a program then take no time. Bytes of another
+/* Loads the bytes of mobil_bake_skins in 5 to 50 ms. The first skins of a program then take no time. Bytes of another
  * version, or cut or altered ones, are refused and change nothing. Since interface 4. */
 MOBIL_API int mobil_load_skins(mobil_sim* sim, const void* baked, size_t bytes);
 

@@ -150,6 +150,18 @@ int muscle_number(Line& line, int muscle, Muscle& out) {
   return one_of(line, muscle, static_cast<Muscle>(muscles().size() - 1), "muscle", out);
 }
 
+namespace {
+
+/// Returns a struct of zeros with its size.
+template <class S>
+S sized() {
+  S made{};
+  made.size = sizeof made;
+  return made;
+}
+
+}  // namespace
+
 template <>
 mobil_options usual() {
   const SimulationOptions as;
@@ -173,9 +185,7 @@ mobil_person usual() {
 
 template <>
 mobil_walk usual() {
-  mobil_walk walk{};
-  walk.size = sizeof walk;
-  return walk;
+  return sized<mobil_walk>();
 }
 
 template <>
@@ -232,9 +242,7 @@ mobil_muscles usual() {
 
 template <>
 mobil_pose_layout usual() {
-  mobil_pose_layout layout{};
-  layout.size = sizeof layout;
-  return layout;
+  return sized<mobil_pose_layout>();
 }
 
 template <>
@@ -266,8 +274,7 @@ mobil_lod_options usual() {
 
 template <>
 mobil_lod_counts usual() {
-  mobil_lod_counts chosen{};
-  chosen.size = sizeof chosen;
+  auto chosen = sized<mobil_lod_counts>();
   chosen.factor = 1;
   chosen.machine = 1;
   return chosen;
@@ -287,36 +294,29 @@ mobil_surface_choice usual() {
 
 template <>
 mobil_surface_target usual() {
-  mobil_surface_target target{};
-  target.size = sizeof target;
-  return target;
+  return sized<mobil_surface_target>();
 }
 template <>
 mobil_skin_target usual() {
-  mobil_skin_target target{};
-  target.size = sizeof target;
+  auto target = sized<mobil_skin_target>();
   target.detail = MOBIL_NEAR;
   target.sex = -1;
   return target;
 }
 template <>
 mobil_segment usual() {
-  mobil_segment segment{};
-  segment.size = sizeof segment;
-  return segment;
+  return sized<mobil_segment>();
 }
 template <>
 mobil_skin_binding usual() {
-  mobil_skin_binding binding{};
-  binding.size = sizeof binding;
+  auto binding = sized<mobil_skin_binding>();
   binding.detail = MOBIL_NEAR;
   binding.sex = -1;
   return binding;
 }
 template <>
 mobil_leg_mesh usual() {
-  mobil_leg_mesh mesh{};
-  mesh.size = sizeof mesh;
+  auto mesh = sized<mobil_leg_mesh>();
   mesh.detail = MOBIL_NEAR;
   return mesh;
 }
@@ -328,9 +328,7 @@ mobil_avoidance_options usual() {
 }
 template <>
 mobil_avoidance_counts usual() {
-  mobil_avoidance_counts steered{};
-  steered.size = sizeof steered;
-  return steered;
+  return sized<mobil_avoidance_counts>();
 }
 template <>
 mobil_terrain_counts usual() {

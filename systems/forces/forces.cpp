@@ -285,11 +285,14 @@ HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMo
   put_free_moments(size, motion, out);
 }
 
+HWY_INLINE Wide mass_of_rod(const BodySize<Lanes<float>>& size, const forces::Rod& rod) {
+  return load(size.mass_kg) * fma(load(size.extra_fat), wide(rod.mass_per_extra_fat), wide(rod.mass));
+}
+
 /// Computes hip, knee and ankle moments of one leg, from the foot up.
 HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                               const Support& ground, std::size_t side, Wide* hip_knee_ankle) {
   const Plane plane = {load(motion.facing_x), load(motion.facing_z)};
-  const Wide mass = load(size.mass_kg);
   Flat at[leg_points], push[leg_points];  // positions, and accelerations minus gravity
   for (std::size_t p = 0; p < leg_points; ++p) {
     const std::size_t i = leg_point(side, static_cast<LegPoint>(p));
@@ -297,9 +300,7 @@ HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMoti
     push[p] = plane.of(load(motion.acceleration[i]));
     push[p].up = push[p].up + wide(forces::gravity);
   }
-  auto mass_of = [&](const forces::Rod& rod) {
-    return mass * fma(load(size.extra_fat), wide(rod.mass_per_extra_fat), wide(rod.mass));
-  };
+  const auto mass_of = [&](const forces::Rod& rod) { return mass_of_rod(size, rod); };
   // Rate of angular momentum of a rod: mass · gyration² · (rod × difference of its ends' accelerations).
   auto spin = [&](const forces::Rod& rod, std::size_t upper, std::size_t lower) {
     return mass_of(rod) * wide(rod.gyration * rod.gyration) * moment(at[lower] - at[upper], push[lower] - push[upper]);
@@ -325,7 +326,7 @@ HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMoti
 /// Returns the whole moment of the pelvis on the leg at the hip, by the same rods in three dimensions.
 HWY_NOINLINE WideVec hip_moment(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                                 const Support& ground, std::size_t side) {
-  const Wide mass = load(size.mass_kg), zero = wide(0.0F);
+  const Wide zero = wide(0.0F);
   WideVec at[leg_points], push[leg_points];  // positions, and accelerations minus gravity
   for (std::size_t p = 0; p < leg_points; ++p) {
     const std::size_t i = leg_point(side, static_cast<LegPoint>(p));
@@ -333,9 +334,7 @@ HWY_NOINLINE WideVec hip_moment(const BodySize<Lanes<float>>& size, const BodyMo
     push[p] = load(motion.acceleration[i]);
     push[p].y = push[p].y + wide(forces::gravity);
   }
-  auto mass_of = [&](const forces::Rod& rod) {
-    return mass * fma(load(size.extra_fat), wide(rod.mass_per_extra_fat), wide(rod.mass));
-  };
+  const auto mass_of = [&](const forces::Rod& rod) { return mass_of_rod(size, rod); };
   const WideVec hip = at[hip_point];
   const WideVec none = {zero, zero, zero};
   WideVec moment = cross(at[foot_centre_point] - hip, fma(mass_of(forces::foot), push[foot_centre_point], none)) -

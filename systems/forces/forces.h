@@ -20,10 +20,10 @@ namespace mobil::inline v0_3 {
 /// in double support is the fitted one. Each foot's force leans fore-aft and sideways toward one point above the body.
 /// The horizontal force still missing is shared like the vertical force, so the sum is exactly the total. In double
 /// support the feet push apart as in the fitted walk. FREE MOMENT. The moment about the vertical that the forces lack is
-/// shared in proportion to the feet's loads, up to 0.05 N m/N. MOMENTS. They are about the horizontal axis through the joint,
-/// perpendicular to the mean facing of the two thighs. The hip's frontal and transverse moments are about that facing
-/// and the vertical. Thigh with kneecap, shank, and foot with toes have Winter's
-/// radii of gyration. Thigh, shank, and the foot from ankle to ball are slender rods.
+/// shared in proportion to the feet's loads, up to 0.05 N m/N. MOMENTS. They are about the horizontal axis through the
+/// joint, perpendicular to the mean facing of the two thighs. The hip's frontal and transverse moments are about that
+/// facing and the vertical. Thigh with kneecap, shank, and foot with toes have Winter's radii of gyration. Thigh, shank,
+/// and the foot from ankle to ball are slender rods.
 ///
 /// `footing` is the ground under the feet, on which the centres of pressure are placed. It is null on level ground.
 void joint_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,

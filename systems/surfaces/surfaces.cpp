@@ -140,7 +140,8 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
     draw_out(driver, longer_m, node);
   } else {
     for (std::size_t w = 0; w < 3 * std::size_t{packed.nodes}; ++w) node[w] = muscle.node[w * lane_count];
-    for (std::size_t n = 0; n < driver.nodes; ++n) node[3 * n + 2] += muscle.longer_m * driver.along[n];
+    for (std::size_t n = 0; muscle.longer_m != 0 && n < driver.nodes; ++n)
+      node[3 * n + 2] += muscle.longer_m * driver.along[n];
   }
   const SurfaceRest& rest = packed.rest;
   SurfaceScale scale;
@@ -197,7 +198,7 @@ Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& re
       const auto owner = world.get<MuscleOwner>(own->entity[side]);
       line.line.word = lane_of<LineOfAction>(world, own->entity[side]);
       line.pull.word = lane_of<Musculotendon>(world, own->entity[side]);
-      line.scale.word = lane_of<LegScale>(world, own->entity[side]);
+      if (request.ahead_s > 0) line.scale.word = lane_of<LegScale>(world, own->entity[side]);
       if (!owner || line.line.word == nullptr)
         return fail(fmt::format("{} is not there (a stale handle)", name), Status::stale_entity);
       if (owner->index != request.person.index || owner->generation != request.person.generation || owner->side != side)

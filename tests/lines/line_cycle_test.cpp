@@ -13,6 +13,7 @@
 #include <mobil/each.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
+#include "assets/body/column.h"
 #include "tests/files/reference_data.h"
 #include "tests/lines/leg_block.h"
 #include "tests/muscles/find_member.h"
@@ -49,8 +50,9 @@ double normalised_length(const Curve& curve, const LegAngles& angles) {
   return sum / static_cast<double>(curve.members.size());
 }
 
-LegAngles angles_of(const TableRow& row) {
-  return {row("hip_flexion_deg"), row("knee_flexion_deg"), row("ankle_dorsiflexion_deg")};
+/// Returns a row's angles for a hip that is measured from a pelvis tilted by `tilt_deg`.
+LegAngles angles_of(const TableRow& row, double tilt_deg) {
+  return {row("hip_flexion_deg") - tilt_deg, row("knee_flexion_deg"), row("ankle_dorsiflexion_deg")};
 }
 
 /// Returns the rows of a table that belong to one walk.
@@ -63,14 +65,15 @@ std::vector<TableRow> rows_of(const std::vector<TableRow>& table, std::string_vi
 }
 
 void expect_to_fit(const std::vector<Curve>& curves, const std::vector<TableRow>& lengths,
-                   const std::vector<TableRow>& angles, const std::string& walk, std::string_view suffix) {
+                   const std::vector<TableRow>& angles, const std::string& walk, std::string_view suffix,
+                   double tilt_deg) {
   ASSERT_GE(lengths.size(), 51U) << walk;
   ASSERT_EQ(lengths.size(), angles.size()) << walk;
   for (const Curve& curve : curves) {
     Fit fit;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       ASSERT_EQ(lengths[i]("percent_gait"), angles[i]("percent_gait"));
-      fit.add(normalised_length(curve, angles_of(angles[i])), lengths[i](curve.name + std::string(suffix)));
+      fit.add(normalised_length(curve, angles_of(angles[i], tilt_deg)), lengths[i](curve.name + std::string(suffix)));
     }
     EXPECT_LT(fit.rms(), 0.005) << curve.name << " of " << walk;
     EXPECT_GT(fit.correlation(), 0.995) << curve.name << " of " << walk;
@@ -82,7 +85,7 @@ TEST(LineCycle, LengthsOnPublishedAnglesMatch) {
              angles = read_table(test::reference_table("schwartz2008_angles.csv").value());
   for (const std::string speed : {"slow", "free", "fast"}) {
     expect_to_fit(group_curves, rows_of(lengths, "curve", "schwartz_" + speed), rows_of(angles, "speed_class", speed),
-                  "schwartz_" + speed, "");
+                  "schwartz_" + speed, "", neutral_tilt / test::degree);
   }
 }
 
@@ -105,7 +108,7 @@ TEST(LineCycle, LengthsMatchOnEveryPublishedWalk) {
                            {"subject01", "trial_subject01_walk.csv", "", ""}}) {
     expect_to_fit(curves, rows_of(lengths, "curve", walk.curve),
                   rows_of(read_table(test::reference_table(walk.file).value()), walk.column, walk.name), walk.curve,
-                  "_norm");
+                  "_norm", 0);
   }
 }
 
@@ -157,9 +160,7 @@ LegMuscles only(const std::vector<std::string_view>& names) {
 // (soleus, gastrocnemius, tibialis anterior) and, at the highest speed, the hip's (hamstrings, rectus femoris). With
 // the measured angle of that one joint the lengths agree as well as the paths do.
 TEST(LineCycle, SimulatedWalkLengthensMusclesAsMeasured) {
-  constexpr double neutral_tilt_deg = 11.5;
-  const auto lengths = read_table(test::reference_table("muscle_lengths.csv").value()),
-             angles = read_table(test::reference_table("schwartz2008_angles.csv").value());
+  const auto lengths = read_table(test::reference_table("muscle_lengths.csv").value());
   const std::map<std::string, double> speeds = {{"slow", 0.2902}, {"free", 0.4294}, {"fast", 0.5599}};
   std::vector<std::string_view> members;
   for (const Curve& curve : group_curves) members.insert(members.end(), curve.members.begin(), curve.members.end());
@@ -181,18 +182,12 @@ TEST(LineCycle, SimulatedWalkLengthensMusclesAsMeasured) {
   for (const Walker& walker : walkers) {
     ASSERT_TRUE(walker.done());
     const auto curve = rows_of(lengths, "curve", "schwartz_" + walker.speed);
-    const auto measured = rows_of(angles, "speed_class", walker.speed);
     for (std::size_t c = 0; c < group_curves.size(); ++c) {
       const std::string& name = group_curves[c].name;
       Fit fit;
       int inside = 0;
       for (std::size_t i = 0; i < walker.cycle.size(); ++i) {
-        // The published lengths are of the laboratory's pelvis, tilted where the model's is level.
-        const LegAngles tilted = angles_of(measured[i]);
-        LegAngles level = tilted;
-        level.hip_deg -= neutral_tilt_deg;
-        const double turned = normalised_length(group_curves[c], level) - normalised_length(group_curves[c], tilted);
-        fit.add(walker.cycle[i][c], curve[i](name) + turned);
+        fit.add(walker.cycle[i][c], curve[i](name));
         if (std::abs(fit.ours.back() - fit.published.back()) <= curve[i](name + "_sd")) ++inside;
       }
       const std::string whose = name + ' ' + walker.speed + ' ' + std::to_string(walker.body.height_m);

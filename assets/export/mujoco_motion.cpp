@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <string>
 
@@ -173,19 +172,18 @@ Result<void> write_mujoco_motion(const std::filesystem::path& path, const Body& 
   if (auto ok = check_mujoco(path, body, recording); !ok) return ok;
   const bool forces = recording.ground.size() == recording.frames.size();
   std::string text = motion_header(mujoco_state(recording, 0), forces);
-  auto out = std::back_inserter(text);
   for (std::size_t f = 0; f < recording.frames.size(); ++f) {
     const MujocoState state = mujoco_state(recording, f);
-    fmt::format_to(out, "{:.6f}", recording.start_s + static_cast<double>(f) * recording.frame_s);
-    for (const double q : state.qpos) fmt::format_to(out, ",{:.9g}", q);
-    for (const double v : state.qvel) fmt::format_to(out, ",{:.7g}", v);
-    for (const double a : state.qacc) fmt::format_to(out, ",{:.7g}", a);
+    text += fmt::format("{:.6f}", recording.start_s + static_cast<double>(f) * recording.frame_s);
+    for (const double q : state.qpos) text += fmt::format(",{:.9g}", q);
+    for (const double v : state.qvel) text += fmt::format(",{:.7g}", v);
+    for (const double a : state.qacc) text += fmt::format(",{:.7g}", a);
     if (forces) {
       for (const std::size_t side : {0U, 1U}) {
         const GroundReaction<float>& ground = recording.ground[f];
         for (const Vec3<float>& v : {ground.force_n[side], ground.centre_m[side]})
-          fmt::format_to(out, ",{:.9g},{:.9g},{:.9g}", v.x, v.y, v.z);
-        fmt::format_to(out, ",{:.7g}", ground.free_moment_nm[side]);
+          text += fmt::format(",{:.9g},{:.9g},{:.9g}", v.x, v.y, v.z);
+        text += fmt::format(",{:.7g}", ground.free_moment_nm[side]);
       }
     }
     text += '\n';

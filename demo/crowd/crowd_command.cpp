@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 
+#include <mobil/assets/export/recorded_axes.h>
 #include <mobil/assets/export/root_motion.h>
 #include <mobil/assets/files/output_file.h>
 #include <mobil/local_transport.h>
@@ -70,6 +71,7 @@ Result<void> export_crowd(const CrowdOptions& options, CrowdScene& scene) {
   if (options.in_place) put_in_place(*recording);
   for (RecordedPerson& person : recording->people)
     if (!options.in_place && !options.root_motion) person.root.clear();
+  if (options.z_back) put_z_back(*recording);
   return write_crowd_exports(*recording, options.exports);
 }
 

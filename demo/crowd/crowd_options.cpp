@@ -53,11 +53,14 @@ Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options, Op
   options.export_s = read(read_value("--export-seconds", with_unit(text.export_seconds, "s"), Quantity::time, 0.1, 60));
   options.root_motion = text.root_motion;
   options.in_place = text.in_place;
+  options.z_back = text.axes == z_back_axes;
   if (text.root_motion && text.in_place) return fail("--root-motion and --in-place exclude each other; remove one");
   if (text.exports.empty()) {
-    if (text.root_motion || text.in_place)
-      return fail(fmt::format("--{}: is for exports; add --export FILE.glb, or remove it",
-                              text.in_place ? "in-place" : "root-motion"));
+    if (text.root_motion || text.in_place || options.z_back)
+      return fail(fmt::format("{}: is for exports; add --export FILE.glb, or remove it",
+                              text.in_place      ? "--in-place"
+                              : text.root_motion ? "--root-motion"
+                                                 : "--axes"));
     return {};
   }
   options.exports.assign(text.exports.begin(), text.exports.end());
@@ -213,7 +216,8 @@ std::vector<Option> crowd_options(CrowdText& text) {
        {"--export-seconds", &text.export_seconds, "Duration of the scene, 0.1s to 60s, 30 poses per second",
         of_results},
        {"--root-motion", &text.root_motion, "Animate people's ways on their roots in exported scenes", of_results},
-       {"--in-place", &text.in_place, "Keep each person of an exported scene where they begin", of_results}},
+       {"--in-place", &text.in_place, "Keep each person of an exported scene where they begin", of_results},
+       axes_option(text.axes, of_results)},
       text);
 }
 

@@ -5,6 +5,7 @@
 
 #include <mobil/cluster.h>
 #include "demo/crowd/alive_scene.h"
+#include "demo/program/file_axes.h"
 #include "demo/program/options.h"
 
 namespace mobil {
@@ -16,7 +17,7 @@ struct CrowdOptions {
   std::size_t frames = 0;                 // pictures in a folder; 0: one file
   std::vector<std::filesystem::path> exports;
   double export_s = 2;
-  bool root_motion = false, in_place = false;  // of exports
+  bool root_motion = false, in_place = false, z_back = false;  // of exports
   bool raise = false;
   std::optional<AliveRequest> alive{};  // for `mobil city`, instead of `crowd`
   /// True for a city, several shards or ranks, or a saved run, which `run_city` runs instead of one scene.
@@ -31,6 +32,7 @@ struct CrowdText {
   std::string people = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
   std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0", baked;
   std::string alive, in_view = "10000", export_seconds = "2";
+  std::string axes = usual_axes;
   std::string shards, save, save_every = "10", resume, silence = "60", balance_every = "0";
   std::vector<std::string> exports;
   bool all_seen = false, raise = false, root_motion = false, in_place = false;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <mobil/anthropometry.h>
+#include <mobil/assets/export/recorded_axes.h>
 #include <mobil/assets/export/root_motion.h>
 #include <mobil/systems/gait/resolve_gait.h>
 
@@ -107,6 +108,7 @@ WalkFiles walk_files(WalkRecording pictures, WalkRecording ticks, const WalkOpti
     if (options.way == WalkWay::in_place) put_in_place(*one);
     if (options.way == WalkWay::pelvis) one->root.clear();
   }
+  if (options.z_back) put_z_back(files.pictures);
   if (options.skin && !options.skin_anatomy) files.dressed = without_anatomy(files.pictures);
   return files;
 }

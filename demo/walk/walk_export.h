@@ -31,7 +31,8 @@ Result<void> close_walk(WalkRecording& recording);
 /// Records where a skin is drawn in each frame, over the muscles. The recording's surfaces are those of `skin`.
 void record_drawn_skin(DrawnSkin skin, WalkRecording& recording);
 
-/// Recordings as the options want them in files: without the way for --in-place, with roots for --root-motion.
+/// Recordings as the options want them in files: without the way for --in-place, with roots for --root-motion, pictures
+/// in the axes of --axes.
 struct WalkFiles {
   WalkRecording pictures, ticks;
   std::optional<WalkRecording> dressed;  // for formats with skins, if they do not have bones and muscles as well

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include <mobil/assets/export/recorded_axes.h>
 #include <mobil/bvh_writer.h>
 #include <mobil/gl_writer.h>
 #include <mobil/gltf_writer.h>
@@ -54,7 +55,7 @@ Result<MuscleSet> read_muscles(const std::string& text) {
 }  // namespace
 
 const char* const walk_exports_help =
-    "Formats of --export, by the file's ending (lengths in m, +Y up, walking toward +Z; details are in\n"
+    "Formats of --export, by the file's ending (lengths in m, +Y up, walking toward +Z or as --axes; details are in\n"
     "assets/export/README.md):\n"
     "  .glb   glTF, as walk.glb: 48 joints, bones, muscles as morph targets, or with --skin a skin alone; for\n"
     "         engines, Blender, browsers\n"
@@ -102,7 +103,7 @@ std::string motion_file(const WalkExport& model) {
 }
 
 Result<void> write_export(const WalkExport& wanted, const Body& body, const WalkRecording& pictures,
-                          const WalkRecording& skinned, const WalkRecording& ticks,
+                          const WalkRecording& skinned, const WalkRecording& ticks, bool z_back,
                           const std::filesystem::path& folder) {
   const auto file = folder / wanted.file;
   switch (wanted.format) {
@@ -110,8 +111,12 @@ Result<void> write_export(const WalkExport& wanted, const Body& body, const Walk
       const auto written = write_glb(file, skinned);
       return written ? Result<void>{} : tl::unexpected(written.error());
     }
-    case WalkFormat::bvh:
-      return write_bvh(file, ticks);
+    case WalkFormat::bvh: {
+      if (!z_back) return write_bvh(file, ticks);
+      WalkRecording turned = ticks;
+      put_z_back(turned);
+      return write_bvh(file, turned);
+    }
     case WalkFormat::mot:
       return write_opensim_motion(file, ticks);
     case WalkFormat::sto:
@@ -207,6 +212,7 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--export", &text.exports, "Also write the walk as NAME.bvh, .usda, .mot …, see below; repeat for more"},
       {"--root-motion", &text.root_motion, "Animate the way on the root, with the pelvis relative to it (.glb, .usda)"},
       {"--in-place", &text.in_place, "Write the walk without its way, on the spot"},
+      axes_option(text.axes),
       {"--out", &text.out, "Folder for the results, created if missing"}};
   options.insert(options.end(), own.begin(), own.end());
   return options;
@@ -223,6 +229,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.skin_anatomy = text.skin_anatomy;
   options.fat = text.fat;
   options.contact = text.contact;
+  options.z_back = text.axes == z_back_axes;
 
   OptionReader read;
   options.exports = read(read_exports(text.exports));

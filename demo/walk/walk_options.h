@@ -6,6 +6,7 @@
 #include <mobil/assets/export/walk_recording.h>
 #include <mobil/components/leg_muscles.h>
 #include "demo/program/body_options.h"
+#include "demo/program/file_axes.h"
 #include "demo/program/options.h"
 #include "demo/walk/walk_ground.h"
 #include "demo/walk/walk_script.h"
@@ -30,9 +31,10 @@ bool needs_velocities(const WalkExport& wanted);
 std::string motion_file(const WalkExport& model);
 
 /// Writes one file into `folder`, for .xml also its motion. `ticks`: poses of every tick, and forces if there are any.
-/// `pictures`: with surfaces. `skinned`: pictures for formats with skins.
+/// `pictures`: with surfaces. `skinned`: pictures for formats with skins. `z_back`: these are turned (put_z_back), and
+/// ticks are turned here for formats without axes of their own.
 Result<void> write_export(const WalkExport& wanted, const Body& body, const WalkRecording& pictures,
-                          const WalkRecording& skinned, const WalkRecording& ticks,
+                          const WalkRecording& skinned, const WalkRecording& ticks, bool z_back,
                           const std::filesystem::path& folder);
 
 /// Part of --help about export formats.
@@ -59,6 +61,7 @@ struct WalkOptions {
   std::filesystem::path out = "out";
   std::vector<WalkExport> exports;
   WalkWay way = WalkWay::pelvis;
+  bool z_back = false;  // of exports
   double eye_distance_m = 0.063;
 };
 
@@ -70,7 +73,7 @@ struct WalkText {
               activation = "none", anatomy, view = "surface", out = "out";
   std::string eye_distance = "63mm";
   std::vector<std::string> set, exports;
-  std::string script, ground = "level", cycle;
+  std::string script, ground = "level", cycle, axes = usual_axes;
   bool list_parameters = false, scale_speed = false, no_forces = false, single_muscles = false, tuned = false,
        inertia = false;
   bool skin = false, skin_anatomy = false, fat = false, contact = false, frames = false, video = false, stereo = false,

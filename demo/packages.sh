@@ -10,7 +10,7 @@ build_packages="$walk_packages $crowd_packages $rivals_packages"
 test_packages="libassimp-dev libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
   python3-numpy python3-cffi python3-venv python3-yaml xvfb xauth"
 cluster_packages="libopenmpi-dev openmpi-bin"
-hosts_packages="blender libogre-1.12-dev xvfb xauth"  # programs of tests/hosts
+hosts_packages="blender libogre-1.12-dev godot3 xvfb xauth"  # programs of tests/hosts
 # Documents as pages and the reference (demo/site/run); the spelling checker, which its test uses if installed.
 site_packages="python3 doxygen cmark-gfm"
 spelling_packages="codespell"

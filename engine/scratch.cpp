@@ -16,7 +16,7 @@ ScratchPool::~ScratchPool() {
 void ScratchPool::clear() {
   for (Buffer* buffer = first_.load(); buffer != nullptr;) {
     Buffer* next = buffer->next;
-    memory_->deallocate(buffer->data, floats_ * sizeof(float), alignment);
+    if (buffer->data != nullptr) memory_->deallocate(buffer->data, floats_ * sizeof(float), alignment);
     buffer->~Buffer();
     memory_->deallocate(buffer, sizeof(Buffer), alignof(Buffer));
     buffer = next;
@@ -38,7 +38,8 @@ ScratchPool::Buffer* ScratchPool::add(bool taken) {
   void* place = memory_->allocate(sizeof(Buffer), alignof(Buffer));
   auto* buffer = new (place) Buffer;
   try {
-    buffer->data = static_cast<float*>(memory_->allocate(floats_ * sizeof(float), alignment));
+    // jemalloc 5.3 loses track of its memory after an aligned request of no bytes.
+    if (floats_ > 0) buffer->data = static_cast<float*>(memory_->allocate(floats_ * sizeof(float), alignment));
   } catch (...) {
     memory_->deallocate(place, sizeof(Buffer), alignof(Buffer));
     throw;

@@ -200,6 +200,7 @@ struct Scarce {
   std::map<void*, std::size_t> pieces;
 
   static void* allocate(void* user, std::size_t bytes, std::size_t alignment) {
+    EXPECT_GT(bytes, 0U);
     auto& self = *static_cast<Scarce*>(user);
     if (++self.asked == self.fails_at) return nullptr;
     void* const memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);

@@ -77,6 +77,16 @@ TEST(ScratchPool, GrowsOnRequestAndNeverShrinks) {
   EXPECT_EQ(ScratchLease(nullptr).data(), nullptr);
 }
 
+TEST(ScratchPool, WithoutFloatsMakesNoEmptyRequest) {
+  CountingMemory memory;
+  ScratchPool pool(&memory);
+  pool.prepare(0, 2);
+  EXPECT_EQ(pool.count(), 2U);
+  EXPECT_EQ(ScratchLease(&pool).data(), nullptr);
+  pool.prepare(8, 1);
+  EXPECT_NE(ScratchLease(&pool).data(), nullptr);
+}
+
 TEST(ScratchPool, AFailedGrowthLeavesItUsable) {
   CountingMemory memory;
   ScratchPool pool(&memory);

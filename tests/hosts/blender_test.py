@@ -213,6 +213,14 @@ def roots_turn_and_stay():
 
 
 @test
+def bones_and_skins_again_and_again():
+    fresh()  # Blender's heap is jemalloc, which takes sizes of freed memory at their word
+    for asked in PEOPLE[:2] * 3:
+        of = made(**asked, length="SECONDS", seconds=0.3, bones=True, surface_detail=0.3)
+        expect(part(of, "bones") and part(of, "skin"), "bones or skin is missing")
+
+
+@test
 def muscles_are_the_librarys():
     fresh()
     asked = PEOPLE[0]

@@ -42,6 +42,27 @@ apt_install() {
   apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
 }
 
+# debian_source PACKAGE: prints the folder with a Debian package's sources, which it downloads through apt the first time.
+debian_source() {
+  local folder="$PWD/build/sources/$1" apt
+  if [ ! -d "$folder" ]; then
+    rm -rf "$folder.part"
+    need xz-utils >&2
+    mkdir -p "$folder.part/lists"
+    cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | sed -n 's/^deb /deb-src /p' >"$folder.part/all.list"
+    for file in /etc/apt/sources.list.d/*.sources; do
+      [ ! -f "$file" ] || sed 's/^Types:.*/Types: deb-src/' "$file" >"$folder.part/$(basename "$file")"
+    done
+    apt=(-q -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$folder.part" -o "Dir::State::Lists=$folder.part/lists"
+      -o "APT::Sandbox::User=$(id -un)")
+    quietly "download sources of $1" apt-get "${apt[@]}" update >&2
+    (cd "$folder.part" && apt-get "${apt[@]}" --download-only source "$1" >&2)
+    tar xf "$folder.part/$1"_*.orig.tar.* -C "$folder.part" --strip-components=1
+    mv "$folder.part" "$folder"
+  fi
+  echo "$folder"
+}
+
 # step_of LOG: prints the progress of ninja, ctest or apt from its log, such as "37 of 112"; empty for other commands.
 step_of() {
   awk '/^\[[0-9]+\/[0-9]+\]/ { split($1, n, /[][\/]/); step = n[2] " of " n[3] }

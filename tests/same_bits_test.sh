@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Compares this machine with the hashes of tests/portable/hashes.txt, which ARM and browsers share (tests/portable/run).
+# Compares this machine with the hashes of tests/portable: hashes.txt, which ARM and browsers share, and skins.txt, which
+# Windows shares (tests/portable/run).
 # Usage: same_bits_test.sh BUILD_FOLDER SOURCE_FOLDER. Exit status 77: skipped.
 set -euo pipefail
 if [ -r /proc/cpuinfo ] && [ "$(uname -m)" = x86_64 ] && ! grep -qw fma /proc/cpuinfo; then
@@ -8,6 +9,8 @@ if [ -r /proc/cpuinfo ] && [ "$(uname -m)" = x86_64 ] && ! grep -qw fma /proc/cp
 fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-cc -std=c89 -Wall -Wextra -pedantic -Werror -ffp-contract=off -I"$2/systems/c/include" "$2/tests/portable/hashes.c" -o "$scratch/hashes" \
-  -L"$1" -lmobil -Wl,-rpath,"$1"
-"$scratch/hashes" | diff "$2/tests/portable/hashes.txt" -
+for of in hashes skins; do
+  cc -std=c89 -Wall -Wextra -pedantic -Werror -ffp-contract=off -I"$2/systems/c/include" "$2/tests/portable/$of.c" -o "$scratch/$of" \
+    -L"$1" -lmobil -Wl,-rpath,"$1"
+  "$scratch/$of" | diff "$2/tests/portable/$of.txt" -
+done

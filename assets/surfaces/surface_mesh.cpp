@@ -1,6 +1,9 @@
 #include "assets/surfaces/surface_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include <mobil/engine/geometry.h>
@@ -28,6 +31,29 @@ void drop_unused(SurfaceMesh& mesh) {
   }
   mesh.position.resize(kept);
   for (auto& v : mesh.triangle) v = moved[v];
+}
+
+void drop_fins(std::vector<std::uint32_t>& triangle) {
+  using Corners = std::array<std::uint32_t, 3>;
+  std::multimap<Corners, std::size_t> unpaired;  // by their corners from the smallest on: their first index
+  std::vector<bool> is_fin(triangle.size());
+  for (std::size_t t = 0; t < triangle.size(); t += 3) {
+    Corners corners{triangle[t], triangle[t + 1], triangle[t + 2]};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    const auto back = unpaired.find({corners[0], corners[2], corners[1]});
+    if (back == unpaired.end()) {
+      unpaired.emplace(corners, t);
+      continue;
+    }
+    is_fin[t] = is_fin[back->second] = true;
+    unpaired.erase(back);
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangle.size(); t += 3) {
+    if (is_fin[t]) continue;
+    for (std::size_t corner = 0; corner < 3; ++corner) triangle[kept++] = triangle[t + corner];
+  }
+  triangle.resize(kept);
 }
 
 void scale(SurfaceMesh& mesh, double factor) {

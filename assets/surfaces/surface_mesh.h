@@ -14,6 +14,10 @@ void append(SurfaceMesh& mesh, const SurfaceMesh& part);
 /// Removes the vertices that no triangle uses; the others keep their order.
 void drop_unused(SurfaceMesh& mesh);
 
+/// Removes pairs of triangles on the same three vertices that face each other's backs. The other triangles keep their
+/// order.
+void drop_fins(std::vector<std::uint32_t>& triangle);
+
 /// Multiplies every position by `factor` (positive).
 void scale(SurfaceMesh& mesh, double factor);
 

@@ -18,6 +18,10 @@ def main(out: pathlib.Path, libraries: list[pathlib.Path]) -> None:
     files = {path.name: path for path in sorted((HERE / "mobil_blender").glob("*.py"))}
     files |= {"README.md": HERE / "README.md", "LICENSE": ROOT / "LICENSE", "lib/mobil.h": HEADER / "mobil.h"}
     files |= {f"lib/c/{path.name}": path for path in sorted((HEADER / "c").glob("*.h"))}
+    for name in ("fmt", "hwy", "eigen3", "expected", "meshoptimizer"):  # compiled into the library
+        terms = pathlib.Path(f"/usr/share/doc/lib{name}-dev/copyright")
+        if terms.is_file():
+            files[f"licenses/{name}.txt"] = terms
     for path in libraries:
         kind = next((name for suffix, name in NAMES.items() if suffix in path.suffixes), None)
         if kind is None or not path.is_file():

@@ -1,7 +1,8 @@
 """Builds the wheel (PEP 517, named in pyproject.toml) with CMake and the standard library alone.
 
 The wheel holds libmobil.so without other libraries (MOBIL_SELF_CONTAINED). Its tag states the oldest glibc that has all
-symbols of the library. MOBIL_LIBRARY names a library that is built already, and CMAKE_ARGS has options for CMake.
+symbols of the library. MOBIL_LIBRARY names a library that is built already, and CMAKE_ARGS has options for CMake:
+-DMOBIL_MESHOPTIMIZER=FOLDER for skins and surfaces at medium distance.
 """
 
 from __future__ import annotations
@@ -26,8 +27,10 @@ BUILD = ROOT / "build" / "wheel"
 ALLOWED = re.compile(r"lib(c|m|pthread|dl|rt|stdc\+\+|gcc_s)\.so\.\d+|ld-linux.*\.so\.\d+")
 GLIBC_OF_GLIBCXX = [(19, 17), (22, 24), (24, 28), (28, 31), (29, 34), (30, 35), (32, 38), (33, 39)]
 
-# Packages whose headers are compiled into the library.
+# Packages that are compiled into the library.
 COMPILED_IN = {"fmt": "libfmt-dev", "highway": "libhwy-dev", "eigen": "libeigen3-dev", "expected": "libexpected-dev"}
+if "MOBIL_MESHOPTIMIZER" in os.environ.get("CMAKE_ARGS", ""):
+    COMPILED_IN["meshoptimizer"] = "libmeshoptimizer-dev"
 
 
 def version() -> str:

@@ -22,6 +22,7 @@
 #include <mobil/systems/muscles/person.h>
 #include <mobil/systems/surfaces/place_skin.h>
 #include "assets/surfaces/bone_surfaces.h"
+#include "assets/surfaces/surface_mesh.h"
 #include "tests/labels.h"
 #include "tests/refused.h"
 #include "tests/surfaces/skin_placed.h"
@@ -79,6 +80,9 @@ TEST(Skin, IsClosedAndBoundEverywhere) {
       EXPECT_EQ(open, 0U);
       EXPECT_LE(long_ones, edge.size() / 1000);
       EXPECT_EQ(mesh.first_triangle[skin_parts], mesh.triangle.size() / 3);
+      std::vector<std::uint32_t> without = mesh.triangle;
+      drop_fins(without);
+      EXPECT_EQ(without, mesh.triangle);
       EXPECT_TRUE(std::ranges::is_sorted(mesh.first_triangle));
       for (const SkinVertex& vertex : mesh.vertex) {
         float sum = 0;
@@ -89,6 +93,18 @@ TEST(Skin, IsClosedAndBoundEverywhere) {
         ASSERT_NEAR(sum, 1, 1e-5F);
       }
     }
+  }
+}
+
+TEST(SurfaceMesh, FinsAreDropped) {
+  // A tetrahedron, a fin on three of its vertices, one twice, and a triangle that is there twice but is no fin.
+  const std::vector<std::uint32_t> kept = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 4, 5, 6, 4, 5, 6};
+  const std::vector<std::array<std::uint32_t, 3>> fins = {{7, 1, 2}, {2, 1, 7}, {3, 7, 8}, {3, 8, 7}, {8, 3, 7}, {8, 7, 3}};
+  for (std::size_t place = 0; place <= kept.size(); place += 3) {
+    std::vector<std::uint32_t> mesh = kept;
+    for (const auto& fin : fins) mesh.insert(mesh.begin() + static_cast<std::ptrdiff_t>(place), fin.begin(), fin.end());
+    drop_fins(mesh);
+    EXPECT_EQ(mesh, kept) << place;
   }
 }
 

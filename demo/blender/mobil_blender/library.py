@@ -293,24 +293,16 @@ class World:
         single = np.zeros(lib.mobil_skin_vertex_count(*of), np.intp)
         single[arrays["same_as"]] = np.arange(count)
         triangles = corners.reshape(-1, 3)
-        kept = _without_fins(triangles)
-        texture = arrays["texture"][arrays["indices"]].reshape(-1, 3, 2)[kept]
+        texture = arrays["texture"][arrays["indices"]].reshape(-1, 3, 2)
         return Binding(
             axes.places(arrays["positions"][single]),
             axes.places(arrays["normals"][single]),
-            triangles[kept],
+            triangles,
             np.stack((texture[..., 0], 1 - texture[..., 1]), -1),
             arrays["joints"][single],
             arrays["weights"][single],
-            np.repeat(np.arange(len(PARTS)), np.diff(first))[kept],
+            np.repeat(np.arange(len(PARTS)), np.diff(first)),
         )
-
-
-def _without_fins(triangles: np.ndarray) -> np.ndarray:
-    """Returns true for triangles without an opposite one on the same vertices. Coarse skins have a few such pairs, and
-    Blender would remove one of each, which leaves a hole."""
-    _, same, count = np.unique(np.sort(triangles, axis=1), axis=0, return_inverse=True, return_counts=True)
-    return count[same.ravel()] == 1
 
 
 class Surfaces:

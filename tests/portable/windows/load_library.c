@@ -1,5 +1,5 @@
 /* A host on Windows that loads mobil.dll at run time, as engines and scripting languages do. Prints the state's hash,
- * the number of threads' results that agree, and the triangles of the skins. */
+ * which is the same for any number of threads. */
 #include <stdio.h>
 #include <windows.h>
 
@@ -16,7 +16,7 @@ int main(void) {
   mobil_person person[40];
   mobil_id id[40];
   unsigned int hash[2], first[2] = {0, 0};
-  int threads, i, detail;
+  int threads, i;
   if (library == NULL) return 1;
   {
     GET(mobil_defaults, int, (int, void*, size_t));
@@ -26,7 +26,6 @@ int main(void) {
     GET(mobil_tick, int, (mobil_sim*, unsigned int));
     GET(mobil_hash, int, (mobil_sim*, unsigned int*));
     GET(mobil_destroy, void, (mobil_sim*));
-    GET(mobil_skin_index_count, size_t, (int, int));
     for (threads = 1; threads <= 4; ++threads) {
       mobil_sim* sim = NULL;
       mobil_defaults_(MOBIL_OPTIONS, &options, sizeof options);
@@ -42,8 +41,6 @@ int main(void) {
       mobil_destroy_(sim);
     }
     printf("hash %08x%08x\n", first[1], first[0]);
-    for (detail = MOBIL_NEAR; detail <= MOBIL_DISTANT; ++detail)
-      printf("skin %d: %u triangles\n", detail, (unsigned int)mobil_skin_index_count_(MOBIL_MAN, detail) / 3);
   }
   FreeLibrary(library);
   return 0;

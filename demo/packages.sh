@@ -19,7 +19,7 @@ spelling_packages="codespell"
 web_packages="cmake ninja-build clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32
   wasi-libc libeigen3-dev libhwy-dev libexpected-dev libfmt-dev"
 arm_packages="g++-aarch64-linux-gnu qemu-user"
-windows_packages="g++-mingw-w64-x86-64-posix wine64 clang lld llvm"
+windows_packages="g++-mingw-w64-x86-64-posix wine64 clang lld llvm googletest"
 
 # need PACKAGE…: installs missing packages through apt; for a user other than root, prints the command to run and fails.
 need() {

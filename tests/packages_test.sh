@@ -32,7 +32,7 @@ for path in sorted(pathlib.Path(".github/workflows").glob("*.yml")):
         for step in job["steps"]:
             command = step.get("run", "")
             commands += command != ""
-            for script in re.findall(r"(?:^|\s)((?:\.ci|tests|demo)/[\w/]+)", command):
+            for script in re.findall(r"(?:^|\s)((?:\.ci|tests|demo)/[\w/]+)(?![\w.])", command):
                 assert pathlib.Path(script).stat().st_mode & 0o111, (path, script)
             for stage in re.findall(r"tests/run (\w+)", command):
                 assert stage in stages, (path, stage)

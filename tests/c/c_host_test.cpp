@@ -203,7 +203,11 @@ struct Scarce {
     EXPECT_GT(bytes, 0U);
     auto& self = *static_cast<Scarce*>(user);
     if (++self.asked == self.fails_at) return nullptr;
+#if defined(_WIN32)
+    void* const memory = _aligned_malloc(bytes, alignment);
+#else
     void* const memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+#endif
     self.pieces[memory] = bytes;
     return memory;
   }
@@ -212,7 +216,11 @@ struct Scarce {
     const auto piece = self.pieces.find(memory);
     EXPECT_TRUE(piece != self.pieces.end() && piece->second == bytes);
     if (piece != self.pieces.end()) self.pieces.erase(piece);
+#if defined(_WIN32)
+    _aligned_free(memory);
+#else
     std::free(memory);
+#endif
   }
 };
 

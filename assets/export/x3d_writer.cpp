@@ -57,14 +57,15 @@ struct MovingScene {
   }
 };
 
-/// `name` is that of the coordinates, if they move.
-void add_shape(MovingScene& scene, const Vec3<float>& colour, const std::vector<Vec3<float>>& position,
-               const std::vector<std::uint32_t>& triangle, const std::string& name) {
+/// Importers name objects after the Shape. `name` is that of the coordinates, if they move.
+void add_shape(MovingScene& scene, const std::string& shape, const Vec3<float>& colour,
+               const std::vector<Vec3<float>>& position, const std::vector<std::uint32_t>& triangle,
+               const std::string& name) {
   SceneText& text = scene.text;
   const auto shown = [](float linear) {  // these formats' colours are those of screens
     return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
   };
-  text.open("Shape");
+  text.open("Shape", scene.names.take(identifier(shape + "_surface")));
   text.open("Appearance", {}, "appearance");
   text.open("Material", {}, "material");
   text.field("diffuseColor", fmt::format("{:.4f} {:.4f} {:.4f}", shown(colour.x), shown(colour.y), shown(colour.z)));
@@ -104,7 +105,8 @@ void add_segment(MovingScene& scene, const WalkRecording& recording, const Skele
     scene.move(name, "rotation", "OrientationInterpolator", std::move(values));
   }
   for (const auto& bone : recording.bones) {
-    if (index(bone.segment) == s) add_shape(scene, ivory_colour, bone.mesh.position, bone.mesh.triangle, {});
+    if (index(bone.segment) == s)
+      add_shape(scene, bone.mesh.name, ivory_colour, bone.mesh.position, bone.mesh.triangle, {});
   }
   for (std::size_t child = s + 1; child < segment_count; ++child) {
     if (index(segment_parent[child]) == s) add_segment(scene, recording, skeleton, child);
@@ -146,7 +148,7 @@ std::string x3d_text(const WalkRecording& recording, SceneNotation notation) {
     const std::string name = scene.names.take(identifier(muscle.name));
     scene.text.open("Transform", name);
     const std::string coordinates = scene.names.take(name + "_coordinates");
-    add_shape(scene, muscle.colour, muscle.position_m.front(), muscle.triangle, coordinates);
+    add_shape(scene, muscle.name, muscle.colour, muscle.position_m.front(), muscle.triangle, coordinates);
     scene.text.close();
     if (scene.frames == 1) continue;
     std::string values;

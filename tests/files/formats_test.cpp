@@ -164,6 +164,13 @@ TEST(Formats, VrmlAndX3dKeepJointsBonesAndMuscles) {
     ASSERT_TRUE(write_x3d(place.path / name, walk, notation));
     expect_python_joints("joints", place.path / name, walk.frames);
     expect_python_surfaces(place.path / name, walk);
+    std::ifstream in(place.path / name);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string shape = notation == SceneNotation::x3d ? "<Shape DEF='" : " Shape {";
+    std::size_t named = 0;
+    for (std::size_t at = text.find(shape); at != text.npos; at = text.find(shape, at + 1))
+      named += notation == SceneNotation::x3d || text.rfind("DEF ", at) > text.rfind('\n', at) ? 1 : 0;
+    EXPECT_EQ(named, walk.bones.size() + walk.muscles.size()) << name;
   }
 }
 

@@ -43,22 +43,24 @@ apt_install() {
 }
 
 # debian_source PACKAGE: prints the folder with a Debian package's sources, which it downloads through apt the first time.
+# Call it in an assignment of its own, sources=$(debian_source NAME), so that a failure ends the script.
 debian_source() {
-  local folder="$PWD/build/sources/$1" apt
+  local folder="$PWD/build/sources/$1" part="$PWD/build/sources/$1.part" file apt
   if [ ! -d "$folder" ]; then
-    rm -rf "$folder.part"
-    need xz-utils >&2
-    mkdir -p "$folder.part/lists"
-    cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | sed -n 's/^deb /deb-src /p' >"$folder.part/all.list"
+    need xz-utils >&2 || return 1
+    rm -rf "$part"
+    mkdir -p "$part/lists" || return 1
+    cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | grep -v cdrom: |
+      sed -n 's/^[[:space:]]*deb[[:space:]]/deb-src /p' >"$part/all.list"
     for file in /etc/apt/sources.list.d/*.sources; do
-      [ ! -f "$file" ] || sed 's/^Types:.*/Types: deb-src/' "$file" >"$folder.part/$(basename "$file")"
+      [ ! -f "$file" ] || sed 's/^Types:.*/Types: deb-src/' "$file" >"$part/$(basename "$file")" || return 1
     done
-    apt=(-q -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$folder.part" -o "Dir::State::Lists=$folder.part/lists"
+    apt=(-q -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$part" -o "Dir::State::Lists=$part/lists"
       -o "APT::Sandbox::User=$(id -un)")
-    quietly "download sources of $1" apt-get "${apt[@]}" update >&2
-    (cd "$folder.part" && apt-get "${apt[@]}" --download-only source "$1" >&2)
-    tar xf "$folder.part/$1"_*.orig.tar.* -C "$folder.part" --strip-components=1
-    mv "$folder.part" "$folder"
+    quietly "find sources of $1" apt-get "${apt[@]}" update >&2 || return 1
+    (cd "$part" && apt-get "${apt[@]}" --download-only source "$1") >&2 || return 1
+    tar xf "$part/$1"_*.orig.tar.?z -C "$part" --strip-components=1 || return 1
+    mv "$part" "$folder" || return 1
   fi
   echo "$folder"
 }

@@ -7,12 +7,13 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-void append_texture(std::span<const Vec3<float>> position, FigurePiece& piece) {
-  const std::vector<TexturePlace> places = folded_places(position);
+void append_texture(std::span<const Vec3<float>> position, bool z_back, FigurePiece& piece) {
+  const std::vector<TexturePlace> places = recorded_texture(position, z_back);
   piece.texture.insert(piece.texture.end(), places.begin(), places.end());
 }
 
-Result<void> append_bone(const BoneSurface& surface, const Eigen::Vector3d& standing_m, FigurePiece& piece) {
+Result<void> append_bone(const BoneSurface& surface, const Eigen::Vector3d& standing_m, bool z_back,
+                         FigurePiece& piece) {
   const auto& mesh = surface.mesh;
   const Eigen::Matrix3Xd exact = columns_of(mesh.position);
   const auto triangle = triangles_with_area(exact, mesh.triangle);
@@ -20,7 +21,7 @@ Result<void> append_bone(const BoneSurface& surface, const Eigen::Vector3d& stan
     return fail(fmt::format("surface '{}': none of its triangles has an area; leave it out", mesh.name));
   const auto first = static_cast<std::uint32_t>(piece.position.size());
   for (const auto corner : triangle) piece.triangle.push_back(first + corner);
-  append_texture(mesh.position, piece);
+  append_texture(mesh.position, z_back, piece);
   piece.joint.insert(piece.joint.end(), mesh.position.size(), {static_cast<std::uint8_t>(surface.segment), 0, 0, 0});
   piece.weight.insert(piece.weight.end(), mesh.position.size(), {1, 0, 0, 0});
   for (const auto& column : exact.colwise()) {
@@ -30,11 +31,11 @@ Result<void> append_bone(const BoneSurface& surface, const Eigen::Vector3d& stan
   return {};
 }
 
-void append_skin(const SkinnedSurface& surface, FigurePiece& piece) {
+void append_skin(const SkinnedSurface& surface, bool z_back, FigurePiece& piece) {
   const auto first = static_cast<std::uint32_t>(piece.position.size());
   for (const auto corner : surface.triangle) piece.triangle.push_back(first + corner);
   if (surface.texture.empty()) {
-    append_texture(surface.position, piece);
+    append_texture(surface.position, z_back, piece);
   } else {
     for (const auto& [right, down] : surface.texture) piece.texture.push_back({right, down});
     piece.tangent.insert(piece.tangent.end(), surface.tangent.begin(), surface.tangent.end());
@@ -51,6 +52,13 @@ void append_skin(const SkinnedSurface& surface, FigurePiece& piece) {
 }
 
 }  // namespace
+
+std::vector<TexturePlace> recorded_texture(std::span<const Vec3<float>> position, bool z_back) {
+  if (!z_back) return folded_places(position);
+  std::vector<Vec3<float>> unturned(position.begin(), position.end());
+  for (Vec3<float>& p : unturned) p = {-p.x, p.y, -p.z};
+  return folded_places(unturned);
+}
 
 void set_normals(FigurePiece& piece) {
   piece.normal.clear();
@@ -83,13 +91,14 @@ Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const S
     for (std::size_t i = 0; i < figure.surfaces.size(); ++i) {
       if (figure.cloth_of(i) != cloth) continue;
       piece.name = "bones";
-      auto added = append_bone(figure.surfaces[i], standing[index(figure.surfaces[i].segment)], piece);
+      const BoneSurface& surface = figure.surfaces[i];
+      auto added = append_bone(surface, standing[index(surface.segment)], figure.z_back, piece);
       if (!added) return tl::unexpected(added.error());
     }
     for (const SkinnedSurface& surface : figure.skin) {
       if (surface.cloth != cloth) continue;
       if (piece.name.empty()) piece.name = surface.name;
-      append_skin(surface, piece);
+      append_skin(surface, figure.z_back, piece);
     }
     if (piece.triangle.empty()) continue;
     if (piece.tangent.size() != piece.position.size()) {  // a part of it has no atlas

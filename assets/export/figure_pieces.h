@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct FigurePiece {
   bool rigid = true;                              // each vertex follows only its first joint
   bool atlas = false;                             // texture is of one
 };
+
+/// Returns the folded texture places of a surface, which are the same in a recording that put_z_back has turned.
+std::vector<TexturePlace> recorded_texture(std::span<const Vec3<float>> position, bool z_back);
 
 /// Sets the normals of a piece from its triangles.
 void set_normals(FigurePiece& piece);

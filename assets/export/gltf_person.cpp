@@ -292,7 +292,8 @@ void add_figure(GltfScene& scene, const GltfFigure& figure, const SeenPerson& pe
 
 /// Adds the shape without targets round the segment's place at rest, with texture places.
 tinygltf::Primitive standing_muscle(GltfDraft& draft, const MorphedSurface& surface, Segment segment,
-                                    const Eigen::Vector3d& rest_m, const std::vector<std::uint32_t>& triangle) {
+                                    const Eigen::Vector3d& rest_m, const std::vector<std::uint32_t>& triangle,
+                                    bool z_back) {
   const auto vertices = static_cast<std::size_t>(surface.position.cols());
   std::vector<Vec3<float>> own(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -300,19 +301,20 @@ tinygltf::Primitive standing_muscle(GltfDraft& draft, const MorphedSurface& surf
     own[v] = {column.x(), column.y(), column.z()};
   }
   const Eigen::Matrix3Xf standing = (surface.position.cast<double>().colwise() + rest_m).cast<float>();
-  return primitive(draft, standing, surface.normal, folded_places(own),
+  return primitive(draft, standing, surface.normal, recorded_texture(own, z_back),
                    {vertices, {static_cast<std::uint8_t>(segment), 0, 0, 0}}, {vertices, {1, 0, 0, 0}}, triangle);
 }
 
 void add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const MuscleShapes& shapes, const StandingPlaces& rest,
-                int skin, const std::string& prefix, bool loops, const ExportOptions& options,
+                int skin, const std::string& prefix, const SeenPerson& person, const ExportOptions& options,
                 MuscleFidelity& fidelity) {
   GltfDraft& draft = scene.draft;
   const MorphedSurface& surface = shapes.surface;
   fidelity = {prefix + muscle.name, number_of(surface.target.size()), surface.max_error_m, surface.rms_error_m};
 
   tinygltf::Mesh mesh;
-  auto shape = standing_muscle(draft, surface, muscle.segment, rest[index(muscle.segment)], shapes.triangle);
+  auto shape = standing_muscle(draft, surface, muscle.segment, rest[index(muscle.segment)], shapes.triangle,
+                               person.z_back);
   shape.material = material(scene, "muscle", muscle.colour, 0.5);
   for (const auto& target : surface.target) {
     auto& attributes = shape.targets.emplace_back();
@@ -321,7 +323,7 @@ void add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const MuscleShap
   }
   mesh.primitives.push_back(std::move(shape));
   const int node = add_skinned_node(scene, prefix + muscle.name, std::move(mesh), skin);
-  animate_weights(scene, node, surface.weight, loops);
+  animate_weights(scene, node, surface.weight, person.loops);
 }
 
 }  // namespace
@@ -351,7 +353,7 @@ Result<void> add_person(GltfScene& scene, const SeenPerson& person, const SeenFi
   const bool scaled = person.scale.x != 1 || person.scale.y != 1 || person.scale.z != 1;
   const int own = scaled ? add_skin(scene, rest, {1, 1, 1}, first, person.name + "_muscles") : skin;
   for (std::size_t m = 0; m < person.muscles.size(); ++m)
-    add_muscle(scene, person.muscles[m], (*muscles)[m], rest, own, prefix, person.loops, options,
+    add_muscle(scene, person.muscles[m], (*muscles)[m], rest, own, prefix, person, options,
                report.muscles.emplace_back());
   return {};
 }

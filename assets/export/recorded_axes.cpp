@@ -50,6 +50,7 @@ void turn_roots(std::vector<RecordedRoot>& roots) {
 }  // namespace
 
 void put_z_back(WalkRecording& recording) {
+  recording.z_back = !recording.z_back;
   turn_each(recording.frames);
   for (auto& around : recording.around) turn_each(around);
   turn_bones(recording.bones);
@@ -62,6 +63,7 @@ void put_z_back(WalkRecording& recording) {
 }
 
 void put_z_back(CrowdRecording& recording) {
+  recording.z_back = !recording.z_back;
   for (RecordedFigure& figure : recording.figures) {
     turn_bones(figure.surfaces);
     turn_each(figure.skin);

@@ -24,7 +24,7 @@ RecordedPeople recorded_people(const WalkRecording& recording) {
   RecordedPeople seen;
   seen.frame_s = recording.frame_s;
   seen.is_walk = true;
-  seen.figures.push_back({recording.bones, {}, recording.skin, recording.standing_m});
+  seen.figures.push_back({recording.bones, {}, recording.skin, recording.standing_m, recording.z_back});
   seen.people.push_back({recording.name,
                          0,
                          {1, 1, 1},
@@ -33,7 +33,8 @@ RecordedPeople recorded_people(const WalkRecording& recording) {
                          recording.muscles,
                          recording.root,
                          facts_of(recording),
-                         recording.loops});
+                         recording.loops,
+                         recording.z_back});
   return seen;
 }
 
@@ -41,10 +42,10 @@ RecordedPeople recorded_people(const CrowdRecording& recording) {
   RecordedPeople seen;
   seen.frame_s = recording.frame_s;
   for (const RecordedFigure& figure : recording.figures)
-    seen.figures.push_back({figure.surfaces, figure.cloth, figure.skin, figure.standing_m});
+    seen.figures.push_back({figure.surfaces, figure.cloth, figure.skin, figure.standing_m, recording.z_back});
   for (const RecordedPerson& person : recording.people) {
     seen.people.push_back({person.name, person.figure, person.scale, person.colours, &person.frames, person.muscles,
-                           person.root, facts_of(person)});
+                           person.root, facts_of(person), false, recording.z_back});
   }
   return seen;
 }

@@ -18,6 +18,7 @@ struct SeenFigure {
   std::span<const std::size_t> cloth;  // as in RecordedFigure
   std::span<const SkinnedSurface> skin;
   std::span<const Vec3<float>> standing_m;
+  bool z_back = false;
   std::size_t cloth_of(std::size_t surface) const { return cloth.empty() ? 0 : cloth[surface]; }
   /// Returns true if the recording has a rest pose.
   bool has_standing() const { return standing_m[index(Segment::head)].y != standing_m[index(Segment::foot_right)].y; }
@@ -34,7 +35,7 @@ struct SeenPerson {
   std::span<const RecordedMuscle> muscles;
   std::span<const RecordedRoot> root;
   const RecordedFacts* facts = nullptr;  // or null
-  bool loops = false;
+  bool loops = false, z_back = false;
   Vec3<float> colour(std::size_t cloth) const { return cloth < colours.size() ? colours[cloth] : ivory_colour; }
 };
 

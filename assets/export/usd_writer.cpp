@@ -198,7 +198,7 @@ void add_cloth(UsdText& usd, const FigurePiece& piece) {
            usd_matrix(Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()));
 }
 
-void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::string& name) {
+void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::string& name, bool z_back) {
   const std::size_t frames = muscle.position_m.size();
   usd.open("def Mesh", name);
   add_topology(usd, muscle.triangle);
@@ -208,7 +208,7 @@ void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::str
   add_samples(usd, "normal3f[] normals", frames,
               [&](std::size_t f) { return usd_normals(muscle.position_m[f], muscle.triangle); });
   add_samples(usd, "float3[] extent", frames, [&](std::size_t f) { return usd_extent(muscle.position_m[f]); });
-  usd.line("texCoord2f[] primvars:st = " + usd_texture(folded_places(muscle.position_m.front())) +
+  usd.line("texCoord2f[] primvars:st = " + usd_texture(recorded_texture(muscle.position_m.front(), z_back)) +
            " (interpolation = \"vertex\")");
   usd.line("color3f[] primvars:displayColor = " + usd_colour(muscle.colour));
   usd.close();
@@ -321,7 +321,7 @@ void add_usd_person(UsdScene& scene, const SeenPerson& person, const std::string
     UniqueNames names;
     usd.open("def Xform", "Muscles");
     for (const auto& muscle : person.muscles)
-      add_muscle_cache(usd, in_root(muscle, person.root), names.take(identifier(muscle.name)));
+      add_muscle_cache(usd, in_root(muscle, person.root), names.take(identifier(muscle.name)), person.z_back);
     usd.close();
   }
   usd.close();

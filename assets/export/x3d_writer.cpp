@@ -43,6 +43,7 @@ struct MovingScene {
   SceneText text;
   UniqueNames names{};
   std::size_t frames = 0;
+  std::array<std::string, segment_count> segment{};  // names of their Transforms
   std::vector<std::array<std::string, 3>> moved{};  // interpolator, node, its field
   struct Interpolator {
     std::string type, name, values;
@@ -87,7 +88,7 @@ void add_shape(MovingScene& scene, const std::string& shape, const Vec3<float>& 
 
 void add_segment(MovingScene& scene, const WalkRecording& recording, const SkeletonKeys& skeleton, std::size_t s) {
   const SegmentKeys& keys = skeleton.segment[s];
-  const std::string name = scene.names.take(std::string(segment_name[s]));
+  const std::string& name = scene.segment[s];
   scene.text.open("Transform", name);
   std::string place, turn;
   append_place(place, keys.translation_m.front());
@@ -143,9 +144,13 @@ std::string x3d_text(const WalkRecording& recording, SceneNotation notation) {
   MovingScene scene{.text = SceneText(notation, "walk")};
   scene.frames = recording.frames.size();
   scene.text.open("Transform", scene.names.take(identifier(recording.name)));
+  for (std::size_t s = 0; s < segment_count; ++s) scene.segment[s] = scene.names.take(std::string(segment_name[s]));
+  std::vector<std::string> muscle_names;  // of Transforms, before any Shape takes them
+  for (const auto& muscle : recording.muscles) muscle_names.push_back(scene.names.take(identifier(muscle.name)));
   add_segment(scene, recording, skeleton, 0);
-  for (const auto& muscle : recording.muscles) {
-    const std::string name = scene.names.take(identifier(muscle.name));
+  for (std::size_t m = 0; m < recording.muscles.size(); ++m) {
+    const RecordedMuscle& muscle = recording.muscles[m];
+    const std::string& name = muscle_names[m];
     scene.text.open("Transform", name);
     const std::string coordinates = scene.names.take(name + "_coordinates");
     add_shape(scene, muscle.name, muscle.colour, muscle.position_m.front(), muscle.triangle, coordinates);

@@ -217,7 +217,7 @@ std::vector<Option> crowd_options(CrowdText& text) {
         of_results},
        {"--root-motion", &text.root_motion, "Animate people's ways on their roots in exported scenes", of_results},
        {"--in-place", &text.in_place, "Keep each person of an exported scene where they begin", of_results},
-       axes_option(text.axes, of_results)},
+       axes_option(text.axes, "exported scenes", of_results)},
       text);
 }
 

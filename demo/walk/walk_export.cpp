@@ -31,6 +31,7 @@ WalkRecording without_anatomy(const WalkRecording& recording) {
   skin.root = recording.root;
   skin.facts = recording.facts;
   skin.loops = recording.loops;
+  skin.z_back = recording.z_back;
   return skin;
 }
 

@@ -212,7 +212,7 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--export", &text.exports, "Also write the walk as NAME.bvh, .usda, .mot …, see below; repeat for more"},
       {"--root-motion", &text.root_motion, "Animate the way on the root, with the pelvis relative to it (.glb, .usda)"},
       {"--in-place", &text.in_place, "Write the walk without its way, on the spot"},
-      axes_option(text.axes),
+      axes_option(text.axes, ".glb, .usda, .bvh, .x3d, .wrl and .gl"),
       {"--out", &text.out, "Folder for the results, created if missing"}};
   options.insert(options.end(), own.begin(), own.end());
   return options;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <span>
 #include <sstream>
@@ -47,6 +49,12 @@ void expect_half_turn(const Viewer& usual, const Viewer& turned, std::size_t key
       double worst = 0;
       for (std::size_t v = 0; v < a.size(); ++v) worst = std::max(worst, (half_turn(a[v]) - b[v]).norm());
       EXPECT_LT(worst, 2e-5) << name << " at " << key;
+      const auto texture = [part](const Viewer& viewer, std::size_t node) {
+        return viewer.floats(viewer.mesh_of(node).primitives[part].attributes.at("TEXCOORD_0"));
+      };
+      const auto u = texture(usual, n), w = texture(turned, other);
+      ASSERT_EQ(u.size(), w.size());
+      for (std::size_t i = 0; i < u.size(); ++i) ASSERT_NEAR(u[i], w[i], 2e-5F) << name;
       EXPECT_EQ(usual.indices(usual.mesh_of(n).primitives[part].indices),
                 turned.indices(turned.mesh_of(other).primitives[part].indices));
     }
@@ -126,6 +134,51 @@ TEST(FileAxes, BvhTurnsAndModelsKeepTheirAxes) {
     ASSERT_EQ(a[row].size(), axes.size());
     for (std::size_t i = 0; i < axes.size(); ++i)
       EXPECT_NEAR(b[row][i], axes[i] == 'Y' ? a[row][i] : -a[row][i], 2e-4) << row << " " << i;
+  }
+}
+
+/// Returns the numbers of a text.
+std::vector<double> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  for (const char* at = text.c_str(); *at != 0;) {
+    char* end = nullptr;
+    const double number = std::strtod(at, &end);
+    if (end == at) {
+      ++at;
+      continue;
+    }
+    numbers.push_back(number);
+    at = end;
+  }
+  return numbers;
+}
+
+/// Returns how many numbers differ in more than their signs. Those of a line are compared in any order, because the
+/// minimum of an extent becomes the maximum.
+std::size_t other_numbers(const std::string& usual, const std::string& turned) {
+  std::istringstream a(usual), b(turned);
+  std::size_t other = 0;
+  for (std::string x, y; std::getline(a, x) && std::getline(b, y);) {
+    auto m = numbers_of(x), n = numbers_of(y);
+    if (m.size() != n.size()) return usual.size();
+    for (auto* const numbers : {&m, &n}) {
+      for (double& number : *numbers) number = std::abs(number);
+      std::ranges::sort(*numbers);
+    }
+    for (std::size_t k = 0; k < m.size(); ++k) other += std::abs(m[k] - n[k]) > 2e-5 ? 1 : 0;
+  }
+  return other;
+}
+
+TEST(FileAxes, OtherFormatsChangeSignsOnly) {
+  const std::string walk =
+      "walk --quiet --muscles soleus --seconds 0.1 --export w.usda --export w.x3d --export w.wrl --out out";
+  const Written usual(walk), turned(walk + " --axes y_up_z_back");
+  for (const std::string file : {"w.usda", "w.x3d", "w.wrl"}) {
+    const std::string a = read_bytes(usual.folder.path / "out" / file),
+                      b = read_bytes(turned.folder.path / "out" / file);
+    EXPECT_NE(a, b);
+    EXPECT_EQ(other_numbers(a, b), 0U) << file;
   }
 }
 

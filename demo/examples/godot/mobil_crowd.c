@@ -1,7 +1,7 @@
 /* A crowd for Godot 3, as the NativeScript class MobilCrowd over libmobil.so. Poses are written into skeletons whose
  * bones are found by name; skins are arrays for ArrayMesh. All is in Godot's axes: y up, -z ahead.
  *
- *   cc -shared -fPIC demo/examples/godot/mobil_crowd.c -I<prefix>/include -L<prefix>/lib -lmobil -o libmobil_crowd.so
+ * README.md has the commands that build it.
  */
 #include "gdnative_1_0.h"
 
@@ -23,7 +23,7 @@ typedef struct transform {
   float turn[3][3], place[3];
 } transform;
 
-static void *find_bone, *get_bone_rest, *set_bone_pose; /* methods of Skeleton */
+static void *is_class, *find_bone, *get_bone_rest, *set_bone_pose; /* methods of Object and Skeleton */
 
 static bool ok(const crowd* self, int code, const char* function) {
   if (code == MOBIL_OK) return true;
@@ -36,6 +36,21 @@ static walker* walker_of(const crowd* self, const gd_variant* argument, const ch
   const int64_t number = gd_as_int(argument);
   if (number >= 0 && number < self->count) return &self->walkers[number];
   gd_error("no person has that number; use those that spawn returns", function);
+  return NULL;
+}
+
+/* Returns the skeleton in an argument, or null. Its methods are called by pointer, so no other object may pass. */
+static void* skeleton_of(const gd_variant* argument, const char* function) {
+  void* object = gd_has_method(argument, "set_bone_pose") ? gd_as_object(argument) : NULL;
+  int64_t is = 0;
+  if (object != NULL) {
+    gd_handle name = gd_string("Skeleton");
+    const void* by_name[] = {&name};
+    gd_call(is_class, object, by_name, &is);
+    gd_drop_string(&name);
+  }
+  if (is != 0) return object;
+  gd_error("the second argument is not a Skeleton", function);
   return NULL;
 }
 
@@ -53,7 +68,10 @@ static gd_variant spawn(crowd* self, gd_variant** a) {
   gd_as_place(a[4], person.place);
   person.heading_rad = (float)gd_as_real(a[5]);
   more = realloc(self->walkers, (size_t)(self->count + 1) * sizeof *more);
-  if (more == NULL) return gd_int(-1);
+  if (more == NULL) {
+    gd_error("out of memory", "spawn");
+    return gd_int(-1);
+  }
   self->walkers = more;
   if (!ok(self, mobil_spawn(self->sim, &person, 0, 1, NULL, &made.id), "spawn")) return gd_int(-1);
   more[self->count] = made;
@@ -97,13 +115,9 @@ static gd_variant rest(crowd* self, gd_variant** a) {
 /* bind(person, skeleton): finds the bones by name; returns how many. The rest of a bone must not be turned. */
 static gd_variant bind(crowd* self, gd_variant** a) {
   walker* of = walker_of(self, a[0], "bind");
-  void* skeleton = gd_as_object(a[1]);
+  void* skeleton = skeleton_of(a[1], "bind");
   int i, found = 0;
-  if (of == NULL) return gd_int(0);
-  if (!gd_has_method(a[1], "set_bone_pose")) {
-    gd_error("the second argument is not a Skeleton", "bind");
-    return gd_int(0);
-  }
+  if (of == NULL || skeleton == NULL) return gd_int(0);
   of->skeleton = skeleton;
   for (i = 0; i < MOBIL_SEGMENTS; ++i) {
     gd_handle name = gd_string(mobil_segment_name(i));
@@ -125,10 +139,10 @@ static gd_variant pose(crowd* self, gd_variant** a) {
   float rows[MOBIL_SEGMENTS][3][4];
   mobil_pose_layout layout;
   const walker* of = walker_of(self, a[0], "pose");
-  void* skeleton = gd_as_object(a[1]);
+  void* skeleton = skeleton_of(a[1], "pose");
   int i, row;
-  if (of == NULL) return gd_nil();
-  if (skeleton == NULL || skeleton != of->skeleton) {
+  if (of == NULL || skeleton == NULL) return gd_nil();
+  if (skeleton != of->skeleton) {
     gd_error("this is not the skeleton of bind()", "pose");
     return gd_nil();
   }
@@ -176,16 +190,17 @@ typedef struct skin_arrays {
 
 static bool make_arrays(skin_arrays* s, size_t vertices, size_t indices) {
   s->positions = calloc(12 * vertices, sizeof *s->positions);
+  s->joints = calloc(4 * vertices, 1);
+  s->bones = calloc(6 * vertices, sizeof *s->bones);
+  s->indices = calloc(indices, sizeof *s->indices);
+  s->index = calloc(indices, sizeof *s->index);
+  if (!s->positions || !s->joints || !s->bones || !s->indices || !s->index) return false;
   s->normals = s->positions + 3 * vertices;
   s->texture = s->normals + 3 * vertices;
   s->weights = s->texture + 2 * vertices;
-  s->joints = calloc(4 * vertices, 1);
-  s->bones = calloc(6 * vertices, sizeof *s->bones);
   s->order = s->bones + 4 * vertices;
   s->numbers = s->order + vertices;
-  s->indices = calloc(indices, sizeof *s->indices);
-  s->index = calloc(indices, sizeof *s->index);
-  return s->positions != NULL && s->joints != NULL && s->bones != NULL && s->indices != NULL && s->index != NULL;
+  return true;
 }
 
 static void drop_arrays(skin_arrays* s) {
@@ -254,6 +269,8 @@ static gd_variant skin(crowd* self, gd_variant** a) {
         surfaces[part] = surface(&s, binding.vertices, first[part], first[part + 1]);
       made = gd_array(surfaces, MOBIL_SKIN_PARTS);
     }
+  } else {
+    gd_error("out of memory", "skin");
   }
   drop_arrays(&s);
   return made;
@@ -316,6 +333,7 @@ EXPORTED void godot_nativescript_init(void* handle) {
   const gd_method_attributes plain = {0};
   size_t i;
   if (gd_script == NULL) return;
+  is_class = gd_find_method("Object", "is_class");
   find_bone = gd_find_method("Skeleton", "find_bone");
   get_bone_rest = gd_find_method("Skeleton", "get_bone_rest");
   set_bone_pose = gd_find_method("Skeleton", "set_bone_pose");

@@ -188,8 +188,7 @@ std::array<std::size_t, details.size()> update(const mobil::Simulation& simulati
 
 }  // namespace
 
-int main(int arguments, char** argument) {
-  const auto people = static_cast<std::size_t>(arguments > 1 ? std::atoi(argument[1]) : 24);
+void run(std::size_t people, const char* picture) {
   mobil::Simulation simulation;
   Ogre::LogManager log;
   log.createLog("", true, false, true);  // neither a file nor the console
@@ -227,5 +226,18 @@ int main(int arguments, char** argument) {
   std::printf("%zu people; in view %zu near, %zu far, %zu distant\n", people, in_view[0], in_view[1], in_view[2]);
   std::printf("ms a frame: ticks %.2f, skins %.2f, drawing %.1f\n", spent_ms[0] / frames, spent_ms[1] / frames,
               spent_ms[2] / frames);
-  if (arguments > 2) window->writeContentsToFile(argument[2]);
+  if (picture != nullptr) window->writeContentsToFile(picture);
+}
+
+int main(int arguments, char** argument) {
+  char* end = nullptr;
+  const long people = arguments > 1 ? std::strtol(argument[1], &end, 10) : 24;
+  if (people < 0 || people > 500 || (end != nullptr && (end == argument[1] || *end != 0)))
+    return std::fprintf(stderr, "ogre_host '%s': give a number of people, 0 to 500\n", argument[1]), 2;
+  try {
+    run(static_cast<std::size_t>(people), arguments > 2 ? argument[2] : nullptr);
+  } catch (const Ogre::Exception& error) {
+    return std::fprintf(stderr, "ogre_host: %s\n", error.getDescription().c_str()), 1;
+  }
+  return 0;
 }

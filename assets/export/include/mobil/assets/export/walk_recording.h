@@ -52,7 +52,8 @@ struct RecordedFigure {
   std::array<Vec3<float>, segment_count> standing_m{};  // as in WalkRecording; needed with a skin
 };
 
-/// A person's place on the ground and heading (Root, mobil/systems/poses/roots.h): rad about +Y, 0 toward +Z.
+/// A person's place on the ground and heading (Root, mobil/systems/poses/roots.h): rad about +Y, 0 toward +Z, or toward
+/// −Z in a recording that put_z_back has turned.
 struct RecordedRoot {
   double x_m = 0, z_m = 0;
   float heading_rad = 0;
@@ -83,7 +84,8 @@ struct WalkRecording {
   std::vector<Vec3<float>> tip_m;    // of each segment, its far end in its frame (Body::tip_m); can be empty
   std::vector<RecordedRoot> root{};  // of each frame, in GLB and USD the motion of the person's root; can be empty
   std::optional<RecordedFacts> facts{};
-  bool loops = false;  // the last frame is the first one after the way (close_cycle)
+  bool loops = false;   // the last frame is the first one after the way (close_cycle)
+  bool z_back = false;  // turned by put_z_back (recorded_axes.h)
   /// Poses `motion_difference_s` before and after each frame (mobil/forces.h), from which MJCF has velocities and
   /// accelerations; or empty.
   std::vector<std::array<Pose<float>, 2>> around{};
@@ -106,6 +108,7 @@ struct CrowdRecording {
   double frame_s = 1.0 / 30;
   std::vector<RecordedFigure> figures;
   std::vector<RecordedPerson> people;
+  bool z_back = false;  // as in WalkRecording
 };
 
 }  // namespace mobil::inline v0_3

@@ -11,6 +11,7 @@
 #include <mobil/engine/interrupt.h>
 #include "assets/surfaces/coarser_surface.h"
 #include "assets/surfaces/form_mesh.h"
+#include "assets/surfaces/surface_mesh.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -84,6 +85,8 @@ SkinMeshes make_meshes(Sex sex) {
   for (std::size_t d = 0; d < skin_details; ++d) {
     check_interrupt();
     SurfaceMesh light = can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]);
+    drop_fins(light.triangle);
+    drop_unused(light);
     split_long_edges(form, light, longest_m[d]);
     mesh[d] = make_mesh(form, body, std::move(light), static_cast<SkinDetail>(d));
   }

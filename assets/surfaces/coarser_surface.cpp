@@ -40,7 +40,6 @@ SurfaceMesh coarser(const SurfaceMesh& mesh, double share) {
   light.triangle.resize(meshopt_simplify(light.triangle.data(), mesh.triangle.data(), mesh.triangle.size(), places,
                                          mesh.position.size(), stride, wanted, any_error, 0, nullptr));
   light.position = mesh.position;
-  drop_fins(light.triangle);
   drop_unused(light);
   return light;
 }

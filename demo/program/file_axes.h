@@ -10,7 +10,7 @@ namespace mobil {
 
 inline constexpr const char *usual_axes = "y_up", *z_back_axes = "y_up_z_back";
 
-/// Returns the option --axes, which has one of the words above, for these formats.
+/// Returns the option --axes for these formats. Its value is usual_axes or z_back_axes.
 inline Option axes_option(std::string& axes, const std::string& formats, std::string group = {}) {
   return {.name = "--axes",
           .target = &axes,

@@ -22,9 +22,15 @@ func _ready():
 			moved += 1
 	print("renumbered ", moved, " of ", crowd.names.size())
 	var mobil = crowd.mobil
-	# Seven mistakes, each with one line of error.
+	var other = Skeleton.new()
+	# Seven mistakes, each with one line of error. This node has a method of Skeleton's name.
 	print("refused ", mobil.spawn(3.0, 80, false, 1.4, Vector3(), 0), " ", mobil.place(999, 0, 0.0), " ", mobil.advance(),
-			" ", mobil.skin(0, 9), " ", mobil.bind(0, self), " ", mobil.bind(0, null), " ", mobil.pose(0, Skeleton, 0.0))
+			" ", mobil.skin(0, 9), " ", mobil.bind(0, self), " ", mobil.bind(0, null), " ", mobil.pose(0, other, 0.0))
+	other.free()
+
+
+func set_bone_pose(_bone, _pose):
+	pass
 
 
 func at(person, name):

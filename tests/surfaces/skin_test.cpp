@@ -97,7 +97,7 @@ TEST(Skin, IsClosedAndBoundEverywhere) {
 }
 
 TEST(SurfaceMesh, FinsAreDropped) {
-  // A tetrahedron, a fin on three of its vertices, one twice, and a triangle that is there twice but is no fin.
+  // A tetrahedron, and a triangle twice in the same sense. Fins: one at the tetrahedron, and two on the same vertices.
   const std::vector<std::uint32_t> kept = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 4, 5, 6, 4, 5, 6};
   const std::vector<std::array<std::uint32_t, 3>> fins = {{7, 1, 2}, {2, 1, 7}, {3, 7, 8}, {3, 8, 7}, {8, 3, 7}, {8, 7, 3}};
   for (std::size_t place = 0; place <= kept.size(); place += 3) {

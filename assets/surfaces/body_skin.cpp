@@ -85,8 +85,10 @@ SkinMeshes make_meshes(Sex sex) {
   for (std::size_t d = 0; d < skin_details; ++d) {
     check_interrupt();
     SurfaceMesh light = can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]);
-    drop_fins(light.triangle);
-    drop_unused(light);
+    if (share[d] < 1) {  // edge collapse leaves some
+      drop_fins(light.triangle);
+      drop_unused(light);
+    }
     split_long_edges(form, light, longest_m[d]);
     mesh[d] = make_mesh(form, body, std::move(light), static_cast<SkinDetail>(d));
   }

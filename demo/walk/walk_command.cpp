@@ -315,7 +315,7 @@ Result<void> write_results(Walked walked, const Simulation& simulation, const Pe
   for (const WalkExport& wanted : options.exports) {
     if (wanted.file == "walk.glb") continue;  // already written
     show(fmt::format("writing {}", wanted.file));
-    auto done = write_export(wanted, person.body, files.pictures, files.skinned(), files.ticks, options.z_back, folder);
+    auto done = write_export(wanted, person.body, files.pictures, files.skinned(), files.ticks, folder);
     show("");
     if (!done) return done;
     others += " " + one_line(wanted.file);

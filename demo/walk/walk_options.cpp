@@ -103,7 +103,7 @@ std::string motion_file(const WalkExport& model) {
 }
 
 Result<void> write_export(const WalkExport& wanted, const Body& body, const WalkRecording& pictures,
-                          const WalkRecording& skinned, const WalkRecording& ticks, bool z_back,
+                          const WalkRecording& skinned, const WalkRecording& ticks,
                           const std::filesystem::path& folder) {
   const auto file = folder / wanted.file;
   switch (wanted.format) {
@@ -112,7 +112,7 @@ Result<void> write_export(const WalkExport& wanted, const Body& body, const Walk
       return written ? Result<void>{} : tl::unexpected(written.error());
     }
     case WalkFormat::bvh: {
-      if (!z_back) return write_bvh(file, ticks);
+      if (!pictures.z_back) return write_bvh(file, ticks);
       WalkRecording turned = ticks;
       put_z_back(turned);
       return write_bvh(file, turned);

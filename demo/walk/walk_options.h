@@ -31,10 +31,10 @@ bool needs_velocities(const WalkExport& wanted);
 std::string motion_file(const WalkExport& model);
 
 /// Writes one file into `folder`, for .xml also its motion. `ticks`: poses of every tick, and forces if there are any.
-/// `pictures`: with surfaces. `skinned`: pictures for formats with skins. `z_back`: these are turned (put_z_back), and
-/// ticks are turned here for formats without axes of their own.
+/// `pictures`: with surfaces. `skinned`: pictures for formats with skins. If pictures are turned (put_z_back), ticks are
+/// turned here for formats without axes of their own.
 Result<void> write_export(const WalkExport& wanted, const Body& body, const WalkRecording& pictures,
-                          const WalkRecording& skinned, const WalkRecording& ticks, bool z_back,
+                          const WalkRecording& skinned, const WalkRecording& ticks,
                           const std::filesystem::path& folder);
 
 /// Part of --help about export formats.

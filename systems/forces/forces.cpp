@@ -182,7 +182,8 @@ HWY_NOINLINE void put_free_moments(const BodySize<Lanes<float>>& size, const Bod
   for (std::size_t side = 0; side < 2; ++side) {
     const Wide& load_n = ground.force[side].y;
     const Wide most = contact::twist_m * load_n;
-    ground.free_moment[side] = min(max(lacking * (load_n / lift), -most), most);
+    // Adding zero makes −0 of a foot in the air +0, because machines disagree which of the two is the smaller.
+    ground.free_moment[side] = min(max(lacking * (load_n / lift), -most), most) + wide(0.0F);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "systems/render/vertex_normals.h"
@@ -30,6 +31,10 @@ Result<void> check(const DrawMesh& mesh) {
     return fail(fmt::format("a mesh to draw has {} normals for {} vertices; give one for each, or none",
                             mesh.normal.size(), mesh.position.size()));
   }
+  if (!mesh.tint.empty() && mesh.tint.size() != mesh.position.size()) {
+    return fail(fmt::format("a mesh to draw has {} tints for {} vertices; give one for each, or none", mesh.tint.size(),
+                            mesh.position.size()));
+  }
   const auto highest = std::max_element(mesh.triangle.begin(), mesh.triangle.end());
   if (highest != mesh.triangle.end() && *highest >= mesh.position.size()) {
     return fail(fmt::format("a triangle to draw names vertex {} of a mesh with {} vertices; indices count from 0",
@@ -38,7 +43,7 @@ Result<void> check(const DrawMesh& mesh) {
   return {};
 }
 
-/// Appends the mesh's positions and normals to `out`, for a wireframe those of each corner.
+/// Appends the mesh's positions, normals and tints to `out`, for a wireframe positions and normals of each corner.
 void append(const DrawMesh& mesh, std::span<const Vec3<float>> normal, std::vector<Vec3<float>>& out,
             StoredMesh& stored) {
   const auto add = [&](const auto& values) {
@@ -52,6 +57,12 @@ void append(const DrawMesh& mesh, std::span<const Vec3<float>> normal, std::vect
   };
   stored.position_at = add(mesh.position);
   stored.normal_at = add(normal);
+  stored.tinted = !mesh.tint.empty() && !mesh.wireframe;
+  if (stored.tinted) {
+    stored.tint_at = out.size() * sizeof(Vec3<float>);
+    out.resize(out.size() + (mesh.tint.size() + sizeof(Vec3<float>) - 1) / sizeof(Vec3<float>));
+    std::memcpy(reinterpret_cast<std::byte*>(out.data()) + stored.tint_at, mesh.tint.data(), mesh.tint.size());
+  }
   stored.count = static_cast<int>(mesh.triangle.size());
   for (const auto& p : mesh.position) stored.box.add(p);
 }

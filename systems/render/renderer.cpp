@@ -169,12 +169,23 @@ void Renderer::Device::draw_mesh(const MeshDraw& draw, const ShaderProgram& prog
   glBindBuffer(GL_ARRAY_BUFFER, draw.mesh.vertex_buffer);
   attribute(at_position, 3, sizeof(Vec3<float>), draw.mesh.position_at, 0);
   attribute(at_normal, 3, sizeof(Vec3<float>), draw.mesh.normal_at, 0);
+  if (draw.mesh.tinted) {
+    glEnableVertexAttribArray(at_tint);
+    glVertexAttribPointer(at_tint, 1, GL_UNSIGNED_BYTE, GL_TRUE, 1, offset(draw.mesh.tint_at));
+    glVertexAttribDivisor(at_tint, 0);
+  } else {
+    glDisableVertexAttribArray(at_tint);
+    glVertexAttrib1f(at_tint, 0);
+  }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw.mesh.index_buffer);
   glBindBuffer(GL_ARRAY_BUFFER, placement_buffer);
   const bool flip = draw.asked->flip;
   if (program.outward >= 0) glUniform1f(program.outward, flip ? -1.0F : 1.0F);
   if (program.opacity >= 0) glUniform1f(program.opacity, draw.asked->opacity);
   if (program.albedo >= 0) set_albedo(program, draw.asked->colour, draw.asked->wetness);
+  const Colour tint = draw.asked->tint_colour;
+  if (program.tint_albedo >= 0)
+    glUniform3f(program.tint_albedo, linear(tint.red), linear(tint.green), linear(tint.blue));
   std::size_t first = draw.first_placement;
   for (const bool mirrored : {false, true}) {
     const int copies = mirrored ? draw.mirrored : draw.upright;
@@ -215,6 +226,7 @@ void Renderer::Device::draw_meshes(bool depth_only) const {
   }
   glDisable(GL_CULL_FACE);
   for (unsigned location = 0; location < at_placement + 4; ++location) glDisableVertexAttribArray(location);
+  glDisableVertexAttribArray(at_tint);
 }
 
 void Renderer::Device::draw_marks(const Scene& scene, bool depth_only) const {

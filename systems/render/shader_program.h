@@ -9,7 +9,8 @@ namespace mobil::inline v0_3 {
 
 struct ShaderProgram {
   unsigned id = 0;
-  int albedo = -1, outward = -1, width = -1, radius = -1, opacity = -1;  // uniform locations; -1: not in the program
+  int albedo = -1, outward = -1, width = -1, radius = -1, opacity = -1,
+      tint_albedo = -1;  // uniform locations; -1: not in the program
 };
 
 /// Compiles and links a program in the current context, and binds the block "Frame" to 0 and the shadow map to texture

@@ -87,11 +87,14 @@ std::string mesh_vertex_source() {
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in mat4x3 placement;
+layout(location = 9) in float tint;
 uniform float outward;
 out vec3 world;
 out vec3 world_normal;
 out vec3 corner;
+out float tinted;
 void main() {
+  tinted = tint;
   mat3 m = mat3(placement[0], placement[1], placement[2]);
   world = m * position + placement[3];
   vec3 squared = vec3(dot(m[0], m[0]), dot(m[1], m[1]), dot(m[2], m[2]));
@@ -106,14 +109,16 @@ void main() {
 std::string mesh_fragment_source() {
   return joined({head, samples(4), shadow, shade, R"(
 uniform vec4 albedo;
+uniform vec3 tint_albedo;
 uniform float opacity;
 in vec3 world;
 in vec3 world_normal;
+in float tinted;
 out vec4 colour;
 void main() {
   vec3 n = normalize(world_normal);
   float key = lit(world + n * (1.6 * light.w), 1.6, dot(n, light.xyz) > -0.12);
-  colour = vec4(shade(albedo.rgb, albedo.w, n, world, key), opacity);
+  colour = vec4(shade(mix(albedo.rgb, tint_albedo, tinted), albedo.w, n, world, key), opacity);
 }
 )"});
 }

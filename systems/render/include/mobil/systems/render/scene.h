@@ -17,6 +17,7 @@ struct Colour {
 /// Colours of the built-in pictures.
 inline constexpr Colour bone_ivory{0.91F, 0.86F, 0.74F};
 inline constexpr Colour muscle_red{0.53F, 0.17F, 0.14F};
+inline constexpr Colour tendon_ivory{0.88F, 0.82F, 0.72F};
 inline constexpr Colour joint_steel{0.30F, 0.38F, 0.48F};
 
 /// Placement of a mesh. A vertex p is in the world at position + rotation · (scale ∘ p). A negative scale mirrors.
@@ -32,6 +33,8 @@ struct DrawMesh {
   std::span<const std::uint32_t> triangle{};  // three indices each, counter-clockwise seen from outside
   std::span<const Vec3<float>> normal{};      // of each position; empty: the mean of its triangles' normals
   Colour colour = muscle_red;
+  std::span<const std::uint8_t> tint{};  // of each position: share of tint_colour, 0 to 255; empty: none
+  Colour tint_colour = tendon_ivory;
   float wetness = 0;                       // 0 dry as bone, 1 wet as living muscle
   float opacity = 1;                       // below 1 other objects behind it are visible, but not its own back
   bool wireframe = false;                  // the triangles' edges only, front and back

@@ -27,7 +27,8 @@ enum Attribute : unsigned {
   at_placement = 2,
   at_line_from = 6,
   at_line_to = 7,
-  at_centre = 8
+  at_centre = 8,
+  at_tint = 9
 };
 
 inline constexpr int line_vertices = 12;   // of the strip of one segment

@@ -15,9 +15,9 @@ struct MujocoMuscles {
   std::string tendons, actuators;
 };
 
-/// Returns the thirteen muscles of both legs. A point of a path is a site. An edge is a cylinder of 0.1 mm along x with
-/// a site on the side where the path must be; of two edges in a row it is the first. A path that ends on the kneecap
-/// ends there at its anatomical place, on the body of the kneecap.
+/// Returns the lines of all muscles of both legs. A point of a path is a site. An edge is a cylinder of 0.1 mm along x
+/// with a site on the side where the path must be; of two edges in a row it is the first. A path that ends on the
+/// kneecap ends there at its anatomical place, on the body of the kneecap.
 MujocoMuscles mujoco_muscles(const Body& body);
 
 }  // namespace mobil::inline v0_3

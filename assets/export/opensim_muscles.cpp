@@ -22,21 +22,23 @@ Eigen::Vector3d opensim_place(const Vec3<double>& v) {
   return opensim_axes({v.x, v.y, v.z});
 }
 
-/// Returns the range of knee flexion at which the path touches its edge, degrees; nothing if it never does.
+/// Returns the range of flexion of the knee, for an edge of the pelvis of the hip, at which the path touches its edge,
+/// degrees; nothing if it never does.
 std::optional<std::array<double, 2>> touched_at(const Body& body, const MemberMuscle& member, const PathPoint& edge) {
   using namespace geometry;
-  constexpr int from_deg = -2, to_deg = 144;
+  const bool of_hip = edge.bone == LegBone::pelvis;
+  const int from_deg = of_hip ? -30 : -2, to_deg = of_hip ? 120 : 144;
   const LegScale<double> scale = leg_scale(body);
   std::optional<std::array<double, 2>> range;
-  for (int knee_deg = from_deg; knee_deg <= to_deg; ++knee_deg) {
-    const LegFrames<double> leg = bent_leg(body, 0, knee_deg, 0);
+  for (int degrees = from_deg; degrees <= to_deg; ++degrees) {
+    const LegFrames<double> leg = of_hip ? bent_leg(body, degrees, 0, 0) : bent_leg(body, 0, degrees, 0);
     const Vec3<double> at = path_point(edge, scale, rolled(scale, leg));
     const bool touches = std::ranges::any_of(member_path(member, scale, leg), [&](const PathCorner& corner) {
       const Vec3<double> off = corner.at - at;  // along x, the edge's direction in a sagittal plane
       return corner.bone == edge.bone && std::abs(off.y) < 1e-9 && std::abs(off.z) < 1e-9;
     });
     if (!touches) continue;
-    const double flexion = knee_deg;
+    const double flexion = degrees;
     if (!range) range = std::array{flexion, flexion};
     (*range)[1] = flexion;
   }
@@ -62,6 +64,7 @@ struct OpensimMember {
   std::string name = std::string(member.name) + ending;
   int points = 0;
 
+  std::string hip() const { return fmt::format("/jointset/hip{0}/hip_flexion{0}", ending); }
   std::string knee() const { return fmt::format("/jointset/knee{0}/knee_angle{0}", ending); }
 
   /// Returns a point's start tag and its frame.
@@ -80,9 +83,11 @@ struct OpensimMember {
     if (path.hold == PathHold::fixed) return begin("PathPoint", path.bone) + location + "</PathPoint>\n";
     const auto range = touched_at(body, member, path);
     if (!range) return {};
+    const double low = (*range)[0] * flexion_radian, high = (*range)[1] * flexion_radian;
+    const bool of_hip = path.bone == LegBone::pelvis;  // its angle is the flexion, the knee's minus the flexion
     return begin("ConditionalPathPoint", path.bone) + location +
-           fmt::format("  <socket_coordinate>{}</socket_coordinate>\n  <range>{:.6g} {:.6g}</range>\n", knee(),
-                       -(*range)[1] * flexion_radian, -(*range)[0] * flexion_radian) +
+           fmt::format("  <socket_coordinate>{}</socket_coordinate>\n  <range>{:.6g} {:.6g}</range>\n",
+                       of_hip ? hip() : knee(), of_hip ? low : -high, of_hip ? high : -low) +
            "</ConditionalPathPoint>\n";
   }
   std::string kneecap() {

@@ -45,6 +45,68 @@ constexpr PackedShapes tables[] = {
 #include "assets/finite/tables/soleus.inl"
 ,
 #include "assets/finite/tables/plantaris.inl"
+,
+#include "assets/finite/tables/gluteus_maximus.inl"
+,
+#include "assets/finite/tables/hip_abductors.inl"
+,
+#include "assets/finite/tables/iliopsoas.inl"
+,
+#include "assets/finite/tables/short_adductors.inl"
+,
+#include "assets/finite/tables/adductor_magnus.inl"
+,
+#include "assets/finite/tables/deep_calf.inl"
+,
+#include "assets/finite/tables/peroneals.inl"
+,
+#include "assets/finite/tables/toe_extensors.inl"
+,
+#include "assets/finite/tables/gluteus_medius.inl"
+,
+#include "assets/finite/tables/gluteus_minimus.inl"
+,
+#include "assets/finite/tables/iliacus.inl"
+,
+#include "assets/finite/tables/psoas.inl"
+,
+#include "assets/finite/tables/pectineus.inl"
+,
+#include "assets/finite/tables/adductor_longus.inl"
+,
+#include "assets/finite/tables/adductor_brevis.inl"
+,
+#include "assets/finite/tables/tibialis_posterior.inl"
+,
+#include "assets/finite/tables/flexor_digitorum_longus.inl"
+,
+#include "assets/finite/tables/flexor_hallucis_longus.inl"
+,
+#include "assets/finite/tables/peroneus_longus.inl"
+,
+#include "assets/finite/tables/peroneus_brevis.inl"
+,
+#include "assets/finite/tables/extensor_digitorum_longus.inl"
+,
+#include "assets/finite/tables/extensor_hallucis_longus.inl"
+,
+#include "assets/finite/tables/peroneus_tertius.inl"
+,
+#include "assets/finite/tables/tensor_fasciae_latae.inl"
+,
+#include "assets/finite/tables/sartorius.inl"
+,
+#include "assets/finite/tables/gracilis.inl"
+,
+#include "assets/finite/tables/piriformis.inl"
+,
+#include "assets/finite/tables/quadratus_femoris.inl"
+,
+#include "assets/finite/tables/obturator_internus.inl"
+,
+#include "assets/finite/tables/obturator_externus.inl"
+,
+#include "assets/finite/tables/popliteus.inl"
 };
 // clang-format on
 static_assert(std::size(tables) == lattice_muscles);

@@ -59,7 +59,7 @@ std::string known_bones() {
 
 std::optional<Muscle> group_of(std::string_view name) {
   const auto found = find_muscle(name);
-  return found && muscle_groups()[static_cast<std::size_t>(*found)] ? found : std::nullopt;
+  return found && usual_muscles()[static_cast<std::size_t>(*found)] ? found : std::nullopt;
 }
 
 /// Returns the letters of a name in lower case; all else is spaces.
@@ -96,6 +96,7 @@ void find_muscle_of(AnatomyPart& part, std::string_view group, std::string_view 
   const MemberMuscle* member = member_called(name);
   if (member == nullptr) member = member_called(file);
   if (member == nullptr || (part.group && member->group != *part.group)) return;
+  if (!usual_muscles()[static_cast<std::size_t>(member->group)]) return;
   part.group = member->group;
   part.muscle = find_muscle(member->name);
 }

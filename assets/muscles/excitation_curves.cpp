@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <mobil/components/activation.h>
@@ -16,8 +17,8 @@ constexpr ExcitationCurve curves[] = {
 };
 // clang-format on
 
-/// Returns the measured muscle whose curve a member uses: itself, its head, or a neighbour of the same function.
-std::string_view measured_as(std::string_view muscle) {
+/// Returns the name of the curve that a line uses: its own, or that of another head.
+std::string_view curve_of(std::string_view muscle) {
   if (muscle.starts_with("vastus")) return "vastus_medialis";
   if (muscle.starts_with("gastrocnemius") || muscle == "plantaris") return "gastrocnemius_medial";
   if (muscle.starts_with("semi") || muscle.starts_with("biceps_femoris")) return "biceps_femoris";
@@ -26,12 +27,18 @@ std::string_view measured_as(std::string_view muscle) {
 
 }  // namespace
 
+bool is_measured(const MemberMuscle& line) {
+  constexpr std::string_view measured[] = {"tibialis_anterior", "soleus",          "gastrocnemius_medial",
+                                           "rectus_femoris",    "vastus_medialis", "biceps_femoris"};
+  return std::ranges::find(measured, curve_of(line.name)) != std::end(measured);
+}
+
 std::span<const ExcitationCurve> excitation_curves() {
   return curves;
 }
 
 MemberExcitation member_excitation(const MemberMuscle& muscle) {
-  const auto* const curve = std::ranges::find(curves, measured_as(muscle.name), &ExcitationCurve::measured_muscle);
+  const auto* const curve = std::ranges::find(curves, curve_of(muscle.name), &ExcitationCurve::name);
   return {curve, muscle.name == "soleus" ? 0.05F : 0.02F};
 }
 

@@ -5,8 +5,10 @@
 // approach, Gait Posture 33, 2011; twenty young people at five speeds (assets/reference/bovi2011_emg.csv). Each is
 // relative to the maximum of that muscle's signal in all tasks. Its relation to the muscle's maximum excitation is not
 // published. `excitation_scale` is chosen so that the moments of plantarflexors and knee extensors equal the walk's
-// own, which are fitted to measured ones (tests/activation/leg_moments_test.cpp). Muscles that were not measured use
-// the curve of a neighbour: `measured_muscle`. Standing tone is 0.05 in soleus and 0.02 in others, without a source.
+// own, which are fitted to measured ones (tests/activation/leg_moments_test.cpp). Heads of measured muscles use the
+// measured curve. All other muscles, mostly of the hip, have the excitation that makes the moments of walks at minimum
+// cost (systems/activation/moment_sharing.h), fitted in the same form. Standing tone is 0.05 in soleus and 0.02 in
+// others, without a source.
 
 #include <array>
 #include <span>
@@ -29,10 +31,12 @@ inline constexpr float excitation_scale = 2.4F;
 inline constexpr float min_excitation_speed = 0.27F, max_excitation_speed = 0.61F;
 
 struct ExcitationCurve {
-  std::string_view measured_muscle;  // the table's column
+  std::string_view name;  // the table's column, or a line of the leg
   ExcitationTerms terms;
 };
-/// Returns the curves, one for each column of the table, in its order.
+/// Returns true if a line's curve is measured, on itself or on another head of the muscle.
+bool is_measured(const MemberMuscle& line);
+/// Returns the curves, one for each column of the table, in its order, then those of other lines.
 std::span<const ExcitationCurve> excitation_curves();
 
 /// Excitation of one muscle.

@@ -92,6 +92,32 @@ Vec3<double> leg_point(const LegFrame& leg, double level, double lateral_mm, dou
   return leg.hip + Vec{-lateral_mm * leg.unit, -down, anterior_mm * leg.unit};
 }
 
+SectionPlanes section_planes(const LegFrame& leg, const std::optional<SectionAxis>& across) {
+  if (!across) return {true, {}, {}, {0, -1, 0}, {0, 0, 1}, {-1, 0, 0}};
+  const auto end = [&](const SectionAxis::End& e) {
+    return leg_point(leg, static_cast<double>(e.level), static_cast<double>(e.lateral),
+                     static_cast<double>(e.anterior));
+  };
+  const Vec from = end(across->from), along = end(across->to) - from, z = normalised(along);
+  // The smallest rotation from straight down to the axis.
+  const Vec down{0, -1, 0}, axis = cross(down, z);
+  const double w = 1 + dot(down, z), norm = std::sqrt(dot(axis, axis) + w * w);
+  const Quat<double> swing{axis.x / norm, axis.y / norm, axis.z / norm, w / norm};
+  return {false, from, along, z, rotated(swing, {0, 0, 1}), rotated(swing, {-1, 0, 0})};
+}
+
+Vec3<double> section_centre(const LegFrame& leg, const SectionPlanes& planes, double level, double lateral_mm,
+                            double anterior_mm) {
+  if (planes.horizontal) return leg_point(leg, level, lateral_mm, anterior_mm);
+  return planes.origin + level * planes.along +
+         leg.unit * (lateral_mm * planes.lateral + anterior_mm * planes.anterior);
+}
+
+double section_level(const LegFrame& leg, const SectionPlanes& planes, const Vec3<double>& at) {
+  if (planes.horizontal) return leg_level(leg, at.y);
+  return dot(at - planes.origin, planes.along) / dot(planes.along, planes.along);
+}
+
 double leg_level(const LegFrame& leg, double height_m) {
   const double down = leg.hip.y - height_m;
   if (down < 0) return down / leg.above;

@@ -23,14 +23,16 @@ Vec scaled(const PathPoint& p, const LegScale<double>& scale) {
 
 /// Returns the direction of an edge of that bone.
 Vec edge_axis(LegBone bone, const LegFrames<double>& leg) {
-  return rotated(bone == LegBone::thigh ? leg.thigh : leg.shank, {1, 0, 0});
+  return rotated(bone == LegBone::pelvis ? leg.pelvis : bone == LegBone::thigh ? leg.thigh : leg.shank, {1, 0, 0});
 }
 
 /// Returns the point at which the shortest path from a to b over the edge through p touches it, relative to p. Returns
 /// nothing if the straight line clears the edge.
-std::optional<Vec> touch(const Vec& a, const Vec& b, const Vec& axis, PathHold side) {
+std::optional<Vec> touch(const Vec& a, const Vec& b, const Vec& axis, const PathPoint& edge) {
   const double turn = dot(cross(a, b), axis);
-  if (side == PathHold::front ? turn >= 0 : turn <= 0) return std::nullopt;
+  if (edge.hold == PathHold::front ? turn >= 0 : turn <= 0) return std::nullopt;
+  // Round the pelvis' edge it never bends by more than a right angle; in deep flexion it is clear of it.
+  if (edge.bone == LegBone::pelvis && dot(a, b) >= dot(a, axis) * dot(b, axis)) return std::nullopt;
   // Unfolded into one plane the path is straight.
   const double from = dot(a, axis), to = dot(b, axis);
   const double near = length(a - from * axis), far = length(b - to * axis);
@@ -150,7 +152,7 @@ void follow_path(const MemberMuscle& muscle, const BentLeg& bent, Visit visit) {
       std::size_t next = i;
       while (point(next).hold != PathHold::fixed) ++next;
       const Vec straight_to = path_point(point(next), bent.scale, bent.there);
-      const auto touched = touch(before - at, straight_to - at, edge_axis(p.bone, bent.leg), p.hold);
+      const auto touched = touch(before - at, straight_to - at, edge_axis(p.bone, bent.leg), p);
       if (!touched) continue;
       at = at + *touched;
     }

@@ -49,8 +49,12 @@ double reference_belly_m(Muscle muscle) {
 double member_volume_m3(const Body& body, const MemberMuscle& member) {
   const double regressed = handsfield_volume_cm3(member, static_cast<double>(body.request.height_m),
                                                  static_cast<double>(body.request.mass_kg));
-  const double limb_part = regressed - member.offset_cm3;
-  return 1e-6 * (static_cast<double>(body.composition.muscle_factor) * limb_part + member.offset_cm3);
+  const double limb_part = static_cast<double>(body.composition.muscle_factor) * (regressed - member.offset_cm3);
+  // The regression is one of adults: in small bodies psoas would have no volume.
+  constexpr double least_share = 0.5;  // of the reference body's share in the limb
+  const double reference = handsfield_volume_cm3(member, reference_body_height_m, reference_body_mass_kg);
+  const double least = least_share * limb_part * reference / (reference - member.offset_cm3);
+  return 1e-6 * std::max(limb_part + member.offset_cm3, least);
 }
 
 MemberPlan plan_member(const Body& body, const MemberMuscle& member, double rest_length_m) {

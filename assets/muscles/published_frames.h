@@ -31,11 +31,17 @@ constexpr PathPoint on_calcaneus(double x, double y, double z) {
   return {LegBone::foot, to_mobil(x - 0.04877, y - 0.04195, z + 0.00792)};
 }
 /// Places already in the table's frames, except that x counts towards the leg's outside.
+constexpr PathPoint in_pelvis(double lateral, double up, double forward) {
+  return {LegBone::pelvis, {-lateral, up, forward}};
+}
 constexpr PathPoint in_thigh(double lateral, double up, double forward) {
   return {LegBone::thigh, {-lateral, up, forward}};
 }
 constexpr PathPoint in_shank(double lateral, double up, double forward) {
   return {LegBone::shank, {-lateral, up, forward}};
+}
+constexpr PathPoint in_foot(double lateral, double up, double forward) {
+  return {LegBone::foot, {-lateral, up, forward}};
 }
 
 /// Mark an edge that the path passes in front of, or behind.

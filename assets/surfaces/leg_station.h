@@ -6,7 +6,9 @@
 
 namespace mobil::inline v0_3 {
 
-/// Returns a station for `loft`, whose reference direction must be forward (+z) and normal down: metres, world axes.
+/// Returns a station for `loft`, whose reference must be the planes' anterior and whose normal theirs: metres, world
+/// axes. Without `planes` they are horizontal.
+TubeStation leg_station(const LegFrame& leg, const SectionPlanes& planes, const LegSection& section);
 TubeStation leg_station(const LegFrame& leg, const LegSection& section);
 
 }  // namespace mobil::inline v0_3

@@ -16,7 +16,7 @@ namespace mobil::inline v0_3 {
 /// MuscleLattice.MatchesTheSurfaces fails and prints the new table.
 inline constexpr std::size_t lattice_station_count = 9;
 using LatticeStations = std::array<LatticeStation, lattice_station_count>;
-inline constexpr std::size_t lattice_muscles = 16;  // all of the table's rows
+inline constexpr std::size_t lattice_muscles = muscle_count;
 const LatticeStations& muscle_lattice(Muscle muscle);
 /// Grading of the elements of templates: finer towards the ends, where bellies taper and are held.
 inline constexpr Grading belly_grading{.across = 1, .along = 1.5};

@@ -25,8 +25,6 @@ namespace {
 using namespace geometry;
 
 constexpr int muscle_rings = 36, muscle_segments = 18;
-constexpr TubeShape muscle_shape{
-    .reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = muscle_rings, .segments = muscle_segments, .cap = 0.5};
 
 constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 
@@ -35,37 +33,47 @@ constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 /// it.
 struct MuscleShape {
   std::string_view name;
-  Muscle group;
+  Muscle group, muscle;
   Segment origin, insertion;
   std::vector<LegSection> sections;
+  SectionPlanes planes;
+  double volume_m3 = 0;
   std::size_t lies_on = no_muscle, cut_back_to = no_muscle, ends_in = no_muscle;
 };
 
-/// Returns the members in the order of member_muscles(), then the calcaneal tendon.
-std::vector<MuscleShape> muscle_shapes() {
-  const auto members = member_muscles();
+/// Returns the single muscles in the order of member_muscles(), then the calcaneal tendon.
+std::vector<MuscleShape> muscle_shapes(const Body& body, const LegFrame& leg) {
   std::vector<MuscleShape> all;
-  for (const MemberMuscle& m : members) {
-    MuscleShape shape{m.name, m.group, m.origin, m.insertion, {}};
+  std::vector<const MemberMuscle*> row;
+  for (const MemberMuscle& m : member_muscles()) {
+    if (m.sections.empty()) continue;  // a further line of a muscle
+    const Muscle own = muscle_of_line(m);
+    MuscleShape shape{muscle_name(own), m.group, own, m.origin, m.insertion, {}, section_planes(leg, m.across)};
+    for (const MemberMuscle& line : members_of(own)) shape.volume_m3 += member_volume_m3(body, line);
     auto& to = shape.sections;
     to.insert(to.end(), m.drawn_above.begin(), m.drawn_above.end());
     to.insert(to.end(), m.sections.begin(), m.sections.end() - m.not_drawn);
     to.insert(to.end(), m.drawn_below.begin(), m.drawn_below.end());
-    const auto number_of = [&](std::string_view name) {
-      const auto found = std::ranges::find(members, name, &MemberMuscle::name);
-      return found == members.end() ? no_muscle : static_cast<std::size_t>(found - members.begin());
-    };
-    shape.lies_on = number_of(m.lies_on);
-    shape.cut_back_to = number_of(m.cut_back_to.empty() ? m.lies_on : m.cut_back_to);
-    if (m.in_calcaneal_tendon) shape.ends_in = members.size();
+    row.push_back(&m);
     all.push_back(std::move(shape));
+  }
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const auto number_of = [&](std::string_view name) {
+      const auto found = std::ranges::find(all, name, &MuscleShape::name);
+      return found == all.end() ? no_muscle : static_cast<std::size_t>(found - all.begin());
+    };
+    all[i].lies_on = number_of(row[i]->lies_on);
+    all[i].cut_back_to = number_of(row[i]->cut_back_to.empty() ? row[i]->lies_on : row[i]->cut_back_to);
+    if (row[i]->in_calcaneal_tendon) all[i].ends_in = row.size();
   }
   const auto tendon = calcaneal_tendon();
   all.push_back({"calcaneal_tendon",
                  Muscle::triceps_surae,
+                 Muscle::triceps_surae,
                  Segment::shank_right,
                  Segment::foot_right,
-                 {tendon.begin(), tendon.end()}});
+                 {tendon.begin(), tendon.end()},
+                 section_planes(leg, std::nullopt)});
   return all;
 }
 
@@ -150,6 +158,12 @@ double growth(const MuscleShape& shape, double girth, double level, Point direct
   return (1 - w) * at(a) + w * at(b);
 }
 
+/// Returns false for muscles of the hip and across an axis. They grow about their own middle.
+bool grows_from_bone(const MuscleShape& shape) {
+  const LegSection& thickest = *std::ranges::max_element(shape.sections, {}, area);
+  return shape.planes.horizontal && thickest.level > 0.15F;
+}
+
 /// `beneath` is the muscle under it, or null.
 std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, double girth, const MuscleShape* beneath,
                                double girth_beneath) {
@@ -163,7 +177,7 @@ std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, doubl
     const double distance = std::max(std::hypot(away.l, away.a), 1e-6);
     away = {away.l / distance, away.a / distance};
     const double thick = belly(s, largest);
-    double shift = reach(s, away) * (girth - 1) * thick;
+    double shift = grows_from_bone(shape) ? reach(s, away) * (girth - 1) * thick : 0;
     if (beneath != nullptr) shift += 2 * growth(*beneath, girth_beneath, level, away) * thick;
     const double factor = 1 + (girth - 1) * thick;
     Point moved{static_cast<double>(s.lateral) + shift * away.l, static_cast<double>(s.anterior) + shift * away.a};
@@ -177,6 +191,7 @@ std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, doubl
     s.anterior = static_cast<float>(moved.a);
     s.semi_1 *= static_cast<float>(factor);
     s.semi_2 *= static_cast<float>(factor);
+    s.bow *= static_cast<float>(factor);
   }
   return out;
 }
@@ -261,10 +276,19 @@ void keep_in(const Fitting& f, std::span<Vec3<float>> ring) {
 }
 
 /// Builds a muscle's mesh. `beneath` has the sections of the muscle under it, if any.
-SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections, std::span<const LegSection> beneath) {
+SurfaceMesh build(const Fitting& f, const SectionPlanes& planes, std::span<const LegSection> sections,
+                  std::span<const LegSection> beneath) {
   std::vector<TubeStation> stations;
-  for (const auto& s : sections) stations.push_back(leg_station(f.leg, s));
-  SurfaceMesh mesh = loft(stations, muscle_shape);
+  for (const auto& s : sections) stations.push_back(leg_station(f.leg, planes, s));
+  SurfaceMesh mesh = loft(stations, {.reference = planes.anterior,
+                                     .normal = planes.normal,
+                                     .rings = muscle_rings,
+                                     .segments = muscle_segments,
+                                     .cap = 0.5});
+  if (f.skin != nullptr) {
+    for (auto& p : mesh.position) p.x = std::min(p.x, 0.0F);  // both glutei meet in the middle
+  }
+  if (!planes.horizontal) return mesh;  // bones and skin cut horizontal rings
   const std::size_t ring_count = (mesh.position.size() - 2) / muscle_segments;
   for (std::size_t r = 0; r < ring_count; ++r) {
     const auto ring = std::span(mesh.position).subspan(1 + r * muscle_segments, muscle_segments);
@@ -285,11 +309,12 @@ SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections, std::s
 }
 
 /// Returns 0 in the belly and 1 in the tendons, by the area of the measured section at each vertex's level.
-std::vector<float> tendon_shares(const LegFrame& leg, std::span<const LegSection> fitted_sections,
-                                 std::span<const LegSection> measured, const SurfaceMesh& mesh) {
+std::vector<float> tendon_shares(const LegFrame& leg, const MuscleShape& shape,
+                                 std::span<const LegSection> fitted_sections, const SurfaceMesh& mesh) {
+  const std::span<const LegSection> measured = shape.sections;
   std::vector<float> share;
   for (const auto& p : mesh.position) {
-    const double level = leg_level(leg, static_cast<double>(p.y));
+    const double level = section_level(leg, shape.planes, to_double(p));
     share.push_back(static_cast<float>(1 - smoothstep(0.10, 0.32, relative_area(measured, fitted_sections, level))));
   }
   return share;
@@ -336,75 +361,88 @@ std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, M
   double most = 0;
   for (const MemberMuscle& m : members_of(group)) {
     const double volume = handsfield_volume_cm3(m, reference_body_height_m, reference_body_mass_kg);
-    const auto own = find_muscle(m.name);
-    if (!own || !has(*own) || volume <= most) continue;
+    const Muscle own = muscle_of_line(m);
+    if (!has(own) || volume <= most) continue;
     largest = own;
     most = volume;
   }
   return largest;
 }
 
-std::vector<double> member_volumes_m3(const Body& body) {
-  std::vector<double> volume;
-  for (const MemberMuscle& m : member_muscles()) {
-    volume.push_back(member_volume_m3(body, m));
-  }
-  return volume;
-}
-
-std::vector<GroupSurface> make_muscle_surfaces(const Body& body, MuscleRoom room) {
+std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet& simulated, MuscleRoom room) {
   const LegFrame leg = leg_frame(body);
   const auto bones = hard_bones();
   const Vec patella = to_double(body.joint_offset_m[index(Segment::patella_right)]);
   const double top_mm = 18;  // from the kneecap's centre to its upper edge
   const LegProfile skin(body_measures(body.request));
-  const auto shapes = muscle_shapes();
-  const auto volumes = member_volumes_m3(body);
+  const auto shapes = muscle_shapes(body, leg);
+  double usual_m3 = 0;
+  for (const MuscleShape& shape : shapes) {
+    if (usual_muscles()[static_cast<std::size_t>(shape.group)]) usual_m3 += shape.volume_m3;
+  }
   const Fitting f{leg,
                   room == MuscleRoom::together ? &skin : nullptr,
-                  given_way(leg, skin, std::accumulate(volumes.begin(), volumes.end(), 0.0)),
+                  given_way(leg, skin, usual_m3),
                   bones,
                   {-patella.x / leg.unit, patella.z / leg.unit},
                   -(patella.y + top_mm * leg.unit) / leg.thigh_length - measured_patella_top};
 
   std::vector<double> girth(shapes.size(), 1.0);
-  const auto surface_of = [&](std::size_t m, double g) {
+  const auto sections_of = [&](std::size_t m, double g) {
     const std::size_t n = shapes[m].lies_on;
     return n == no_muscle ? fitted(f, shapes[m], g, nullptr, 1) : fitted(f, shapes[m], g, &shapes[n], girth[n]);
   };
   const auto beneath = [&](std::size_t m) {
     const std::size_t n = room == MuscleRoom::together ? shapes[m].cut_back_to : no_muscle;
-    return n == no_muscle ? std::vector<LegSection>{} : surface_of(n, girth[n]);
+    return n == no_muscle ? std::vector<LegSection>{} : sections_of(n, girth[n]);
   };
+  const auto is_drawn = [&](std::size_t m) {
+    return driving_muscle(simulated, shapes[m].group, shapes[m].muscle).has_value();
+  };
+  // Muscles under others first.
+  std::vector<bool> needed(shapes.size());
+  for (std::size_t m = 0; m < shapes.size(); ++m) {
+    if (!is_drawn(m)) continue;
+    for (const std::size_t n : {m, shapes[m].lies_on, shapes[m].cut_back_to}) {
+      if (n != no_muscle) needed[n] = true;
+    }
+  }
   for (const bool covering : {false, true}) {
-    for (std::size_t m = 0; m < volumes.size(); ++m) {
-      if ((shapes[m].cut_back_to != no_muscle) != covering) continue;
+    for (std::size_t m = 0; m < shapes.size(); ++m) {
+      if (!needed[m] || shapes[m].volume_m3 == 0 || (shapes[m].cut_back_to != no_muscle) != covering) continue;
       const std::vector<LegSection> under = beneath(m);
-      double low = 0.25, high = 2.5;
-      for (int i = 0; i < 14; ++i) {
-        const double middle = 0.5 * (low + high);
-        (enclosed_volume(build(f, surface_of(m, middle), under)) < volumes[m] ? low : high) = middle;
-      }
-      girth[m] = 0.5 * (low + high);
+      const auto filling = [&](double low, double high) {
+        for (int i = 0; i < 14; ++i) {
+          const double middle = 0.5 * (low + high);
+          const SurfaceMesh mesh = build(f, shapes[m].planes, sections_of(m, middle), under);
+          (enclosed_volume(mesh) < shapes[m].volume_m3 ? low : high) = middle;
+        }
+        return 0.5 * (low + high);
+      };
+      constexpr double usual = 2.5, most = 8;  // the measured man's thinnest muscles are threads
+      girth[m] = filling(0.25, usual);
+      if (girth[m] > 0.99 * usual) girth[m] = filling(usual, most);
     }
   }
   std::vector<GroupSurface> all;
   for (std::size_t m = 0; m < shapes.size(); ++m) {
-    const auto sections = surface_of(m, girth[m]);
-    GroupSurface s{shapes[m].group, find_muscle(shapes[m].name).value_or(shapes[m].group), {}, {}, {}, false};
-    s.surface.mesh = build(f, sections, beneath(m));
+    if (!is_drawn(m)) continue;
+    const auto sections = sections_of(m, girth[m]);
+    GroupSurface s{shapes[m].group, shapes[m].muscle, {}, {}, {}, false};
+    s.surface.mesh = build(f, shapes[m].planes, sections, beneath(m));
     s.surface.mesh.name = std::string(shapes[m].name) + "_right";
     s.surface.origin = shapes[m].origin;
     s.surface.insertion = shapes[m].insertion;
-    s.tendon = tendon_shares(leg, sections, shapes[m].sections, s.surface.mesh);
-    if (m >= volumes.size()) s.tendon.assign(s.tendon.size(), 1.0F);
+    s.tendon = tendon_shares(leg, shapes[m], sections, s.surface.mesh);
+    if (shapes[m].volume_m3 == 0) s.tendon.assign(s.tendon.size(), 1.0F);
     s.attachments = {s.surface.mesh.position.front(), s.surface.mesh.position.back()};
+    if (shapes[m].ends_in != no_muscle) {
+      const MuscleShape& last = shapes[shapes[m].ends_in];
+      s.attachments.insertion_m = build(f, last.planes, sections_of(shapes[m].ends_in, 1), {}).position.back();
+    }
     all.push_back(std::move(s));
   }
-  for (std::size_t m = 0; m < shapes.size(); ++m) {
-    if (shapes[m].ends_in != no_muscle) all[m].attachments.insertion_m = all[shapes[m].ends_in].attachments.insertion_m;
-  }
-  all.push_back(patellar_ligament(body, f));
+  if (driving_muscle(simulated, Muscle::quadriceps, Muscle::quadriceps)) all.push_back(patellar_ligament(body, f));
   return all;
 }
 

@@ -91,12 +91,13 @@ const Body& reference_body() {
 
 /// Returns the surfaces' vertices, in the muscle's frame.
 std::vector<Vec> outline(const MusclePlan& plan) {
-  static const std::vector<GroupSurface> surfaces = make_muscle_surfaces(reference_body(), MuscleRoom::alone);
+  static const std::vector<GroupSurface> surfaces =
+      make_muscle_surfaces(reference_body(), muscle_members(), MuscleRoom::alone);
   std::vector<Vec> points;
   const Quat<double> into_frame = conjugate(plan.rotation);
   for (const GroupSurface& s : surfaces) {
     const bool own = s.muscle == plan.muscle || s.group == plan.muscle;
-    if (!own || members_of(s.muscle).size() > 1) continue;  // tendons and ligaments have no mesh of their own
+    if (!own || !muscle_members()[static_cast<std::size_t>(s.muscle)]) continue;  // tendons and ligaments have no mesh
     for (const auto& p : s.surface.mesh.position) points.push_back(rotated(into_frame, to_double(p) - plan.start_m));
   }
   return points;
@@ -181,6 +182,17 @@ LatticeStations stations_of(const Stations& ellipses) {
   return lattice;
 }
 
+/// Smooths sections until elements are well shaped, also in the widest bodies and on the finest mesh. Only wide and
+/// short blocks need it.
+void straighten(double length_m, Stations& stations) {
+  constexpr double least_quality = 0.325, widest = 1.8;  // of the reference body's
+  const auto quality = [&] {
+    const auto block = bend_block({8, 8, 32}, stations_of(stations), length_m, belly_grading);
+    return block ? smallest_scaled_jacobian(scaled(*block, BellyScale<double>{widest, 1})) : 0;
+  };
+  for (int round = 0; round < 20 && quality() < least_quality; ++round) stations = softened(stations);
+}
+
 /// Scales all sections so that the block has that volume, m³.
 void fill(double volume_m3, double length_m, Stations& stations) {
   const double now = volume(bend_block({2, 2, 2 * last_station}, stations_of(stations), length_m).value());
@@ -195,10 +207,12 @@ LatticeStations shape_lattice(Muscle muscle) {
   const std::vector<Vec> points = outline(plan);
   const double spacing = plan.belly_length_m / last_station;
   Stations stations = follow(points, spacing);
-  if (members_of(muscle).size() > 1) {
-    surround(points, spacing, stations);
-  } else {
+  if (muscle_members()[static_cast<std::size_t>(muscle)]) {
+    straighten(plan.belly_length_m, stations);
     fill(plan.volume_m3, plan.belly_length_m, stations);
+  } else {
+    surround(points, spacing, stations);
+    straighten(plan.belly_length_m, stations);
   }
   return stations_of(stations);
 }

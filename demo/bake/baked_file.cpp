@@ -65,7 +65,7 @@ Result<void> bake(const BakeText& text) {
   Lod lod = simulation.lod();
   if (auto done = lod.set_options(options); !done) return done;
   LodScene all;
-  all.muscles = text.muscles == "members" ? muscle_members() : muscle_groups();
+  all.muscles = text.muscles == "members" ? muscles_of_groups(usual_muscles()) : usual_muscles();
   all.camera = Viewpoint{};  // a person who approaches it needs every method
   if (auto done = lod.set_scene(all); !done) return done;
   const auto progress = [](std::size_t done, std::size_t of) { show_progress("baking", done, of); };

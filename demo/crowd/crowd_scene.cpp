@@ -42,7 +42,7 @@ LegMuscles CrowdScene::first_muscles() const {
   const LodTable lod_table(accuracy_table());
   const float limit_m = static_cast<float>(request_.tolerance_m) / LodOptions{}.margin;
   std::array<std::size_t, level_count> wanted{};
-  for (std::uint32_t m = 0; m < muscle_group_count; ++m) {
+  for (std::uint32_t m = 0; m < usual_muscle_count; ++m) {
     const LevelCase of = {m, LodTable::speed_step(1.35F, 1.72F), choice.inertia, request_.all_seen,
                           request_.effects.activation};
     ++wanted[lod_table.cheapest(of, limit_m)];

@@ -82,6 +82,8 @@ WalkRecording begin_recording(const Figure& figure, double frame_s) {
     recorded.name = part.name;
     recorded.segment = part.segment;
     recorded.colour = figure.colours[i];
+    const auto first = figure.muscles.tendon.begin() + part.first_vertex;
+    recorded.tendon.assign(first, first + part.vertices);
     for (std::uint32_t k = 0; k < part.indices; ++k)
       recorded.triangle.push_back(figure.muscles.index[part.first_index + k] - part.first_vertex);
     recording.muscles.push_back(std::move(recorded));

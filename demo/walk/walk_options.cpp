@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -33,23 +34,43 @@ constexpr std::string_view walk_activations[] = {"none", "phase", "moments"};
 constexpr ExcitationSource walk_sources[] = {ExcitationSource::none, ExcitationSource::phase,
                                              ExcitationSource::moments};
 
-/// Reads "groups", "single" and names of the table, separated by commas.
+/// Reads "usual", "groups", "single" (or "all", the same) and names of the table, separated by commas.
 Result<MuscleSet> read_muscles(const std::string& text) {
   MuscleSet set;
   for (const std::string& name : split(text, ',')) {
-    if (name == "groups") {
+    if (name == "usual") {
+      set |= usual_muscles();
+    } else if (name == "groups") {
       set |= muscle_groups();
-    } else if (name == "single" || name == "members") {
+    } else if (name == "single" || name == "all" || name == "members") {
       set |= muscle_members();
     } else if (const auto muscle = find_muscle(name)) {
       set.set(static_cast<std::size_t>(*muscle));
     } else {
       std::string known;
       for (const MuscleRow& row : muscles()) known += fmt::format(", {}", row.name);
-      return fail(fmt::format("--muscles '{}': '{}' is not one of groups, single{}", text, name, known));
+      return fail(fmt::format("--muscles '{}': '{}' is not one of usual, groups, all{}", text, name, known));
     }
   }
   return set;
+}
+
+/// Reads the direction of the camera, degrees.
+Result<double> read_camera(const std::string& text, bool on_legs) {
+  constexpr std::pair<std::string_view, double> names[] = {
+      {"front", 0},  {"front-left", 45},   {"left", 90},   {"back-left", 135},
+      {"back", 180}, {"back-right", -135}, {"right", -90}, {"front-right", usual_camera_deg}};
+  const std::string direction = on_legs ? text.substr(0, text.size() - std::string_view(":legs").size()) : text;
+  for (const auto& [name, degrees] : names) {
+    if (direction == name) return degrees;
+  }
+  const auto degrees = parse_quantity(direction, Quantity::ratio);
+  if (degrees && std::abs(*degrees) <= 360) return *degrees;
+  return fail(
+      fmt::format("--camera {}: give front, front-left, left, back-left, back, back-right, right, front-right or -360 "
+                  "to 360 degrees,"
+                  " alone or followed by :legs",
+                  text));
 }
 
 }  // namespace
@@ -141,9 +162,9 @@ Result<void> write_export(const WalkExport& wanted, const Body& body, const Walk
 
 const char* const walk_muscles_help =
     "Muscles: a belly is a block of elements in the frame of its line of action.\n"
-    "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles with\n"
-    "    the same action, and cheap; single are the thirteen individual muscles, for close views. Other\n"
-    "    muscles are not simulated.\n"
+    "  --muscles usual: hamstrings, quadriceps, triceps_surae and tibialis_anterior, groups of muscles\n"
+    "    with the same action, and cheap; groups: these and eight more, of hip and shank; all: the 38\n"
+    "    single muscles of a leg, for close views; or names of groups and single muscles.\n"
     "  --method explicit-central: explicit, in steps short enough for each belly; implicit-central: the\n"
     "    same with the consistent mass; newmark: implicit, one step per tick; static: no vibration;\n"
     "    modal: a few modes of a finer mesh, the cheapest method with vibration; none: only lines of\n"
@@ -176,9 +197,10 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--slow-down", &text.scale_speed, "Scale speed on slopes and stairs, as people do; on level ground as requested",
        gait},
       {"--no-forces", &text.no_forces, "Omit ground reactions and joint moments (empty cells in motion.csv)", gait},
-      {"--muscles", &text.muscles, "Muscles of both legs to simulate: groups, single, or names like hamstrings,soleus",
-       muscles},
-      {"--single-muscles", &text.single_muscles, "Simulate the single muscles in addition to --muscles", muscles},
+      {"--muscles", &text.muscles,
+       "Muscles of both legs to simulate: usual, groups, all, or names like hamstrings,soleus", muscles},
+      {"--single-muscles", &text.single_muscles,
+       "Simulate the single muscles of the usual groups in addition to --muscles", muscles},
       {"--drive", &text.drive,
        "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it", muscles,
        words_of(drives)},
@@ -204,6 +226,10 @@ std::vector<Option> walk_options(WalkText& text) {
        pictures},
       {"--fat", &text.fat, "Let fat under the skin wobble, in pictures with --view skin or glass", pictures},
       {"--contact", &text.contact, "Keep muscles from penetrating each other and bones, in pictures and files",
+       pictures},
+      {"--camera", &text.camera,
+       "front, back, left, right, front-right … of the walker, or degrees (0 front, 90 left); with :legs near, as "
+       "back:legs",
        pictures},
       {"--stereo", &text.stereo, "Show left and right eye side by side, along parallel axes", pictures},
       {"--eye-distance", &text.eye_distance, "Distance between the two eyes of --stereo, 1mm to 0.5m", pictures},
@@ -232,6 +258,8 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.z_back = text.axes == z_back_axes;
 
   OptionReader read;
+  options.camera_on_legs = text.camera.ends_with(":legs");
+  options.camera_deg = read(read_camera(text.camera, options.camera_on_legs));
   options.exports = read(read_exports(text.exports));
   for (const WalkExport& wanted : options.exports) {
     if (wanted.format == WalkFormat::sto && text.no_forces)
@@ -286,7 +314,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
 
   options.muscles.muscles = read(read_muscles(text.muscles));
   options.muscles.line_motion = true;
-  if (text.single_muscles) options.muscles.muscles |= muscle_members();
+  if (text.single_muscles) options.muscles.muscles |= muscles_of_groups(usual_muscles());
   options.muscles.drive = read(choose<Drive>("--drive", text.drive, drives));
   options.muscles.method = read(choose<Method>("--method", text.method, method_name));
   if (options.muscles.method == Method::finite) options.muscles.cells = close_up_cells;

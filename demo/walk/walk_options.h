@@ -31,8 +31,8 @@ bool needs_velocities(const WalkExport& wanted);
 std::string motion_file(const WalkExport& model);
 
 /// Writes one file into `folder`, for .xml also its motion. `ticks`: poses of every tick, and forces if there are any.
-/// `pictures`: with surfaces. `skinned`: pictures for formats with skins. If pictures are turned (put_z_back), ticks are
-/// turned here for formats without axes of their own.
+/// `pictures`: with surfaces. `skinned`: pictures for formats with skins. If pictures are turned (put_z_back), ticks
+/// are turned here for formats without axes of their own.
 Result<void> write_export(const WalkExport& wanted, const Body& body, const WalkRecording& pictures,
                           const WalkRecording& skinned, const WalkRecording& ticks,
                           const std::filesystem::path& folder);
@@ -44,6 +44,9 @@ extern const char* const walk_exports_help;
 enum class WalkWay { pelvis, root, in_place };
 
 enum class WalkView { stick, wireframe, surface, skin, glass };
+
+/// Direction of the usual camera, from the front right.
+inline constexpr double usual_camera_deg = -61.2;
 
 struct WalkOptions {
   BodyRequest body;
@@ -58,6 +61,8 @@ struct WalkOptions {
   std::optional<std::filesystem::path> anatomy;
   WalkView view = WalkView::surface;
   bool skin = false, skin_anatomy = false, fat = false, contact = false, frames = false, video = false, stereo = false;
+  double camera_deg = 0;        // direction from the walker to the camera: 0 front, 90 to the walker's left
+  bool camera_on_legs = false;  // near, from the waist down
   std::filesystem::path out = "out";
   std::vector<WalkExport> exports;
   WalkWay way = WalkWay::pelvis;
@@ -69,8 +74,8 @@ struct WalkOptions {
 struct WalkText {
   BodyText body;
   std::string speed, step_length, step_frequency, seconds = "5";
-  std::string muscles = "groups", drive = "displacement", method = "explicit-central", element = "full",
-              activation = "none", anatomy, view = "surface", out = "out";
+  std::string camera = "front-right", muscles = "usual", drive = "displacement", method = "explicit-central",
+              element = "full", activation = "none", anatomy, view = "surface", out = "out";
   std::string eye_distance = "63mm";
   std::vector<std::string> set, exports;
   std::string script, ground = "level", cycle, axes = usual_axes;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <mobil/engine/geometry.h>
 #include <mobil/png.h>
@@ -37,14 +38,18 @@ std::vector<Vec3<float>> smooth_path(const WalkRecording& recording) {
   return path;
 }
 
-/// Returns a camera at the height of the hips that shows the whole body from the front right, or from behind if stairs
-/// would hide the feet. It moves with the walker but keeps its direction, so that turns are visible.
-Camera follow(const Vec3<float>& at, float floor_m, bool climbs, const Body& body) {
+/// Returns a camera at the height of the hips that shows the whole body, or its legs. From the front right it is behind
+/// if stairs would hide the feet. It moves with the walker but keeps its direction, so that turns are visible.
+Camera follow(const Vec3<float>& at, float floor_m, const WalkOptions& options, const Body& body) {
   const float stature = body.request.height_m;
+  const bool hidden = options.ground.rise > 0 && options.camera_deg == usual_camera_deg;
+  const double angle = (hidden ? -114.0 : options.camera_deg) * std::numbers::pi / 180;
+  const float away = stature * (options.camera_on_legs ? 1.3F : 2.28F);
   Camera camera;
-  camera.target = {at.x, floor_m + 0.50F * stature, at.z + 0.1F * stature};
-  camera.eye = {camera.target.x - 2.0F * stature, floor_m + 0.60F * stature,
-                camera.target.z + (climbs ? -0.9F : 1.1F) * stature};
+  camera.target = {at.x, floor_m + stature * (options.camera_on_legs ? 0.33F : 0.50F), at.z + 0.1F * stature};
+  if (options.camera_on_legs) camera.target.z = at.z;
+  camera.eye = {camera.target.x + away * static_cast<float>(std::sin(angle)), camera.target.y + 0.1F * stature,
+                camera.target.z + away * static_cast<float>(std::cos(angle))};
   camera.vertical_fov_deg = 28;
   return camera;
 }
@@ -168,7 +173,7 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
   for (std::size_t frame = 0; frame < drawing.recording->frames.size(); ++frame) {
     fill_scene(drawing, options.view, frame, contents);
     const float floor_m = level ? 0 : path[frame].y - drawing.body->hip_height_m;
-    const Camera camera = follow(path[frame], floor_m, options.ground.rise > 0, *drawing.body);
+    const Camera camera = follow(path[frame], floor_m, options, *drawing.body);
     const StereoPair pair = stereo_pair(camera, static_cast<float>(options.eye_distance_m));
     Scene scene;
     if (!level) add_ground(ground, contents);

@@ -31,7 +31,11 @@ MotionTable::MotionTable(bool reserves) {
   }
   if (reserves) {
     for (const auto side : side_name)
-      text += fmt::format(",hip_reserve_{0}_nm,knee_reserve_{0}_nm,ankle_reserve_{0}_nm,muscles_at_most_{0}", side);
+      text += fmt::format(
+          ",hip_reserve_{0}_nm,knee_reserve_{0}_nm,ankle_reserve_{0}_nm,muscles_at_most_{0},hip_abduction_reserve_{0}_"
+          "nm,"
+          "hip_rotation_reserve_{0}_nm",
+          side);
   }
   for (const auto side : side_name)
     text += fmt::format(",hip_abduction_{0}_nm,hip_rotation_{0}_nm,free_moment_{0}_nm", side);
@@ -64,9 +68,11 @@ void MotionTable::add(const MotionRow& row, const std::optional<WalkForces>& for
   }
   if (forces && forces->reserve) {
     const auto& reserve = forces->reserve;
-    for (std::size_t side = 0; side < 2; ++side)
-      fmt::format_to(out, ",{:.4f},{:.4f},{:.4f},{}", reserve->hip_nm[side], reserve->knee_nm[side],
-                     reserve->ankle_nm[side], reserve->at_most[side]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const LegMoments<float>& left = reserve->left_nm[side];
+      fmt::format_to(out, ",{:.4f},{:.4f},{:.4f},{},{:.4f},{:.4f}", left.hip, left.knee, left.ankle,
+                     reserve->at_most[side], left.hip_abduction, left.hip_rotation);
+    }
   }
   for (std::size_t side = 0; side < 2; ++side) {
     if (forces) {

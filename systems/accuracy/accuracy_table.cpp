@@ -160,8 +160,12 @@ const AccuracyRow* AccuracyTable::find(Muscle muscle, SpeedClass speed, bool ine
     });
     return at == rows.end() ? nullptr : &*at;
   };
-  const AccuracyRow* own = row_of(muscle);
-  return own != nullptr ? own : row_of(members_of(muscle).front().group);
+  // Muscles of the hip and deep ones are not measured. They move less than these two groups.
+  const bool on_shank = muscle_row(muscle).drawn.along == LegBone::shank;
+  for (const Muscle whose : {muscle, members_of(muscle).front().group}) {
+    if (const AccuracyRow* row = row_of(whose)) return row;
+  }
+  return row_of(on_shank ? Muscle::triceps_surae : Muscle::quadriceps);
 }
 
 }  // namespace mobil::inline v0_3

@@ -41,11 +41,21 @@ inline bool is_active(const LodState<float>& lod_state) {
 inline LevelCase level_case(const LodState<float>& lod_state, std::uint32_t muscle, bool points) {
   return {muscle, lod_state.speed_step, (lod_state.effects & lod_inertia) != 0, points, is_active(lod_state)};
 }
-inline bool bit_at(std::uint32_t bits, std::uint32_t muscle) {
-  return (bits >> muscle & 1U) != 0;
+/// Bits of muscles in words of a row.
+using MuscleWords = std::uint32_t[max_muscles / 32];
+inline bool bit_at(const MuscleWords& bits, std::uint32_t muscle) {
+  return (bits[muscle / 32] >> (muscle % 32) & 1U) != 0;
 }
-inline void set_bit(std::uint32_t& bits, std::uint32_t muscle, bool on) {
-  bits = (bits & ~(1U << muscle)) | (on ? 1U : 0U) << muscle;
+inline void set_bit(MuscleWords& bits, std::uint32_t muscle, bool on) {
+  std::uint32_t& word = bits[muscle / 32];
+  word = (word & ~(1U << (muscle % 32))) | (on ? 1U : 0U) << (muscle % 32);
+}
+inline std::uint64_t all_bits(const MuscleWords& bits) {
+  return bits[0] | std::uint64_t{bits[1]} << 32;
+}
+inline void set_bits(MuscleWords& bits, std::uint64_t all) {
+  bits[0] = static_cast<std::uint32_t>(all);
+  bits[1] = static_cast<std::uint32_t>(all >> 32);
 }
 
 }  // namespace mobil::inline v0_3

@@ -7,46 +7,95 @@
 #include "engine/wide_geometry-inl.h"
 #include "systems/activation/hill_curves-inl.h"
 
+#ifndef MOBIL_SYSTEMS_ACTIVATION_MOMENT_SHARING_CPP_
+#define MOBIL_SYSTEMS_ACTIVATION_MOMENT_SHARING_CPP_
+namespace mobil::inline v0_3 {
+namespace {
+// Riener & Edrich 1999: exponents c₀ + c₁ · knee + c₂ · hip, degrees of flexion; N m.
+constexpr float front_of_hip[3] = {1.4655F, -0.0034F, -0.0750F}, back_of_hip[3] = {1.3403F, -0.0226F, 0.0305F};
+constexpr float passive_hip_at_rest = 8.072F, degrees = 57.2957795F;
+}  // namespace
+}  // namespace mobil::inline v0_3
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 namespace {
 
-constexpr int rounds = 3, steps_from_nowhere = 32, refining_steps = 12;
+constexpr std::size_t moment_count = leg_moment_count;
+constexpr int newton_steps = 16;
+constexpr float at_an_end = 0.01F;
 constexpr float litre_of_force_and_length = 300;  // N · m, at 30 N/cm²
 /// size² / volume of the reserves, N² m² / l.
-constexpr float hip_yields = 80.0F * 80.0F / 0.67F, other_yields = 1;
+constexpr float yields[moment_count] = {4, 4, 4, 4, 4};
 
-struct Three {
-  Wide x, y, z;
+struct Moments {
+  Wide of[moment_count];
 };
-HWY_INLINE Wide dot(const Three& a, const Three& b) {
-  return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
+static_assert(sizeof(LegMoments<Lanes<float>>) == moment_count * sizeof(Lanes<float>));
+
+HWY_INLINE Moments loaded(const LegMoments<Lanes<float>>& m) {
+  const auto* const from = reinterpret_cast<const Lanes<float>*>(&m);
+  Moments to;
+  for (std::size_t k = 0; k < moment_count; ++k) to.of[k] = load(from[k]);
+  return to;
 }
-HWY_INLINE Three fma_three(const Wide& s, const Three& a, const Three& b) {
-  return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
+HWY_INLINE void store_moments(const Moments& from, LegMoments<Lanes<float>>& to) {
+  auto* const words = reinterpret_cast<Lanes<float>*>(&to);
+  for (std::size_t k = 0; k < moment_count; ++k) store(from.of[k], words[k]);
 }
-HWY_INLINE Three loaded(const LegMoments<Lanes<float>>& m) {
-  return {load(m.hip), load(m.knee), load(m.ankle)};
+HWY_INLINE Wide dot(const Moments& a, const Moments& b) {
+  Wide sum = a.of[0] * b.of[0];
+  for (std::size_t k = 1; k < moment_count; ++k) sum = fma(a.of[k], b.of[k], sum);
+  return sum;
 }
-HWY_INLINE Three chosen(const WideMask& mask, const Three& a, const Three& b) {
-  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+HWY_INLINE Moments scaled(const Wide& s, const Moments& a) {
+  Moments to;
+  for (std::size_t k = 0; k < moment_count; ++k) to.of[k] = s * a.of[k];
+  return to;
+}
+HWY_INLINE Moments chosen(const WideMask& mask, const Moments& a, const Moments& b) {
+  Moments to;
+  for (std::size_t k = 0; k < moment_count; ++k) to.of[k] = select(mask, a.of[k], b.of[k]);
+  return to;
+}
+HWY_INLINE void add_scaled(const Wide& s, const Moments& a, Moments& to) {
+  for (std::size_t k = 0; k < moment_count; ++k) to.of[k] = fma(s, a.of[k], to.of[k]);
 }
 
-/// Symmetric and positive definite.
+/// Symmetric and positive definite; row r has its entries from the diagonal on.
 struct Symmetric {
-  Wide xx, xy, xz, yy, yz, zz;
+  Wide entry[moment_count][moment_count];
 };
-HWY_INLINE Three solved(const Symmetric& s, const Three& b) {
-  const Wide over_x = wide(1.0F) / s.xx, l_y = s.xy * over_x, l_z = s.xz * over_x;
-  const Wide d_y = fnma(l_y, s.xy, s.yy), over_y = wide(1.0F) / d_y, m_z = fnma(l_y, s.xz, s.yz);
-  const Wide k_z = m_z * over_y, d_z = fnma(k_z, m_z, fnma(l_z, s.xz, s.zz));
-  const Wide y = fnma(l_y, b.x, b.y), z = fnma(k_z, y, fnma(l_z, b.x, b.z));
-  const Wide third = z / d_z, second = fnma(k_z, third, y * over_y);
-  return {fnma(l_y, second, fnma(l_z, third, b.x * over_x)), second, third};
+
+/// Solves by LDLᵀ.
+HWY_INLINE Moments solved(Symmetric s, const Moments& b) {
+  Moments x = b;
+  for (std::size_t k = 0; k < moment_count; ++k) {
+    const Wide over = wide(1.0F) / s.entry[k][k];
+    for (std::size_t r = k + 1; r < moment_count; ++r) {
+      const Wide factor = s.entry[k][r] * over;
+      for (std::size_t c = r; c < moment_count; ++c) s.entry[r][c] = fnma(factor, s.entry[k][c], s.entry[r][c]);
+      x.of[r] = fnma(factor, x.of[k], x.of[r]);
+    }
+  }
+  for (std::size_t k = moment_count; k-- > 0;) {
+    for (std::size_t c = k + 1; c < moment_count; ++c) x.of[k] = fnma(s.entry[k][c], x.of[c], x.of[k]);
+    x.of[k] = x.of[k] / s.entry[k][k];
+  }
+  return x;
 }
 
-/// A member in one round: force at full activation, and activation per arm · y, which is that force over the volume.
+/// Returns the flexing moment of the hip's passive tissue, which grows with the cube of the size.
+HWY_INLINE Wide passive_hip(const Wide& hip_rad, const Wide& knee_rad, const Wide& size) {
+  const Wide hip = hip_rad * degrees, knee = knee_rad * degrees;
+  const auto tissue = [&](const float(&c)[3]) { return exp(fma(hip, wide(c[2]), fma(knee, wide(c[1]), wide(c[0])))); };
+  return size * size * size * (tissue(front_of_hip) - tissue(back_of_hip) + passive_hip_at_rest);
+}
+
+/// A line: arms, force at full activation, and activation per arm · y, which is that force over the volume.
 struct Pull {
+  Moments arm;
   Wide active, per_y;
 };
 
@@ -55,111 +104,109 @@ HWY_INLINE Wide in_range(const Wide& x) {
 }
 
 /// Returns the step, shortened so that no activation changes by more than `most`.
-HWY_INLINE Three shortened(const Three& step, const Wide& most, const Pull* pull, const Three* arm) {
+HWY_INLINE Moments shortened(const Moments& step, const Wide& most, const Pull* pull) {
   Wide farthest = most;
-  for (std::size_t i = 0; i < leg_member_count; ++i) farthest = max(farthest, abs(pull[i].per_y * dot(arm[i], step)));
-  const Wide part = most / farthest;
-  return {part * step.x, part * step.y, part * step.z};
+  for (std::size_t i = 0; i < leg_member_count; ++i)
+    farthest = max(farthest, abs(pull[i].per_y * dot(pull[i].arm, step)));
+  return scaled(most / farthest, step);
 }
 
 /// The dual at y: its value, which is minimal where no moment is left; the moments left, which are its downhill slope;
 /// and how fast they decrease with y.
 struct Dual {
   Wide value;
-  Three left;
+  Moments left;
   Symmetric slope;
 };
-HWY_INLINE Dual dual_at(const Three& y, const Three& moments, const Pull* pull, const Three* arm) {
+HWY_NOINLINE void dual_at(const Moments& y, const Moments& moments, const Pull* pull, Dual& at) {
   const Wide zero = wide(0.0F);
-  const Three reserve = {hip_yields * y.x, y.y, y.z};
-  Dual at{0.5F * dot(reserve, y) - dot(moments, y),
-          {moments.x - reserve.x, moments.y - reserve.y, moments.z - reserve.z},
-          {wide(hip_yields), zero, zero, wide(other_yields), zero, wide(other_yields)}};
-  for (std::size_t i = 0; i < leg_member_count; ++i) {
-    const Wide along = dot(arm[i], y), wanted = pull[i].per_y * along, a = in_range(wanted);
-    const Wide force = a * pull[i].active;
-    at.value = fma(force, fnma(wide(0.5F), a / pull[i].per_y, along), at.value);
-    at.left = fma_three(-force, arm[i], at.left);
-    const WideMask free = (wanted > wide(min_activation)) & (wanted < wide(max_activation));
-    const Wide k = select(free, pull[i].per_y * pull[i].active, zero);
-    const Three scaled = {k * arm[i].x, k * arm[i].y, k * arm[i].z};
-    at.slope.xx = fma(scaled.x, arm[i].x, at.slope.xx);
-    at.slope.xy = fma(scaled.x, arm[i].y, at.slope.xy);
-    at.slope.xz = fma(scaled.x, arm[i].z, at.slope.xz);
-    at.slope.yy = fma(scaled.y, arm[i].y, at.slope.yy);
-    at.slope.yz = fma(scaled.y, arm[i].z, at.slope.yz);
-    at.slope.zz = fma(scaled.z, arm[i].z, at.slope.zz);
+  at.value = zero;
+  for (std::size_t k = 0; k < moment_count; ++k) {
+    const Wide reserve = yields[k] * y.of[k];
+    at.value = fma(y.of[k], fnma(wide(1.0F), moments.of[k], 0.5F * reserve), at.value);
+    at.left.of[k] = moments.of[k] - reserve;
+    for (std::size_t c = k; c < moment_count; ++c) at.slope.entry[k][c] = c == k ? wide(yields[k]) : zero;
   }
-  return at;
+  for (std::size_t i = 0; i < leg_member_count; ++i) {
+    const Pull& of = pull[i];
+    const Wide along = dot(of.arm, y), wanted = of.per_y * along, a = in_range(wanted);
+    const Wide force = a * of.active;
+    at.value = fma(force, fnma(wide(0.5F), a / of.per_y, along), at.value);
+    const WideMask free = (wanted > wide(min_activation)) & (wanted < wide(max_activation));
+    // A little slope of muscles at an end of their range keeps steps short that would leave it.
+    const Wide own_slope = of.per_y * of.active, stiff = select(free, own_slope, at_an_end * own_slope);
+    for (std::size_t k = 0; k < moment_count; ++k) {
+      at.left.of[k] = fnma(force, of.arm.of[k], at.left.of[k]);
+      const Wide own = stiff * of.arm.of[k];
+      for (std::size_t c = k; c < moment_count; ++c)
+        at.slope.entry[k][c] = fma(own, of.arm.of[c], at.slope.entry[k][c]);
+    }
+  }
 }
 
-/// Returns the y at which no moment is left.
-HWY_INLINE Three solve_dual(const Three& from, const Three& moments, const Pull* pull, const Three* arm, int steps) {
+/// Returns the y at which no moment is left, from one near it.
+HWY_INLINE Moments solve_dual(const Moments& from, const Moments& moments, const Pull* pull) {
   const Wide zero = wide(0.0F);
-  Three y = from;
-  const Dual first = dual_at(y, moments, pull, arm);
-  Wide least = first.value, reach = wide(1.0F);
-  Three step = shortened(solved(first.slope, first.left), reach, pull, arm);
-  for (int i = 0; i < steps; ++i) {
-    const Three next = {y.x + step.x, y.y + step.y, y.z + step.z};
-    const Dual at = dual_at(next, moments, pull, arm);
+  Moments y = from;
+  Dual at;
+  dual_at(y, moments, pull, at);
+  Wide least = at.value, reach = wide(1.0F);
+  Moments step = shortened(solved(at.slope, at.left), reach, pull);
+  for (int i = 0; i < newton_steps; ++i) {
+    Moments next = y;
+    add_scaled(wide(1.0F), step, next);
+    dual_at(next, moments, pull, at);
     // Near the end values differ only by rounding, but steps are small by then.
     const WideMask better = at.value <= fma(wide(1e-6F), abs(least), least);
     y = chosen(better, next, y);
     least = select(better, at.value, least);
-    // If all muscles are at an end of their range, only the reserves determine the slope, and steps are far too long.
-    // If the muscles stay there in the solution, such long steps are needed.
-    reach = select(better, min(4.0F * reach, wide(1e6F)), reach * 0.4F);
-    const Three shorter = {0.4F * step.x, 0.4F * step.y, 0.4F * step.z};
-    step = chosen(better, shortened(solved(at.slope, at.left), reach, pull, arm), shorter);
+    // If all muscles are at an end of their range, steps are far too long. If the muscles stay there in the solution,
+    // such long steps are needed.
+    reach = select(better, min(6.0F * reach, wide(1e6F)), reach * 0.25F);
+    step = chosen(better, shortened(solved(at.slope, at.left), reach, pull), scaled(wide(0.25F), step));
   }
   const WideMask number = (least >= zero) | (least < zero);
-  return chosen(number, y, Three{zero, zero, zero});
+  return chosen(number, y, Moments{{zero, zero, zero, zero, zero}});
 }
 
 }  // namespace
 
-void share_all(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m, const LegMoments<Lanes<float>>* arm_m,
-               const LegMoments<Lanes<float>>& moments_nm, Lanes<float>* of_most, LegMoments<Lanes<float>>& reserve_nm,
-               Lanes<std::uint32_t>& at_most) {
+void share_all(const LegDesign<Lanes<float>>& design, const SharedLeg& leg, const LegMoments<Lanes<float>>& moments_nm,
+               LegMoments<Lanes<float>>& price, Lanes<float>* smooth_of_most, Lanes<float>* of_most,
+               LegMoments<Lanes<float>>& left_nm, Lanes<std::uint32_t>& at_most) {
   const Wide zero = wide(0.0F), one = wide(1.0F);
-  Three arm[leg_member_count];
-  Wide force[leg_member_count], asked[leg_member_count];  // of the isometric one
-  for (std::size_t i = 0; i < leg_member_count; ++i) arm[i] = loaded(arm_m[i]), force[i] = wide(0.2F);
+  Wide passive[leg_member_count];
   Pull pull[leg_member_count];
-  Three y = {zero, zero, zero};
-  Wide full = zero;
-  for (int round = 0; round < rounds; ++round) {
-    Three moments = loaded(moments_nm);
-    Wide passive[leg_member_count];
-    for (std::size_t i = 0; i < leg_member_count; ++i) {
-      const MemberDesign<Lanes<float>>& of = design.member[i];
-      const Wide fibre = load(of.fibre_m), over = one / fibre, most = load(of.force_n),
-                 height = over * load(of.height_m);
-      const Wide m = fibre_at(height, over * load(of.tendon_m), over * load(path_m[i]), force[i]);
-      const Wide cos = fibre_cosine(height / m);
-      passive[i] = most * passive_force(m).at * cos;
-      pull[i].active = most * active_force(m).at * cos;
-      pull[i].per_y = pull[i].active * wide(litre_of_force_and_length) / (most * fibre);
-      moments = fma_three(-passive[i], arm[i], moments);
-    }
-    y = solve_dual(y, moments, pull, arm, round == 0 ? steps_from_nowhere : refining_steps);
-    full = zero;
-    for (std::size_t i = 0; i < leg_member_count; ++i) {
-      const Wide wanted = pull[i].per_y * dot(arm[i], y);
-      asked[i] = fma(in_range(wanted), pull[i].active, passive[i]) / load(design.member[i].force_n);
-      force[i] = 0.5F * (force[i] + asked[i]);  // undamped rounds oscillate: a longer tendon weakens the fibre
-      full = full + select(wanted >= wide(max_activation), one, zero);
-    }
-  }
-  Three left = loaded(moments_nm);
+  Moments moments = loaded(moments_nm);
+  moments.of[0] = moments.of[0] + passive_hip(load(leg.flexion_rad.hip), load(leg.flexion_rad.knee), load(leg.size));
+  Moments left = moments;
   for (std::size_t i = 0; i < leg_member_count; ++i) {
-    store(asked[i], of_most[i]);
-    left = fma_three(-asked[i] * load(design.member[i].force_n), arm[i], left);
+    const MemberDesign<Lanes<float>>& of = design.member[i];
+    const Wide fibre = load(of.fibre_m), over = one / fibre, most = load(of.force_n), height = over * load(of.height_m);
+    const Wide m =
+        fibre_at(height, over * load(of.tendon_m), over * load(leg.path_m[i]), max(load(smooth_of_most[i]), zero));
+    const Wide cos = fibre_cosine(height / m);
+    passive[i] = most * passive_force(m).at * cos;
+    pull[i].arm = loaded(leg.arm_m[i]);
+    pull[i].active = most * active_force(m).at * cos;
+    pull[i].per_y = pull[i].active * wide(litre_of_force_and_length) / (most * fibre);
+    add_scaled(-passive[i], pull[i].arm, moments);
   }
-  store(left.x, reserve_nm.hip);
-  store(left.y, reserve_nm.knee);
-  store(left.z, reserve_nm.ankle);
+  const Moments y = solve_dual(loaded(price), moments, pull);
+  Wide full = zero;
+  for (std::size_t i = 0; i < leg_member_count; ++i) {
+    const Wide wanted = pull[i].per_y * dot(pull[i].arm, y);
+    const Wide force = fma(in_range(wanted), pull[i].active, passive[i]);
+    const Wide asked = force / load(design.member[i].force_n);
+    add_scaled(-force, pull[i].arm, left);
+    full = full + select(wanted >= wide(max_activation), one, zero);
+    store(asked, of_most[i]);
+    // Undamped lengths oscillate: a longer tendon weakens the fibre.
+    const Wide smooth = 0.5F * (load(smooth_of_most[i]) + asked);
+    store(select((smooth >= zero) | (smooth < zero), smooth, zero), smooth_of_most[i]);
+  }
+  store_moments(y, price);
+  store_moments(left, left_nm);
   Lanes<float> count;
   store(full, count);
   for (std::size_t lane = 0; lane < lane_count; ++lane) at_most[lane] = static_cast<std::uint32_t>(count[lane]);
@@ -169,15 +216,26 @@ void share_all(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include <cmath>
+
 namespace mobil::inline v0_3 {
 namespace {
 HWY_EXPORT(share_all);
 }  // namespace
 
-void share_moments(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m,
-                   const LegMoments<Lanes<float>>* arm_m, const LegMoments<Lanes<float>>& moments_nm,
-                   Lanes<float>* of_most, LegMoments<Lanes<float>>& reserve_nm, Lanes<std::uint32_t>& at_most) {
-  HWY_DYNAMIC_DISPATCH(share_all)(design, path_m, arm_m, moments_nm, of_most, reserve_nm, at_most);
+double passive_hip_nm(double hip_flexion_rad, double knee_flexion_rad) {
+  const double hip = hip_flexion_rad * double{degrees}, knee = knee_flexion_rad * double{degrees};
+  const auto tissue = [&](const float(&c)[3]) {
+    return std::exp(double{c[0]} + double{c[1]} * knee + double{c[2]} * hip);
+  };
+  return tissue(front_of_hip) - tissue(back_of_hip) + double{passive_hip_at_rest};
+}
+
+void share_moments(const LegDesign<Lanes<float>>& design, const SharedLeg& leg,
+                   const LegMoments<Lanes<float>>& moments_nm, LegMoments<Lanes<float>>& price,
+                   Lanes<float>* smooth_of_most, Lanes<float>* of_most, LegMoments<Lanes<float>>& left_nm,
+                   Lanes<std::uint32_t>& at_most) {
+  HWY_DYNAMIC_DISPATCH(share_all)(design, leg, moments_nm, price, smooth_of_most, of_most, left_nm, at_most);
 }
 
 }  // namespace mobil::inline v0_3

@@ -29,9 +29,9 @@ Strain strain_of(const LegMuscles& choice) {
   return choice.method == Method::finite ? Strain::finite : Strain::small;
 }
 
-/// Returns true for single members of a group, which are long and thin.
+/// Returns true for single muscles, which are long and thin.
 bool is_single(Muscle muscle) {
-  return static_cast<std::size_t>(muscle) >= muscle_group_count;
+  return !is_muscle_group(muscle);
 }
 
 bool same_template(const LegMuscles& a, const LegMuscles& b, Muscle muscle) {
@@ -105,7 +105,7 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   }
   if (choice.muscles.none() || (choice.muscles >> muscles().size()).any()) {
     return fail(
-        fmt::format("the muscles chosen must be some of the table's {} rows; take muscle_groups(),"
+        fmt::format("the muscles chosen must be some of the table's {} rows; take usual_muscles(),"
                     " muscle_members() or find_muscle(name)",
                     muscles().size()));
   }

@@ -69,7 +69,7 @@ struct Reader {
     sound = sound && word <= most;
     return word;
   }
-  void operator()(MuscleSet& set) { set = MuscleSet(take((std::uint64_t{1} << MuscleSet{}.size()) - 1)); }
+  void operator()(MuscleSet& set) { set = MuscleSet(take((std::uint64_t{1} << muscle_count) - 1)); }
   void operator()(double& value) { value = std::bit_cast<double>(words[next++]); }
   void operator()(std::optional<double>& value) {
     const bool there = take(1) != 0;

@@ -137,13 +137,14 @@ int write_baked(Line& line, std::span<const std::byte> baked, void* out, std::si
   return MOBIL_OK;
 }
 
-int muscle_set(Line& line, unsigned int bits, MuscleSet& out) {
+int muscle_set(Line& line, unsigned int bits, unsigned int more, MuscleSet& out) {
   const std::size_t known = muscles().size();
-  out = MuscleSet(bits);
+  out = MuscleSet(bits | std::uint64_t{more} << 32U);
   if ((out >> known).none()) return MOBIL_OK;
-  return line.refuse(MOBIL_REFUSED, fmt::format("muscles {:#x} has bits of muscles that do not exist; there are {}, the"
-                                                " first is bit 0",
-                                                bits, known));
+  return line.refuse(MOBIL_REFUSED,
+                     fmt::format("more_muscles {:#x} has bits of muscles that do not exist; there are {}, and muscle 32"
+                                 " is its first bit",
+                                 more, known));
 }
 
 int muscle_number(Line& line, int muscle, Muscle& out) {
@@ -210,7 +211,7 @@ mobil_muscles usual() {
   const auto method = usual<mobil_method>();
   mobil_muscles to{};
   to.size = sizeof to;
-  to.muscles = static_cast<unsigned int>(as.muscles.to_ulong());
+  put_muscles(as.muscles, to);
   to.method = method.method;
   to.modes = method.modes;
   to.moving = method.moving;
@@ -251,7 +252,7 @@ mobil_scene usual() {
   const Viewpoint camera;
   mobil_scene scene{};
   scene.size = sizeof scene;
-  scene.muscles = static_cast<unsigned int>(as.muscles.to_ulong());
+  put_muscles(as.muscles, scene);
   scene.tolerance_px = as.tolerance_px;
   scene.half_angle_rad = camera.half_angle_rad;
   scene.radians_per_pixel = camera.radians_per_pixel;
@@ -263,7 +264,9 @@ mobil_scene usual() {
 
 template <>
 mobil_needs usual() {
-  return {sizeof(mobil_needs), 0, 0, -1};
+  auto needs = sized<mobil_needs>();
+  needs.looked_at = -1;
+  return needs;
 }
 
 template <>
@@ -283,13 +286,14 @@ mobil_lod_counts usual() {
 template <>
 mobil_surface_choice usual() {
   const SurfaceChoice as;
-  return {sizeof(mobil_surface_choice),
-          as.bones,
-          MOBIL_BOTH,
-          static_cast<unsigned int>(as.simulated.to_ulong()),
-          {as.cells[0], as.cells[1], as.cells[2]},
-          as.detail,
-          as.textured};
+  auto choice = sized<mobil_surface_choice>();
+  choice.bones = as.bones;
+  choice.side = MOBIL_BOTH;
+  put_muscles(as.simulated, choice);
+  std::ranges::copy(as.cells, choice.cells);
+  choice.detail = as.detail;
+  choice.textured = as.textured;
+  return choice;
 }
 
 template <>

@@ -15,7 +15,7 @@ std::optional<float> above_0(float number) {
 int needs_of(mobil_sim& sim, const mobil_scene* given, LodScene& to) {
   mobil_scene scene;
   if (const int code = read_struct(sim.line, given, "scene", scene)) return code;
-  if (const int code = muscle_set(sim.line, scene.muscles, to.muscles)) return code;
+  if (const int code = muscle_set(sim.line, scene.muscles, scene.more_muscles, to.muscles)) return code;
   to.tolerance_m = above_0(scene.tolerance_m);
   to.tolerance_px = scene.tolerance_px;
   if (scene.has_camera != 0)
@@ -73,8 +73,8 @@ int mobil_lod_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mo
     if (needs != nullptr) {
       mobil_needs known;
       if (const int code = read_struct(s.line, needs, "needs", known)) return code;
-      if (known.muscles != 0) {
-        if (const int code = muscle_set(s.line, known.muscles, own.muscles.emplace())) return code;
+      if ((known.muscles | known.more_muscles) != 0) {
+        if (const int code = muscle_set(s.line, known.muscles, known.more_muscles, own.muscles.emplace())) return code;
       }
       own.tolerance_m = above_0(known.tolerance_m);
       if (known.looked_at >= 0) own.looked_at = known.looked_at != 0;

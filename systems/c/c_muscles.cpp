@@ -36,7 +36,7 @@ int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& to) {
   if (const int code = method_of(line, given, method)) return code;
   to.method = method.method;
   to.modal = method.modal;
-  if (const int code = muscle_set(line, given.muscles, to.muscles)) return code;
+  if (const int code = muscle_set(line, given.muscles, given.more_muscles, to.muscles)) return code;
   if (const int code = one_of(line, given.element, Element::one_point, "element", to.element)) return code;
   if (const int code = one_of(line, given.mass, Mass::consistent, "mass", to.mass)) return code;
   if (const int code = one_of(line, given.drive, Drive::force, "drive", to.drive)) return code;
@@ -83,9 +83,8 @@ int mobil_prepare(mobil_sim* sim, const mobil_muscles* muscles) {
 }
 
 int mobil_bake(mobil_sim* sim, void* out, size_t room, size_t* bytes) {
-  return call(sim, "mobil_bake", [&](mobil_sim& s) {
-    return write_baked(s.line, s.world().muscle_library().bake(), out, room, bytes);
-  });
+  return call(sim, "mobil_bake",
+              [&](mobil_sim& s) { return write_baked(s.line, s.world().muscle_library().bake(), out, room, bytes); });
 }
 
 int mobil_load_baked(mobil_sim* sim, const void* baked, size_t bytes) {

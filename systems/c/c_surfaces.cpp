@@ -52,7 +52,7 @@ int mobil_bind_surfaces(mobil_sim* sim, mobil_id like, const mobil_surface_choic
     SurfaceChoice as;
     as.bones = known.bones != 0;
     as.sides = {known.side != MOBIL_LEFT, known.side != MOBIL_RIGHT};
-    if (const int code = muscle_set(s.line, known.muscles, as.simulated)) return code;
+    if (const int code = muscle_set(s.line, known.muscles, known.more_muscles, as.simulated)) return code;
     as.cells = {known.cells[0], known.cells[1], known.cells[2]};
     as.detail = known.detail;
     as.textured = known.textured != 0;

@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
-#include "engine/wide_geometry-inl.h"
+#include "systems/lines/leg_path-inl.h"
 
 #ifndef MOBIL_SYSTEMS_LINES_ELONGATIONS_CPP_
 #define MOBIL_SYSTEMS_LINES_ELONGATIONS_CPP_
@@ -29,9 +29,9 @@ namespace {
 constexpr float knots_a_radian = 57.2957795F / static_cast<float>(knee_knot_deg);
 
 /// A block of legs in the frames of their knees. Points of the thigh are scaled but not rotated, points of the shank
-/// are rotated only about x, and edges run along x.
+/// are rotated only about x, and edges of both run along x.
 struct Knees {
-  WideVec hip, rolled, ankle;
+  WideVec hip, rolled, ankle, pelvis_x;
   WideVec pelvis[3], foot[3];  // axes, scaled by the size of the leg
   Wide sine, cosine, knots, cube[knee_knots];
   Wide across, thigh, shank;
@@ -70,6 +70,7 @@ HWY_NOINLINE Knees load_knees(const MuscleLines::Track& rolling, const LegScale<
   k.across = load(scale.across), k.thigh = load(scale.thigh), k.shank = load(scale.shank);
   k.sine = load(leg.sine), k.cosine = load(leg.cosine);
   k.hip = load(leg.hip_m);
+  k.pelvis_x = load(leg.pelvis[0]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     k.pelvis[axis] = times(k.across, load(leg.pelvis[axis]));
     k.foot[axis] = times(k.across, load(leg.foot[axis]));
@@ -99,6 +100,13 @@ HWY_NOINLINE Wide changing_length(const Knees& knees, const MuscleLines::Member&
       if (!is_constant(member, i)) sum = sum + length(next - at);
     } else {
       const WideVec to = point.straight_to < corners ? knees.place(member.path[point.straight_to]) : end;
+      if (point.bone == LegBone::pelvis) {
+        const Touch touch = over_edge(at, to, next, knees.pelvis_x, point);
+        next = select(touch.touched, touch.at, at);
+        sum = sum + length(next - at);
+        at = next;
+        continue;
+      }
       const WideVec a = at - next, b = to - next;
       const Wide turn = fnma(a.z, b.y, a.y * b.z);
       const Wide near = sqrt(fma(a.y, a.y, a.z * a.z)), far = sqrt(fma(b.y, b.y, b.z * b.z));

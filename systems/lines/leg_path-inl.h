@@ -27,7 +27,7 @@ struct Leg {
   WideVec origin[4];
   WideQuat rotation[4];
   Wide y_scale[4], across;
-  WideVec thigh_x, shank_x;  // directions of the edges
+  WideVec edge[3];  // directions of the edges: x of pelvis, thigh and shank
   WideVec knee, rolled;
   Wide flexion, cube[knee_knots];  // of a track's spline: max(flexion / 20° − k, 0)³
 };
@@ -60,8 +60,7 @@ MOBIL_WIDE_INLINE Leg load_leg(const MuscleLines& lines, const LegScale<Lanes<fl
   leg.y_scale[2] = load(scale.shank);
   const Wide zero = wide(0.0F);
   const WideVec x{wide(1.0F), zero, zero};
-  leg.thigh_x = rotate(leg.rotation[1], x);
-  leg.shank_x = rotate(leg.rotation[2], x);
+  for (std::size_t b = 0; b < 3; ++b) leg.edge[b] = rotate(leg.rotation[b], x);
 
   leg.flexion = knee_flexion(leg.rotation[1], leg.rotation[2]);
   const Wide u = leg.flexion * wide(knots_per_rad);
@@ -94,20 +93,22 @@ HWY_INLINE LegBone end_bone(const MuscleLines::Member& member) {
 }
 
 /// Point where the shortest path from `from` to `to` over the edge through p touches it, and the lanes in which it
-/// does.
+/// does. Round the pelvis' edge a path never bends by more than a right angle; in deep flexion it is clear of it.
 struct Touch {
   WideMask touched;
   WideVec at;
 };
 MOBIL_WIDE_INLINE Touch over_edge(const WideVec& from, const WideVec& to, const WideVec& p, const WideVec& axis,
-                                  PathHold side) {
+                                  const MuscleLines::Point& edge) {
   const WideVec a = from - p, b = to - p;
   const Wide turn = dot(cross(a, b), axis);
   const Wide a_along = dot(a, axis), b_along = dot(b, axis);
   const Wide near = length(fma(-a_along, axis, a)), far = length(fma(-b_along, axis, b));
   const Wide slide = fma(a_along, far, b_along * near) / max(near + far, wide(1e-9F));
   const Wide zero = wide(0.0F);
-  return {side == PathHold::front ? turn < zero : turn > zero, fma(slide, axis, p)};
+  WideMask touched = edge.hold == PathHold::front ? turn < zero : turn > zero;
+  if (edge.bone == LegBone::pelvis) touched = touched & (dot(a, b) < a_along * b_along);
+  return {touched, fma(slide, axis, p)};
 }
 
 /// Calls segment(from, to, bone of `to`, mask of the lanes with that segment or null for all) along a member's path.
@@ -125,7 +126,7 @@ HWY_INLINE void along_path(const Leg& leg, const MuscleLines::Member& member, co
       segment(at, next, point.bone, nullptr);
     } else {
       const WideVec to = point.straight_to < corners ? place(leg, member.path[point.straight_to]) : end;
-      const Touch touch = over_edge(at, to, next, point.bone == LegBone::thigh ? leg.thigh_x : leg.shank_x, point.hold);
+      const Touch touch = over_edge(at, to, next, leg.edge[static_cast<std::size_t>(point.bone)], point);
       next = select(touch.touched, touch.at, at);
       segment(at, next, point.bone, &touch.touched);
     }

@@ -35,6 +35,13 @@ MuscleLines::Member member(const MemberMuscle& muscle, double weight) {
 
 }  // namespace
 
+MuscleLines make_single_line(const MemberMuscle& line) {
+  MuscleLines lines{};
+  lines.rolling = track(knee_rolling());
+  lines.members.push_back(member(line, 1));
+  return lines;
+}
+
 MuscleLines make_muscle_lines(Muscle muscle) {
   const MuscleRow& row = muscle_row(muscle);
   const DrawnLine& drawn = row.drawn;

@@ -36,6 +36,8 @@ struct MuscleLines {
   float start_m;
 };
 
+/// Builds the path of one line alone, without what is drawn.
+MuscleLines make_single_line(const MemberMuscle& line);
 /// Builds the lines of a muscle. Its length is the volume-weighted mean of its members' lengths.
 MuscleLines make_muscle_lines(Muscle muscle);
 

@@ -92,7 +92,8 @@ Result<void> Lod::set_options(const LodOptions& options) {
   if (auto ok = check(options); !ok) return ok;
   LodWork& to = work();
   to.options = options;
-  std::construct_at(&to.lod_table, options.table != nullptr ? *options.table : accuracy_table());  // too large for small stacks
+  std::construct_at(&to.lod_table,
+                    options.table != nullptr ? *options.table : accuracy_table());  // too large for small stacks
   to.orders.make_by(options.background, options.making_ticks);
   return {};
 }
@@ -107,7 +108,7 @@ Result<void> Lod::set_scene(const LodScene& needs) {
     return fail(fmt::format("set_scene: a budget of {} s a tick is not finite and positive", *needs.budget_s));
   if ((needs.muscles >> muscles().size()).any())
     return fail(
-        fmt::format("set_scene: there are {} muscles; take muscle_groups(), muscle_members() or find_muscle(name)",
+        fmt::format("set_scene: there are {} muscles; take usual_muscles(), muscle_members() or find_muscle(name)",
                     muscles().size()));
   if (needs.asleep_beyond_m && !(needs.camera && *needs.asleep_beyond_m >= 2 && *needs.asleep_beyond_m < 1e6F))
     return fail(fmt::format("set_scene: asleep beyond {} m; give 2 m or more, and a camera", *needs.asleep_beyond_m));
@@ -202,7 +203,7 @@ Result<void> Lod::manage(std::span<const Entity> people, const LodOverrides& nee
   LodRequest<float> row{};
   if (needs.muscles) {
     row.own |= own_muscles;
-    row.muscles = static_cast<std::uint32_t>(needs.muscles->to_ulong());
+    set_bits(row.muscles, needs.muscles->to_ullong());
   }
   if (needs.tolerance_m) {
     row.own |= own_tolerance;
@@ -369,7 +370,7 @@ Result<Choice> Lod::why(Entity person, Muscle muscle) const {
     choice.reason = Reason::refused;
   } else if (goal != marked || shown_differs) {
     choice.reason = Reason::switch_pending;
-  } else if (!bit_at(LodRound(frame_).wanted(needs), m)) {
+  } else if ((LodRound(frame_).wanted(needs) >> m & 1U) == 0) {
     choice.reason = Reason::not_wanted;
   } else if (view == View::out_of_sight) {
     choice.reason = Reason::out_of_sight;

@@ -251,11 +251,11 @@ void LodRound::evaluate(Table& table, const Columns& at, std::size_t b, Looked& 
   }
 }
 
-std::uint32_t LodRound::wanted(const LodRequest<float>& needs) const {
-  return (needs.own & own_muscles) != 0 ? needs.muscles : static_cast<std::uint32_t>(work_.scene.muscles.to_ulong());
+std::uint64_t LodRound::wanted(const LodRequest<float>& needs) const {
+  return (needs.own & own_muscles) != 0 ? all_bits(needs.muscles) : work_.scene.muscles.to_ullong();
 }
 
-void LodRound::decide(Entity person, LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact,
+void LodRound::decide(Entity person, LodState<float>& lod_state, std::uint64_t wanted_muscles, bool compact,
                       Looked& out) const {
   const auto view = static_cast<View>(lod_state.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
@@ -265,10 +265,10 @@ void LodRound::decide(Entity person, LodState<float>& lod_state, std::uint32_t w
   if ((lod_state.effects & lod_bare) != 0) return decide_bare(person, lod_state, wanted_muscles, compact, out);
   const bool over = work_.scene.budget_s && progress_.cost_ps > progress_.budget_ps;
   // If no muscle is simulated and none was forced, all are removed together.
-  bool idle = work_.scene.asleep_beyond_m && lod_state.muscles != 0, settled = true;
+  bool idle = work_.scene.asleep_beyond_m && all_bits(lod_state.muscles) != 0, settled = true;
   float excess = 0;
   const std::size_t dearer = out.dearer.size(), cheaper = out.cheaper.size();
-  for (std::uint32_t left = lod_state.muscles; left != 0; left &= left - 1) {
+  for (std::uint64_t left = all_bits(lod_state.muscles); left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
     const std::uint32_t now = level_at(lod_state.level, m);
     if (now >= refused_level) {
@@ -282,7 +282,7 @@ void LodRound::decide(Entity person, LodState<float>& lod_state, std::uint32_t w
     const std::int64_t cost = work_.lod_table.cost_ps(as_is, now);
     if (!compact) out.counted_ps += cost;  // the budget excludes compact people
     std::uint32_t goal = 0;
-    if (simulated && bit_at(wanted_muscles, m)) {
+    if (simulated && (wanted_muscles >> m & 1U) != 0) {
       if (work_.scene.budget_s && !compact) out.counting.add(work_.lod_table, as_seen, size);
       goal = work_.lod_table.from(now, as_seen, limit, over ? 1.0F : work_.options.slack);
     }

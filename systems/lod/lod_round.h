@@ -124,7 +124,7 @@ class LodRound {
 
   /// Gives people who woke without muscles their muscles, on this level.
   Result<void> begin_muscles(std::span<const Entity> people, std::uint32_t level, bool points);
-  std::uint32_t wanted(const LodRequest<float>& needs) const;
+  std::uint64_t wanted(const LodRequest<float>& needs) const;
   /// Returns how much slower this machine is than the one on which the table was measured.
   MachineFactor machine() const;
   /// Returns the factor by which tolerances are exceeded under the budget.
@@ -144,7 +144,7 @@ class LodRound {
   void find_tables();
   std::size_t look_at_the_awake();
   void evaluate(Table& table, const Columns& at, std::size_t block, Looked& out) const;
-  void decide(Entity person, LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact, Looked& out) const;
+  void decide(Entity person, LodState<float>& lod_state, std::uint64_t wanted_muscles, bool compact, Looked& out) const;
   void observe_machine();
   void plan_budget();
   void wake_sleepers();
@@ -152,7 +152,7 @@ class LodRound {
   void list_all_sleepers();
   std::array<float, 4> sees() const;  // needs a camera and asleep_beyond_m
   LodState<float> begin_tiers(const LegMuscles* choice) const;
-  void decide_bare(Entity person, const LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact,
+  void decide_bare(Entity person, const LodState<float>& lod_state, std::uint64_t wanted_muscles, bool compact,
                    Looked& out) const;
   void begin_muscles();
   void end_muscles();

@@ -210,19 +210,19 @@ LodState<float> LodRound::begin_tiers(const LegMuscles* choice) const {
   lod_state.effects = lod_bare;
   if (choice->inertia) lod_state.effects |= lod_inertia;
   if (pulls_alive(*choice)) lod_state.effects |= lod_active;
-  lod_state.muscles = static_cast<std::uint32_t>(choice->muscles.to_ulong());
+  set_bits(lod_state.muscles, choice->muscles.to_ullong());
   return lod_state;
 }
 
 /// Chooses the level with which all of a person's muscles begin: the dearest that one of them needs.
-void LodRound::decide_bare(Entity person, const LodState<float>& lod_state, std::uint32_t wanted_muscles, bool compact,
+void LodRound::decide_bare(Entity person, const LodState<float>& lod_state, std::uint64_t wanted_muscles, bool compact,
                            Looked& out) const {
   const auto view = static_cast<View>(lod_state.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
   const float size = lod_state.relative_size / lod_state.tolerance_m, limit = progress_.factor / size;
   Bare bare{0, person, 0, looked_at};
   std::int64_t dearest = -1;
-  for (std::uint32_t left = simulated ? lod_state.muscles & wanted_muscles : 0; left != 0; left &= left - 1) {
+  for (std::uint64_t left = simulated ? all_bits(lod_state.muscles) & wanted_muscles : 0; left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
     const LevelCase of = level_case(lod_state, m, looked_at);
     if (work_.scene.budget_s) out.counting.add(work_.lod_table, of, size);
@@ -313,7 +313,7 @@ Result<void> LodRound::begin_muscles(std::span<const Entity> people, std::uint32
   for (const Entity person : people) {
     auto lod_state = *world_.get<LodState>(person);
     lod_state.effects &= ~std::uint32_t{lod_bare};
-    for (std::uint32_t left = lod_state.muscles; left != 0; left &= left - 1) {
+    for (std::uint64_t left = all_bits(lod_state.muscles); left != 0; left &= left - 1) {
       const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
       set_level(lod_state.level, m, done ? level : refused_level);
       set_level(lod_state.goal, m, done ? level : refused_level);

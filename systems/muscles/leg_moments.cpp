@@ -1,8 +1,10 @@
 #include "systems/muscles/leg_moments.h"
 
 #include <array>
+#include <cmath>
 #include <vector>
 
+#include <mobil/assets/muscles/muscle_path.h>
 #include <mobil/components/activation.h>
 #include <mobil/components/pose.h>
 #include <mobil/forces.h>
@@ -10,7 +12,7 @@
 #include <mobil/schedule.h>
 #include "engine/snapshot.h"
 #include "systems/activation/moment_sharing.h"
-#include "systems/lines/line_motion.h"
+#include "systems/lines/leg_arms.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/member_design.h"
 #include "systems/people/ground_forces.h"
@@ -19,49 +21,54 @@ namespace mobil::inline v0_3 {
 namespace {
 namespace of_leg_moments {
 
-/// Returns the lines of the single muscles, by number.
-const std::vector<MuscleLines>& single_lines() {
+/// Returns the lines of a leg, in the order of member_muscles().
+const std::vector<MuscleLines>& leg_lines() {
   static const std::vector<MuscleLines> all = [] {
     std::vector<MuscleLines> lines;
-    for (const MemberMuscle& member : member_muscles()) lines.push_back(make_muscle_lines(*find_muscle(member.name)));
+    for (const MemberMuscle& line : member_muscles()) lines.push_back(make_single_line(line));
     return lines;
   }();
   return all;
 }
 
-void find_arms(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& leg,
-               Lanes<float>& path_m, LegMoments<Lanes<float>>& arm_m) {
-  LineOfAction<Lanes<float>> line{};
-  EndDrive<Lanes<float>> end{};
-  LineMotion<Lanes<float>> motion{};
-  constexpr float no_matter_s = 1;
-  lines_of_action(lines, scale, leg, FarEnd::held, line, end, &path_m);
-  line_motion(lines, scale, leg, line, motion, no_matter_s);
+/// Returns the direction ahead of both thighs, horizontal, as JointMoments defines it. The left leg is mirrored.
+Vec3<Lanes<float>> facing_of(const LegFrames<Lanes<float>> (&leg)[2]) {
+  Vec3<Lanes<float>> ahead{};
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    arm_m.hip[lane] = -motion.hip_flexion_arm_m[lane];
-    arm_m.knee[lane] = -motion.knee_flexion_arm_m[lane];
-    arm_m.ankle[lane] = -motion.ankle_dorsiflexion_arm_m[lane];
+    float left_x = 0, left_z = 0;  // of the thighs' axes to the left
+    for (const Side side : {Side::right, Side::left}) {
+      const Quat<Lanes<float>>& q = leg[side].thigh;
+      const float x = q.x[lane], y = q.y[lane], z = q.z[lane], w = q.w[lane];
+      left_x += 1 - 2 * (y * y + z * z);
+      left_z += (side == Side::left ? -2 : 2) * (x * z - y * w);
+    }
+    const float size = std::sqrt(left_x * left_x + left_z * left_z), over = size > 1e-6F ? 1 / size : 0;
+    ahead.x[lane] = -left_z * over;
+    ahead.z[lane] = left_x * over;
   }
+  return ahead;
 }
 
 void share(const LegDesign<Lanes<float>>& design, const Pose<Lanes<float>>& pose,
            const JointMoments<Lanes<float>>& moments, MomentReserve<Lanes<float>>& reserve,
-           Published<AskedForces> asked) {
-  const std::vector<MuscleLines>& lines = single_lines();
-  for (const Side side : {Side::right, Side::left}) {
-    LegFrames<Lanes<float>> leg;
+           SharingProgress<Lanes<float>>& progress, Published<AskedForces> asked) {
+  LegFrames<Lanes<float>> leg[2];
+  for (const Side side : {Side::right, Side::left})
     for (std::size_t lane = 0; lane < lane_count; ++lane)
-      gather_leg(reinterpret_cast<const float*>(&pose) + lane, side, leg, lane);
+      gather_leg(reinterpret_cast<const float*>(&pose) + lane, side, leg[side], lane);
+  Vec3<Lanes<float>> ahead = facing_of(leg);
+  for (const Side side : {Side::right, Side::left}) {
+    if (side == Side::left)
+      for (float& x : ahead.x.lane) x = -x;
     std::array<Lanes<float>, leg_member_count> path, of_most;
     std::array<LegMoments<Lanes<float>>, leg_member_count> arm;
-    for (std::size_t i = 0; i < leg_member_count; ++i) find_arms(lines[i], design.scale, leg, path[i], arm[i]);
-    LegMoments<Lanes<float>> left;
-    share_moments(design, path.data(), arm.data(),
-                  {moments.hip_nm[side], moments.knee_nm[side], moments.ankle_nm[side]}, of_most.data(), left,
+    SharedLeg shared{path.data(), arm.data(), {}, design.scale.across};
+    leg_arms(leg_lines(), design.scale, leg[side], ahead, path.data(), arm.data(), shared.flexion_rad);
+    share_moments(design, shared,
+                  {moments.hip_nm[side], moments.hip_abduction_nm[side], moments.hip_rotation_nm[side],
+                   moments.knee_nm[side], moments.ankle_nm[side]},
+                  progress.price[side], progress.of_most[side], of_most.data(), reserve.left_nm[side],
                   reserve.at_most[side]);
-    reserve.hip_nm[side] = left.hip;
-    reserve.knee_nm[side] = left.knee;
-    reserve.ankle_nm[side] = left.ankle;
     for (std::size_t lane = 0; lane < lane_count; ++lane)
       for (std::size_t i = 0; i < leg_member_count; ++i) asked.row[lane].leg[side].of_most[i] = of_most[i][lane];
   }
@@ -71,8 +78,9 @@ void share(const LegDesign<Lanes<float>>& design, const Pose<Lanes<float>>& pose
 Result<void> check_key(const Archetype& key, const World&) {
   const auto has = [&](std::uint64_t id) { return find_component(key, id) != nullptr; };
   const bool design = has(type_id<LegDesign<float>>()), reserve = has(type_id<MomentReserve<float>>());
+  const bool progress = has(type_id<SharingProgress<float>>());
   const bool asked = has(type_id<AskedForces>()), moments = has(type_id<JointMoments<float>>());
-  if (design == reserve && reserve == asked && (!design || moments)) return {};
+  if (design == reserve && reserve == asked && asked == progress && (!design || moments)) return {};
   return damaged("shared moments of a person");
 }
 
@@ -80,9 +88,10 @@ Result<void> check_key(const Archetype& key, const World&) {
 }  // namespace
 
 Module leg_moments_module() {
-  of_leg_moments::single_lines();  // made here, not during a tick
+  of_leg_moments::leg_lines();  // made here, not during a tick
   return {.name = "leg moments",
-          .parts = {component_id<LegDesign>(), component_id<MomentReserve>(), component_id(Publishes<AskedForces>{})},
+          .parts = {component_id<LegDesign>(), component_id<MomentReserve>(), component_id<SharingProgress>(),
+                    component_id(Publishes<AskedForces>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("leg moments", &of_leg_moments::share); },
           .check_key = &of_leg_moments::check_key};
 }
@@ -97,23 +106,24 @@ void set_leg_moments(World& world, Entity person, const Body& body, const LegMus
   if (world.has<LegDesign>(person)) return;
   LegDesign<float> design{};
   std::size_t i = 0;
-  for (const MemberMuscle& member : member_muscles()) {
-    const MusclePlan plan = *make_muscle_plan(body, *find_muscle(member.name));
-    design.member[i++] = member_design(member, plan.member[0]);
-    design.scale = plan.leg_scale;
-  }
+  const LegScale<double> scale = leg_scale(body);
+  design.scale = {static_cast<float>(scale.thigh), static_cast<float>(scale.shank), static_cast<float>(scale.across)};
+  for (const MemberMuscle& line : member_muscles())
+    design.member[i++] = member_design(line, plan_member(body, line, member_length(line, scale, anatomical_leg(body))));
   // A change of archetype, which a World::Transaction can undo.
-  world.change_archetype(
-      {&person, 1},
-      std::array<PartValue, 3>{PartValue{component_id<LegDesign>(), nullptr},
-                               PartValue{component_id<MomentReserve>(), nullptr}, part_value(Publishes<AskedForces>{})},
-      {});
+  world.change_archetype({&person, 1},
+                         std::array<PartValue, 4>{PartValue{component_id<LegDesign>(), nullptr},
+                                                  PartValue{component_id<MomentReserve>(), nullptr},
+                                                  PartValue{component_id<SharingProgress>(), nullptr},
+                                                  part_value(Publishes<AskedForces>{})},
+                         {});
   world.set(person, design);
 }
 
 void forget_leg_moments(World& world, Entity person) {
   if (world.has<LegDesign>(person))
-    world.remove_parts(person, {type_id<LegDesign<float>>(), type_id<MomentReserve<float>>(), type_id<AskedForces>()});
+    world.remove_parts(person, {type_id<LegDesign<float>>(), type_id<MomentReserve<float>>(),
+                                type_id<SharingProgress<float>>(), type_id<AskedForces>()});
 }
 
 }  // namespace mobil::inline v0_3

@@ -331,8 +331,9 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
   });
   if (count == 0) return Status::missing;
   // A single call, so that nothing is removed if memory runs out. LegMuscles is the kept choice of a person who woke.
-  const Status status = world.remove_parts(person, {type_id<LegDesign<float>>(), type_id<MomentReserve<float>>(),
-                                                    type_id<AskedForces>(), type_id<LegMuscles>()});
+  const Status status =
+      world.remove_parts(person, {type_id<LegDesign<float>>(), type_id<MomentReserve<float>>(),
+                                  type_id<SharingProgress<float>>(), type_id<AskedForces>(), type_id<LegMuscles>()});
   if (status != Status::ok) return status;
   return world.destroy_many(std::span(rows).first(count), jobs);
 }

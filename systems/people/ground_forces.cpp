@@ -77,9 +77,9 @@ void begin_forces(World& world, const Jobs& jobs, std::span<const Entity> people
 /// Returns the ids, sorted, of the force components and of the components that depend on them.
 std::span<const std::uint64_t> force_part_ids() {
   static const auto ids = [] {
-    std::array all = {type_id<PoseHistory<float>>(),  type_id<BodyMotion<float>>(), type_id<GroundReaction<float>>(),
-                      type_id<JointMoments<float>>(), type_id<LegDesign<float>>(),  type_id<MomentReserve<float>>(),
-                      type_id<AskedForces>()};
+    std::array all = {type_id<PoseHistory<float>>(),     type_id<BodyMotion<float>>(), type_id<GroundReaction<float>>(),
+                      type_id<JointMoments<float>>(),    type_id<LegDesign<float>>(),  type_id<MomentReserve<float>>(),
+                      type_id<SharingProgress<float>>(), type_id<AskedForces>()};
     std::ranges::sort(all);
     return all;
   }();

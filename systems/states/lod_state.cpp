@@ -24,12 +24,13 @@ LodState<float> lod_state_of(const World& world, Entity person) {
   const bool anew = !before || before->relative_size == 0;
   LodState<float> lod_state = before.value_or(LodState<float>{});
   if (anew) lod_state.view = static_cast<std::uint32_t>(View::out_of_reach);
-  lod_state.muscles = lod_state.effects = 0;
+  set_bits(lod_state.muscles, 0);
+  lod_state.effects = 0;
   lod_state.relative_size = 1;
   for (const MuscleRef& own : muscles_of(world, person)) {
     const auto m = static_cast<std::uint32_t>(own.muscle);
     const Entity one = world.alive(own.entity[Side::right]) ? own.entity[Side::right] : own.entity[Side::left];
-    if (lod_state.muscles == 0) {
+    if (all_bits(lod_state.muscles) == 0) {
       const LegMuscles& choice = *world.shared<LegMuscles>(one);
       lod_state.effects = (choice.inertia ? lod_inertia : 0U) | (pulls_alive(choice) ? lod_active : 0U);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_plan.h>
@@ -33,20 +34,36 @@ Texture texture_of(const SurfaceMesh& mesh, std::vector<TexturePlace> place) {
   return {std::move(place), std::move(along)};
 }
 
+/// Returns the values of the nearest vertices of the finer mesh.
+std::vector<float> carried_over(const SurfaceMesh& fine, std::span<const float> value, const SurfaceMesh& coarse) {
+  std::vector<float> carried;
+  for (const Vec3<float>& at : coarse.position) {
+    const auto away = [&](const Vec3<float>& p) {
+      const float x = p.x - at.x, y = p.y - at.y, z = p.z - at.z;
+      return x * x + y * y + z * z;
+    };
+    const auto nearest = std::ranges::min_element(fine.position, {}, away);
+    carried.push_back(value[static_cast<std::size_t>(nearest - fine.position.begin())]);
+  }
+  return carried;
+}
+
 struct Binding {
   const Body& body;
   const SurfaceChoice& choice;
   BodySurfaces made;
 
   std::uint32_t add_part(std::string name, Segment segment, std::optional<Muscle> driver, Side side,
-                         const SurfaceMesh& mesh, std::span<const TexturePlace> texture);
+                         const SurfaceMesh& mesh, std::span<const TexturePlace> texture,
+                         std::span<const float> tendon = {});
   Result<std::size_t> driver_of(Muscle muscle);
   Result<void> add(const BoneSurface& bone);
   Result<void> add(const DrivenSurface& muscle);
 };
 
 std::uint32_t Binding::add_part(std::string name, Segment segment, std::optional<Muscle> driver, Side side,
-                                const SurfaceMesh& mesh, std::span<const TexturePlace> texture) {
+                                const SurfaceMesh& mesh, std::span<const TexturePlace> texture,
+                                std::span<const float> tendon) {
   SurfacePart part{std::move(name), segment, driver, side, made.vertices, 0, 0, 0};
   part.vertices = static_cast<std::uint32_t>(mesh.position.size());
   part.first_index = static_cast<std::uint32_t>(made.index.size());
@@ -55,6 +72,8 @@ std::uint32_t Binding::add_part(std::string name, Segment segment, std::optional
   if (driver && side == Side::left) turn_over(triangle);
   for (const std::uint32_t v : triangle) made.index.push_back(made.vertices + v);
   if (choice.textured) made.texture.insert(made.texture.end(), texture.begin(), texture.end());
+  for (std::uint32_t v = 0; v < part.vertices; ++v)
+    made.tendon.push_back(v < tendon.size() ? static_cast<std::uint8_t>(std::lround(255 * tendon[v])) : 0);
   made.vertices += part.vertices;
   made.part.push_back(std::move(part));
   return static_cast<std::uint32_t>(made.part.size() - 1);
@@ -105,8 +124,8 @@ Result<void> Binding::add(const DrivenSurface& muscle) {
   for (const Side side : {Side::right, Side::left}) {
     if (!choice.sides[side]) continue;
     const Segment segment = on_side(on_shank ? Segment::shank_right : Segment::thigh_right, side);
-    piece.part[side] =
-        add_part(name + (side == Side::right ? "_right" : "_left"), segment, muscle.driver, side, mesh, texture.place);
+    piece.part[side] = add_part(name + (side == Side::right ? "_right" : "_left"), segment, muscle.driver, side, mesh,
+                                texture.place, muscle.tendon);
   }
   made.piece.push_back(std::move(piece));
   return {};
@@ -137,10 +156,11 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
   if (choice.bones) drawn.bones = make_bone_surfaces(body);
   for (BoneSurface& bone : drawn.bones) bone.mesh = coarser(bone.mesh, choice.detail);
   if (choice.simulated.none()) return drawn;
-  for (auto& muscle : make_muscle_surfaces(body)) {
+  for (auto& muscle : make_muscle_surfaces(body, choice.simulated)) {
     const auto driver = driving_muscle(choice.simulated, muscle.group, muscle.muscle);
-    if (!driver) continue;
-    muscle.surface.mesh = coarser(muscle.surface.mesh, choice.detail);
+    const SurfaceMesh fine = std::exchange(muscle.surface.mesh, {});
+    muscle.surface.mesh = coarser(fine, choice.detail);
+    if (choice.detail < 1) muscle.tendon = carried_over(fine, muscle.tendon, muscle.surface.mesh);
     if (muscle.ligament) {
       bind_ligament(muscle.surface, muscle.attachments.origin_m, muscle.attachments.insertion_m);
     } else {
@@ -148,7 +168,7 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
       if (!mesh) return tl::unexpected(mesh.error());
       bind_muscle(muscle.surface, mesh->lattice, mesh->frame, muscle.attachments, mesh->min_passage_m);
     }
-    drawn.muscles.push_back({*driver, std::move(muscle.surface)});
+    drawn.muscles.push_back({*driver, std::move(muscle.surface), std::move(muscle.tendon)});
   }
   return drawn;
 }

@@ -9,53 +9,57 @@
 #include <cstddef>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include "engine/eigen.h"
 
 namespace mobil::test {
 
+using MomentVector = Eigen::Matrix<double, leg_moment_count, 1>;
+using MomentMatrix = Eigen::Matrix<double, leg_moment_count, leg_moment_count>;
+
 /// One muscle at one instant. `active_n`: active force at activation 1, added to its passive force.
 struct SharingMember {
   double volume_m3 = 0, active_n = 0, passive_n = 0;
-  Eigen::Vector3d arm_m = Eigen::Vector3d::Zero();  // for each moment
+  MomentVector arm_m = MomentVector::Zero();  // for each moment
 };
 
 /// A reserve of `size_nm` costs as much as a muscle of `volume_m3` at activation 1, and can exceed that size.
 struct SharingReserve {
   double size_nm = 1, volume_m3 = 1;
 };
-using SharingReserves = std::array<SharingReserve, 3>;
+using SharingReserves = std::array<SharingReserve, leg_moment_count>;
 
 struct Sharing {
   std::vector<double> activation;
-  Eigen::Vector3d reserve_nm = Eigen::Vector3d::Zero();
+  MomentVector reserve_nm = MomentVector::Zero();
 };
 
-/// Solves the dual problem, which has three unknowns: activation = clamp(active · (arm · y) / volume), reserve = size²
+/// Solves the dual problem, which has five unknowns: activation = clamp(active · (arm · y) / volume), reserve = size²
 /// · y / volume. Each Newton step is halved until the residual moments shrink.
-inline Sharing share_moments(const std::vector<SharingMember>& members, const Eigen::Vector3d& moments_nm,
+inline Sharing share_moments(const std::vector<SharingMember>& members, const MomentVector& moments_nm,
                              const SharingReserves& reserves) {
   constexpr double least = 0.01, most = 1;
-  Eigen::Vector3d yielding;
-  for (std::size_t j = 0; j < 3; ++j)
+  MomentVector yielding;
+  for (std::size_t j = 0; j < leg_moment_count; ++j)
     yielding[static_cast<Eigen::Index>(j)] = std::pow(reserves[j].size_nm, 2) / reserves[j].volume_m3;
-  const auto wanted = [](const SharingMember& of, const Eigen::Vector3d& y) {
+  const auto wanted = [](const SharingMember& of, const MomentVector& y) {
     return of.active_n * of.arm_m.dot(y) / of.volume_m3;
   };
-  const auto left = [&](const Eigen::Vector3d& y) {
-    Eigen::Vector3d sum = moments_nm - yielding.cwiseProduct(y);
+  const auto left = [&](const MomentVector& y) {
+    MomentVector sum = moments_nm - yielding.cwiseProduct(y);
     for (const SharingMember& one : members)
       sum -= (std::clamp(wanted(one, y), least, most) * one.active_n + one.passive_n) * one.arm_m;
     return sum;
   };
-  Eigen::Vector3d y = Eigen::Vector3d::Zero(), error = left(y);
+  MomentVector y = MomentVector::Zero(), error = left(y);
   for (int step = 0; step < 200 && error.norm() > 1e-10 * (1 + moments_nm.norm()); ++step) {
-    Eigen::Matrix3d slope = yielding.asDiagonal();
+    MomentMatrix slope = yielding.asDiagonal();
     for (const SharingMember& one : members) {
       const double a = wanted(one, y);
       if (a > least && a < most)
         slope += one.active_n * one.active_n / one.volume_m3 * one.arm_m * one.arm_m.transpose();
     }
-    const Eigen::Vector3d toward = slope.ldlt().solve(error);
+    const MomentVector toward = slope.ldlt().solve(error);
     double part = 1;
     while (part > 1e-6 && left(y + part * toward).norm() > (1 - 1e-4 * part) * error.norm()) part /= 2;
     y += part * toward;

@@ -5,14 +5,15 @@
 
 namespace mobil::test {
 
-inline Result<Entity> pulling_walker(Simulation& simulation, float speed_m_s) {
+inline Result<Entity> pulling_walker(Simulation& simulation, float speed_m_s,
+                                     ExcitationSource source = ExcitationSource::phase) {
   const auto person = simulation.spawn({.height_m = 1.8F, .mass_kg = 80}, {.speed_m_s = speed_m_s});
   if (!person) return person;
   LegMuscles choice;
   choice.method = Method::none;
   choice.muscles = muscle_members();
   choice.line_motion = true;
-  choice.activation = ExcitationSource::phase;
+  choice.activation = source;
   if (auto done = simulation.enable(*person, Feature::forces); !done) return tl::unexpected(done.error());
   if (auto done = simulation.set_muscles(*person, choice); !done) return tl::unexpected(done.error());
   return person;

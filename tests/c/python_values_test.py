@@ -254,8 +254,8 @@ class Scalars(Cases):
         yield (1, 8, 32), (2**31, -(2**31) - 1, 2**40), lambda n: mobil.muscles(modes=n)
         yield (0, 6), (-1, 7), lambda n: mobil.muscles(method=n)
         yield (0, 2), (-1, 3), lambda n: mobil.muscles(element=n)
-        yield (1, 15), (-1, 2**40), lambda n: mobil.muscles(muscles=n)
-        yield (0, 3), (-1, 40), lambda n: mobil.muscles(muscles=[n])
+        yield (1, 15), (-1, 2**47), lambda n: mobil.muscles(muscles=n)
+        yield (0, 3), (-1, 47), lambda n: mobil.muscles(muscles=[n])
         yield (2,), (-1, 2**32, 2**40), lambda n: mobil.muscles(cells=[2, n, 4])
         yield (0, 2), (-1, 3), lambda n: mobil.Surfaces(world, people[0], side=n, detail=0.1)
 

@@ -205,7 +205,7 @@ TEST(Mujoco, NamesAreUniqueAndReferencesExist) {
     }
   }
   EXPECT_EQ(names["body"].size(), segment_count);
-  EXPECT_EQ(names["tendon"].size(), 26U);
+  EXPECT_EQ(names["tendon"].size(), 2 * member_muscles().size());
   EXPECT_EQ(names["actuator"], names["tendon"]);
   EXPECT_EQ(names["sensor"].size(), 4U);
   for (const XmlElement& e : files.model) {

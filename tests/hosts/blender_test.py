@@ -224,8 +224,10 @@ def bones_and_skins_again_and_again():
 def muscles_are_the_librarys():
     fresh()
     asked = PEOPLE[0]
-    for muscles, contract in ((GROUPS, False), ({"soleus", "rectus_femoris"}, False), ({"triceps_surae"}, True)):
-        of = made(**asked, skin="NONE", strides=1, muscles=muscles, contract=contract, bones=True, surface_detail=0.25)
+    singles = {"soleus", "rectus_femoris", "sartorius", "gluteus_medius"}
+    for muscles, contract in ((GROUPS, False), (singles, False), ({"triceps_surae", "gluteus_maximus"}, True)):
+        grouped = dict(muscles=muscles & set(library.GROUPS), single_muscles=muscles - set(library.GROUPS))
+        of = made(**asked, skin="NONE", strides=1, **grouped, contract=contract, bones=True, surface_detail=0.25)
         active = dict(activation="phase", method="modal") if contract else {}
         chosen = mobil.muscles(muscles=sorted(muscles), **active)
         reference = Reference(of, asked, chosen)

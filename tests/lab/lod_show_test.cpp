@@ -41,7 +41,7 @@ struct Plan {
 struct Tally {
   std::vector<float> promised_m, stretched, best_m;
 };
-using Tallies = std::vector<std::array<Tally, muscle_group_count>>;  // by tolerance and muscle
+using Tallies = std::vector<std::array<Tally, usual_muscle_count>>;  // by tolerance and muscle
 
 /// One body at one speed: a copy for every tolerance, and references of its muscles, right and left.
 struct Walk {
@@ -159,7 +159,7 @@ void show(const Plan& plan, Tallies tallies) {
                  name, mm(0.5), mm(0.99), mm(0.999), mm(1), of.promised_m.size(), of.best_m.size(),
                  percentile(of.stretched, 0.99), percentile(of.stretched, 1));
     };
-    for (std::size_t m = 0; m < muscle_group_count; ++m) {
+    for (std::size_t m = 0; m < usual_muscle_count; ++m) {
       Tally& of = tallies[t][m];
       tell(muscle_name(static_cast<Muscle>(m)), of);
       append(sum.promised_m, of.promised_m);

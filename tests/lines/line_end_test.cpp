@@ -51,7 +51,7 @@ class LineEnd : public testing::TestWithParam<int> {};
 TEST_P(LineEnd, DrivenEndFollowsTheLineExactly) {
   for (const Method method : {Method::explicit_central, Method::statics}) {
     LegMuscles choice;
-    choice.muscles = muscle_groups() | muscle_members();
+    choice.muscles = usual_muscles() | muscle_members();
     choice.method = method;
     for (const EndError& e : end_errors(sample_person(GetParam()), choice)) {
       EXPECT_GT(e.largest_change_m, 1e-3);
@@ -63,7 +63,7 @@ TEST_P(LineEnd, DrivenEndFollowsTheLineExactly) {
 // The paper's force, +k(L − L₀) spread over the face, moves the face's mean as far as the line in the static solution.
 TEST_P(LineEnd, PaperForceEndIsWithinThreeThousandths) {
   LegMuscles choice;
-  choice.muscles = muscle_groups() | muscle_members();
+  choice.muscles = usual_muscles() | muscle_members();
   choice.drive = Drive::force;
   choice.method = Method::statics;
   for (const EndError& e : end_errors(sample_person(GetParam()), choice)) {

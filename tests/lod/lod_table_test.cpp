@@ -19,7 +19,7 @@ struct RandomTable {
     const auto between = [&](float low, float high) {
       return low * std::pow(high / low, static_cast<float>(dice()) * 0x1p-32F);
     };
-    for (std::size_t g = 0; g < muscle_group_count; ++g) {
+    for (std::size_t g = 0; g < usual_muscle_count; ++g) {
       for (const SpeedClass speed : {SpeedClass::slow, SpeedClass::free, SpeedClass::fast}) {
         for (const unsigned effects : {0U, 1U, 2U, 3U}) {
           AccuracyRow row{static_cast<Muscle>(g), speed, (effects & 1) != 0, {}, (effects & 2) != 0, {}};
@@ -43,7 +43,7 @@ struct Dice {
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine() % n); }
   float between(float low, float high) { return low * std::pow(high / low, static_cast<float>(engine()) * 0x1p-32F); }
   LevelCase a_case() {
-    return {below(muscle_group_count), below(LodTable::speed_steps), below(2) == 1, below(2) == 1, below(2) == 1};
+    return {below(usual_muscle_count), below(LodTable::speed_steps), below(2) == 1, below(2) == 1, below(2) == 1};
   }
 };
 

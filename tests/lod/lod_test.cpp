@@ -115,7 +115,7 @@ std::uint64_t deformed(const Simulation& simulation) {
 TEST(Lod, EveryMuscleHasTheCheapestSufficientMethod) {
   constexpr std::array tolerances_m = {0.001F, 0.002F, 0.005F, 0.02F};  // scene's, then per person
   Scene scene(6 * static_cast<int>(tolerances_m.size()), {.switching_s = 1, .stagger = 1, .machine_factor = 1});
-  scene.muscle_count = muscle_group_count;
+  scene.muscle_count = usual_muscle_count;
   ASSERT_TRUE(scene.ask({.tolerance_m = tolerances_m[0]}));
   scene.manage_all();
   const auto tolerance_of = [&](std::size_t i) { return tolerances_m[i / 6]; };
@@ -129,7 +129,7 @@ TEST(Lod, EveryMuscleHasTheCheapestSufficientMethod) {
   for (std::size_t i = 0; i < scene.people.size(); ++i) {
     const Entity person = scene.people[i];
     const float tolerance_m = tolerance_of(i);
-    for (std::uint32_t m = 0; m < muscle_group_count; ++m) {
+    for (std::uint32_t m = 0; m < usual_muscle_count; ++m) {
       const auto muscle = static_cast<Muscle>(m);
       const auto choice = *scene.lod.why(person, muscle);
       const auto lod_state = *scene.simulation.get<LodState>(person);

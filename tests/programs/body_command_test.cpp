@@ -77,9 +77,10 @@ TEST(BodyCommand, EveryMuscleHasItsFiguresAndTheGroupsAreTheirMembers) {
   for (const Json& muscle : rows) {
     SCOPED_TRACE(muscle["name"].get<std::string>());
     for (const char* key : {"volume_m3", "mass_kg", "muscle_tendon_length_m", "belly_length_m", "fibre_length_m",
-                            "pennation_deg", "tendon_length_m", "section_m2", "physiological_section_m2"}) {
+                            "tendon_length_m", "section_m2", "physiological_section_m2"}) {
       EXPECT_GT(muscle.at(key).get<double>(), 0) << key;
     }
+    EXPECT_GE(muscle.at("pennation_deg").get<double>(), 0);
     EXPECT_GT(muscle.at("mesh").at("belly_length_m").get<double>(), 0);
     if (muscle["kind"] == "group") {
       ++groups;
@@ -100,9 +101,9 @@ TEST(BodyCommand, EveryMuscleHasItsFiguresAndTheGroupsAreTheirMembers) {
           std::pow(ends["origin"]["world_m"][axis].get<double>() - ends["insertion"]["world_m"][axis].get<double>(), 2);
     }
     EXPECT_LE(std::sqrt(from_to), muscle["muscle_tendon_length_m"].get<double>() * (1 + 1e-5));
-    EXPECT_GT(std::sqrt(from_to), 0.9 * muscle["muscle_tendon_length_m"].get<double>());
+    EXPECT_GT(std::sqrt(from_to), 0.6 * muscle["muscle_tendon_length_m"].get<double>());
   }
-  EXPECT_EQ(groups, 4U);
+  EXPECT_EQ(groups, 12U);
 }
 
 TEST(BodyCommand, EveryBlockOfFiguresNamesItsSource) {

@@ -147,7 +147,7 @@ TEST(MuscleCommand, ContractsARealMuscle) {
   }
   EXPECT_GT(csv.number(280, "middle_section_ratio"), 1.02);
   expect_refused("--activation 1.5", {"--activation", "0 to 1"});
-  expect_refused("--activation 1 --of sartorius", {"--of", "'sartorius'", "soleus"});
+  expect_refused("--activation 1 --of biceps_brachii", {"--of", "'biceps_brachii'", "soleus"});
 }
 
 }  // namespace mobil::muscle_command_test

@@ -119,7 +119,7 @@ TEST(Compact, MusclesMatchWithinFourMicrometres) {
     seen.modal.control_points = true;
     double worst_end = 0, worst_point = 0, largest = 0;
     for (std::size_t i = 0; i < pair.small.size(); ++i) {
-      for (std::size_t m = 0; m < muscle_group_count; ++m) {
+      for (std::size_t m = 0; m < usual_muscle_count; ++m) {
         const auto muscle = static_cast<Muscle>(m);
         ASSERT_TRUE(pair.compact.set_method(pair.small[i], muscle, seen));
         ASSERT_TRUE(pair.whole.set_method(pair.large[i], muscle, seen));
@@ -196,7 +196,7 @@ TEST(Compact, MusclesKeepTheirMethods) {
   };
   as_asked();
   simulation.tick();
-  EXPECT_EQ(simulation.person(person)->leg_muscles.muscles, muscle_groups());
+  EXPECT_EQ(simulation.person(person)->leg_muscles.muscles, usual_muscles());
   ASSERT_TRUE(simulation.set_state({&person, 1}, PersonState::full));
   as_asked();
   EXPECT_EQ(simulation.muscles(person).size(), 4U);

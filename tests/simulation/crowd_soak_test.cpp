@@ -103,7 +103,7 @@ class Soak {
       worst_foot_m_ =
           std::max(worst_foot_m_, static_cast<double>(std::hypot(heel.x - state->line_x_m, heel.z - state->line_z_m)));
       lowest_m_ = std::min(lowest_m_, static_cast<double>(std::min(feet->heel_m[0].y, feet->heel_m[1].y)));
-      for (std::size_t m = 0; m < muscle_group_count; ++m) {
+      for (std::size_t m = 0; m < usual_muscle_count; ++m) {
         for (const Side side : {Side::right, Side::left}) {
           const Entity muscle = simulation_.muscle(person, static_cast<Muscle>(m), side);
           if (!simulation_.world().alive(muscle)) continue;

@@ -80,7 +80,7 @@ TEST(Change, MethodKeepsHandlesAndShapesWithoutLeftovers) {
       EXPECT_EQ(simulation.person(person)->leg_muscles.method, method);
       EXPECT_EQ(muscles_of(simulation, person), muscles);
       EXPECT_EQ(displacement(simulation, muscles[3]), before);
-      EXPECT_EQ(rows(world), 1 + 2 * muscle_group_count);
+      EXPECT_EQ(rows(world), 1 + 2 * usual_muscle_count);
       for (const Entity muscle : muscles) {
         EXPECT_EQ(world.has<Substeps>(muscle), method == Method::explicit_central);
         EXPECT_EQ(world.has<SolvedSteps>(muscle), method == Method::implicit_central || method == Method::newmark);
@@ -197,9 +197,9 @@ TEST(ChangingMuscles, AddsNewOnesAndKeepsExistingOnesMoving) {
   EXPECT_NEAR(belly.elongation_m, line.length_m - line.rest_length_m, 1e-6F);
 
   const auto hash = hash_world(simulation);
-  for (const unsigned long none_or_beyond : {0UL, 1UL << 31}) {
+  for (const unsigned long long none_or_beyond : {0ULL, 1ULL << muscle_count}) {
     choice.muscles = none_or_beyond;
-    EXPECT_TRUE(is_refused(simulation.set_muscles(person, choice), "muscle_groups()"));
+    EXPECT_TRUE(is_refused(simulation.set_muscles(person, choice), "usual_muscles()"));
     EXPECT_EQ(hash_world(simulation), hash);
   }
 }

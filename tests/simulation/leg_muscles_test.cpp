@@ -155,7 +155,7 @@ TEST(Steps, AreAsRequested) {
                long_ones = join_with(simulation, sample_person(0), {.method = Method::newmark, .dt_s = 1.0}),
                thrice = join_with(simulation, sample_person(0), {.method = Method::newmark, .dt_s = tick / 2.5});
   const auto& world = simulation.world();
-  for (std::size_t g = 0; g < muscle_group_count; ++g) {
+  for (std::size_t g = 0; g < usual_muscle_count; ++g) {
     const auto group = static_cast<Muscle>(g);
     EXPECT_EQ(world.get<Substeps>(simulation.muscle(explicitly, group, Side::left)), 20U);
     EXPECT_EQ(world.get<Substeps>(simulation.muscle(hardly_less, group, Side::left)), 21U);
@@ -170,8 +170,8 @@ TEST(Steps, AboveTheLimitAreRefusedByName) {
     Simulation simulation(sharing());
     const Entity other = join_with(simulation, sample_person(1), {.method = method});
     const Entity probe = join_with(simulation, sample_person(2), {.method = method});
-    std::array<double, muscle_group_count> limit{};
-    for (std::size_t g = 0; g < muscle_group_count; ++g) {
+    std::array<double, usual_muscle_count> limit{};
+    for (std::size_t g = 0; g < usual_muscle_count; ++g) {
       limit[g] = limit_of(simulation, simulation.muscle(probe, static_cast<Muscle>(g), Side::right));
     }
     EXPECT_EQ(simulation.set_muscles(probe, std::nullopt), Status::ok);

@@ -180,7 +180,7 @@ TEST(Posed, WithChangedMethodsHasTheWalkersMusclesAtEveryTick) {
   for (int i = 0; i < 4; ++i) two.tick();
   for (const Method method :
        {Method::none, Method::statics, Method::none, Method::modal, Method::newmark, Method::explicit_central}) {
-    for (std::size_t m = 0; m < muscle_group_count; ++m) {
+    for (std::size_t m = 0; m < usual_muscle_count; ++m) {
       const MuscleMethod wanted{method, {.modes = 10, .cells = {2, 2, 8}}};
       ASSERT_TRUE(two.walking.set_method(two.walker, static_cast<Muscle>(m), wanted)) << name(method);
       ASSERT_TRUE(two.posed.set_method(two.puppet, static_cast<Muscle>(m), wanted)) << name(method);
@@ -210,7 +210,7 @@ TEST(Posed, StandingComesToTheSameRestAfterAnyMethods) {
   ASSERT_TRUE(steady.set_muscles(b, {.method = Method::newmark, .inertia = true}));
   for (const Method method :
        {Method::none, Method::statics, Method::modal, Method::explicit_central, Method::newmark}) {
-    for (std::size_t m = 0; m < muscle_group_count; ++m) {
+    for (std::size_t m = 0; m < usual_muscle_count; ++m) {
       ASSERT_TRUE(changed.set_method(a, static_cast<Muscle>(m), {method, coarse})) << name(method);
     }
     for (int i = 0; i < 20; ++i) changed.tick();

@@ -135,7 +135,7 @@ TEST(Retarget, WalkersBonesGiveTheWalkersPose) {
         const double off_m = length(to_double(pose->position_m[s]) - to_double(was.position_m[s]));
         EXPECT_LT(off_m, leg || s == 0 ? 2e-4 : 0.04) << segment_name[s] << " at tick " << tick;
       }
-      for (std::size_t m = 0; m < muscle_group_count; ++m) {
+      for (std::size_t m = 0; m < usual_muscle_count; ++m) {
         for (const Side side : {Side::right, Side::left}) {
           const auto of = [&](const Simulation& simulation, Entity person) {
             return simulation.get<LineOfAction>(simulation.muscle(person, static_cast<Muscle>(m), side))->length_m;

@@ -42,7 +42,7 @@ inline std::uint64_t hash_person(const Simulation& simulation, Entity person) {
     std::memcpy(words, &state, sizeof(state));
     for (const std::uint32_t word : words) hash = fnv(hash, word);
   }
-  for (std::size_t g = 0; g < muscle_group_count; ++g) {
+  for (std::size_t g = 0; g < usual_muscle_count; ++g) {
     for (const Side side : {Side::right, Side::left}) {
       hash = hash_row(simulation.world(), simulation.muscle(person, static_cast<Muscle>(g), side), hash);
     }

@@ -172,7 +172,7 @@ TEST(Switching, LeavesNoStateAfterTheFade) {
   const Entity person = join_with(simulation, sample_person(5), {}),
                same = join_with(whole, sample_person(5), {.method = Method::statics});
   for (int i = 0; i < 40; ++i) simulation.tick(), whole.tick();
-  for (std::size_t m = 0; m < muscle_group_count; ++m) {
+  for (std::size_t m = 0; m < usual_muscle_count; ++m) {
     ASSERT_TRUE(simulation.set_method(person, static_cast<Muscle>(m), {Method::statics}));
   }
   EXPECT_GT(rows_with<Fade>(simulation.world()), 0U);
@@ -281,7 +281,7 @@ TEST(SetMethod, IsResetByAChangeOfLegMuscles) {
   const auto muscles = muscles_of(simulation, person);
   ASSERT_TRUE(simulation.set_muscles(person, {.method = Method::newmark}));
   EXPECT_EQ(muscles_of(simulation, person), muscles);
-  for (std::size_t m = 0; m < muscle_group_count; ++m) {
+  for (std::size_t m = 0; m < usual_muscle_count; ++m) {
     EXPECT_EQ(simulation.method(person, static_cast<Muscle>(m)).method, Method::newmark);
   }
   for (const Entity muscle : muscles) EXPECT_TRUE(simulation.world().has<SolvedSteps>(muscle));
@@ -291,7 +291,8 @@ TEST(SetMethod, IsResetByAChangeOfLegMuscles) {
 
 // --------------------------------------------------------------------------------------------------------- costs
 
-/// Returns the entities that systems with that prefix processed in the last tick; without such entities their time is 0.
+/// Returns the entities that systems with that prefix processed in the last tick; without such entities their time is
+/// 0.
 std::uint64_t worked(const Simulation& simulation, std::string_view begins) {
   std::uint64_t sum = 0;
   for (const SystemReport& system : simulation.report().systems) {
@@ -354,7 +355,7 @@ TEST(Cost, LinesAreIndependentOfBellies) {
   const Entity a = join_with(all, sample_person(3), {.line_motion = true}),
                b = join_with(none, sample_person(3), {.method = Method::none, .line_motion = true});
   for (int i = 0; i < 20; ++i) all.tick(), none.tick();
-  for (std::size_t m = 0; m < muscle_group_count; ++m) {
+  for (std::size_t m = 0; m < usual_muscle_count; ++m) {
     const Entity x = all.muscle(a, static_cast<Muscle>(m), Side::left),
                  y = none.muscle(b, static_cast<Muscle>(m), Side::left);
     const auto p = *all.get<LineOfAction>(x), q = *none.get<LineOfAction>(y);
@@ -393,7 +394,7 @@ TEST(Switching, InEveryTickStaysStable) {
                                 Method::modal,
                                 Method::finite};
   for (int tick = 0; tick < 240; ++tick) {
-    for (std::size_t g = 0; g < muscle_group_count; ++g) {
+    for (std::size_t g = 0; g < usual_muscle_count; ++g) {
       const Method to = order[(static_cast<std::size_t>(tick) + g) % order.size()];
       ASSERT_TRUE(simulation.set_method(person, static_cast<Muscle>(g), {to, {.cells = {2, 2, 8}}}));
     }

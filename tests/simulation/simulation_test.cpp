@@ -168,7 +168,7 @@ TEST(Effects, MusclesAreAddedAndRemovedWithTheirRows) {
   simulation.tick();
   for (int round = 0; round < 3; ++round) {
     ASSERT_TRUE(simulation.set_muscles(person));
-    EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 2 * muscle_group_count);
+    EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 2 * usual_muscle_count);
     EXPECT_EQ(rows_with<Pose>(simulation.world()), 2U);
     std::vector<Entity> muscles;
     for (const auto& own : simulation.muscles(person))
@@ -229,7 +229,7 @@ TEST(Handles, OfDespawnedPeopleAreStaleEverywhere) {
   const Entity muscle = simulation.muscle(person, Muscle::hamstrings, Side::right);
   const auto before = hash_person(simulation, other);
   ASSERT_EQ(simulation.despawn(person), Status::ok);
-  EXPECT_EQ(rows(simulation.world()), 1 + 2 * muscle_group_count);
+  EXPECT_EQ(rows(simulation.world()), 1 + 2 * usual_muscle_count);
   EXPECT_EQ(hash_person(simulation, other), before);
   const Entity next = join(simulation, sample_person(2));  // reuses the first one's index
   for (const Entity gone : {person, Entity{}, Entity{~0U, 1}}) {

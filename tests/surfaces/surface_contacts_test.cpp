@@ -20,13 +20,13 @@
 namespace mobil::surface_contacts_test {
 using namespace geometry;
 
-/// A posed right leg with all single muscles.
+/// A posed right leg with the single muscles of the usual groups.
 class PosedLeg {
  public:
   PosedLeg() {
     LegMuscles choice;
     choice.method = Method::statics;
-    choice.muscles = muscle_members();
+    choice.muscles = muscles_of_groups(usual_muscles());
     person_ = *simulation_.spawn_posed({.height_m = 1.75F, .mass_kg = 75});
     EXPECT_TRUE(simulation_.set_muscles(person_, choice));
     const Person person = *simulation_.person(person_);

@@ -1,10 +1,15 @@
 #pragma once
-// Published figures of the leg's muscles: path, size and shape. A new muscle needs a row, which is a file in
-// assets/muscles/rows, and its name in muscle_table.cpp.
+// Published figures of the leg's muscles: path, size and shape. A new muscle needs its name in Muscle
+// (mobil/components/muscle.h), a row, which is a file in assets/muscles/rows, and a line in muscle_table.cpp.
 //
-// Sources. Paths: the gait2392 model of OpenSim (CC BY 3.0; Delp, Loan, Hoy, Zajac, Topp, Rosen: An interactive
-// graphics-based model of the lower extremity, IEEE Trans. Biomed. Eng. 37, 1990). For each edge of this table, it has
-// a point that bends the path from or up to some knee flexion; the edge starts to act within a few degrees of it.
+// Sources. Paths of knee and ankle: the gait2392 model of OpenSim (CC BY 3.0; Delp, Loan, Hoy, Zajac, Topp, Rosen: An
+// interactive graphics-based model of the lower extremity, IEEE Trans. Biomed. Eng. 37, 1990). For each edge of this
+// table, it has a point that bends the path from or up to some knee flexion; the edge starts to act within a few
+// degrees of it. Paths of the hip, except pectineus' and quadratus femoris': fitted to lengths in the model of
+// Rajagopal, Dembia, DeMers, Delp, Hicks & Delp (Full-body musculoskeletal model for muscle-driven simulation of human
+// gait, IEEE Trans. Biomed. Eng. 63, 2016; as distributed with OpenSim, Apache License 2.0), which bends them round
+// cylinders. Within walking, running and stairs they have its lengths to 0.3 mm rms. Toe muscles run to the toes as if
+// these were a part of the foot (1 to 2.1 mm rms). Obturators and popliteus: centre lines of the surfaces named below.
 // Volumes: regression of Handsfield, Meyer, Hart, Abel, Blemker, Relationships of 35 lower limb muscles to height and
 // body mass, J. Biomech. 47, 2014. Sections (area, centroid, second moments): measured for this project on cuts of
 // BodyParts3D 3.0 (© The Database Center for Life Science, licensed under CC Attribution-Share Alike 2.1 Japan), a man
@@ -42,8 +47,8 @@ inline constexpr double thigh_m = 0.40846, shank_m = 0.41736, leg_m = thigh_m + 
 enum class PathHold : std::uint8_t { fixed, front, back };
 
 /// One point of a path, right side, in its bone's frame at the published leg's size, m. In a body, y of thigh and shank
-/// scales with that segment's length over the published one, all else with the leg's. Only thigh and shank have edges,
-/// which are neither the first nor the last point.
+/// scales with that segment's length over the published one, all else with the leg's. The foot has no edges. Edges are
+/// neither the first nor the last point.
 struct PathPoint {
   LegBone bone;
   Vec3<double> at_m;
@@ -63,11 +68,12 @@ struct KneeSpline {
   std::array<Vec3<F>, knee_knots> cubic;
 };
 
-/// One published muscle of the leg: a row of the table, assets/muscles/rows/NAME.inl. Fields without a default must be
-/// set; muscle_table.cpp checks the rest at compile time.
+/// One line of a published muscle of the leg: a row of the table, assets/muscles/rows/NAME.inl. A muscle has one line,
+/// except gluteus medius, whose parts act differently. Fields without a default must be set; muscle_table.cpp checks
+/// the rest at compile time.
 struct MemberMuscle {
   std::string_view name;
-  Muscle group;
+  Muscle group;               // of no group: the muscle itself
   Segment origin, insertion;  // right side: segments that the surface beyond the belly's ends follows
 
   FixedList<PathPoint, 6> path;                     // origin first
@@ -81,8 +87,9 @@ struct MemberMuscle {
   double model_fibre_m = 0, model_pennation_deg = 0, model_tendon_m = 0, model_path_m = 0;
 
   /// Measured shape, upper end first, tendon included (the quadriceps down to the kneecap).
-  /// mobil/assets/muscles/leg_sections.h defines a section.
-  FixedList<LegSection, 16> sections;
+  /// mobil/assets/muscles/leg_sections.h defines a section. A further line of a muscle has none.
+  std::optional<SectionAxis> across = std::nullopt;  // sections are across this axis; else horizontal
+  FixedList<LegSection, 16> sections = {};
   /// Differences of the drawn shape, whose ends are the muscle's attachments. It lacks the last `not_drawn` measured
   /// sections, which do not suit this skeleton's kneecap or bones, and has others above and below.
   std::size_t not_drawn = 0;
@@ -97,8 +104,10 @@ struct MemberMuscle {
 /// the pin: along the shank's axes, m, at the published leg's size. It is 0 in the anatomical position.
 const KneeTrack& knee_rolling();
 
-/// Returns all published muscles, group by group in the order of Muscle.
+/// Returns all lines, group by group; those of a muscle and of a group stand together.
 std::span<const MemberMuscle> member_muscles();
+/// Returns the single muscle that a line belongs to; a group of one muscle is that muscle.
+Muscle muscle_of_line(const MemberMuscle& line);
 
 /// Returns the calcaneal tendon as drawn, under the calf muscles down to the heel.
 std::span<const LegSection> calcaneal_tendon();
@@ -119,21 +128,21 @@ struct DrawnLine {
 /// Value of DrawnLine::point for the end of the path.
 inline constexpr std::size_t end_of_path = static_cast<std::size_t>(-1);
 
-/// A muscle that can be simulated: a group, or a single muscle. A group's line of action has the volume-weighted mean
-/// length of its members. Hamstrings and triceps surae are drawn along their largest members, semimembranosus and
+/// A muscle that can be simulated: a group, or a single muscle. Its line of action has the volume-weighted mean length
+/// of its members. Hamstrings and triceps surae are drawn along their largest members, semimembranosus and
 /// soleus. The latter starts in the middle of the calf under the knee, because soleus' published origin is the centroid
 /// of a long one. The quadriceps are drawn from the middle of their bellies to that of the kneecap, because their
 /// largest member's line would leave the other three to one side. Single muscles: assets/muscles/belly_axis.h.
 struct MuscleRow {
   std::string_view name;
-  std::span<const MemberMuscle> members;
+  std::span<const MemberMuscle> members;  // lines
   DrawnLine drawn;
 };
 
 /// Maximum number of members of a row.
 inline constexpr std::size_t max_row_members = 4;
 
-/// Returns all rows, numbered as Muscle: groups first, then the members of groups with several.
+/// Returns all rows, numbered as Muscle.
 std::span<const MuscleRow> muscles();
 inline const MuscleRow& muscle_row(Muscle muscle) {
   return muscles()[static_cast<std::size_t>(muscle)];
@@ -145,9 +154,14 @@ std::string_view muscle_name(Muscle muscle);
 /// Returns the muscle of that name, or nothing.
 std::optional<Muscle> find_muscle(std::string_view name);
 
-/// Return the groups, and the single muscles: tibialis anterior and the members of the other groups.
+/// Return the default choice, which is the first four groups; all twelve groups; and the 38 single muscles. Groups of
+/// one muscle (tibialis anterior, gluteus maximus, adductor magnus) are in both of the latter.
+MuscleSet usual_muscles();
 MuscleSet muscle_groups();
 MuscleSet muscle_members();
+bool is_muscle_group(Muscle muscle);
+/// Returns the single muscles of these groups.
+MuscleSet muscles_of_groups(const MuscleSet& groups);
 
 /// The body for which templates are made: 1.80 m, 80 kg, average.
 inline constexpr double reference_body_height_m = 1.80, reference_body_mass_kg = 80;

@@ -57,7 +57,15 @@ def _names(function: Any) -> tuple[str, ...]:
 
 
 MUSCLES = _names(lib.mobil_muscle_name)
-"""Four groups, then single muscles."""
+"""Groups and single muscles, by number."""
+GROUPS = MUSCLES[:4] + MUSCLES[C["MOBIL_GLUTEUS_MAXIMUS"] : C["MOBIL_TOE_EXTENSORS"] + 1]
+"""The usual four, then those of the hip and the deep ones."""
+_DEEP = (
+    "adductor_brevis gluteus_minimus obturator_externus obturator_internus piriformis popliteus quadratus_femoris"
+    " tibialis_posterior"
+).split()
+SINGLE_MUSCLES = tuple(name for name in MUSCLES if name not in GROUPS and name not in _DEEP)
+"""Single muscles that can be seen."""
 
 
 class StyleNumber(NamedTuple):
@@ -114,9 +122,12 @@ class Muscles(NamedTuple):
     def bits(self) -> int:
         return sum(1 << i for i, name in enumerate(MUSCLES) if name in self.names)
 
+    def put(self, made: Any) -> None:
+        made.muscles, made.more_muscles = self.bits & 0xFFFFFFFF, self.bits >> 32
+
     def struct(self) -> Any:
         made = struct("muscles")
-        made.muscles = self.bits
+        self.put(made)
         if self.contract:
             made.activation, made.method = C["MOBIL_BY_PHASE"], C["MOBIL_MODAL"]
         return made
@@ -310,7 +321,8 @@ class Surfaces:
 
     def __init__(self, world: World, like: Any, bones: bool, muscles: Muscles, detail: float) -> None:
         choice = struct("surface_choice")
-        choice.bones, choice.side, choice.muscles, choice.detail = int(bones), C["MOBIL_BOTH"], muscles.bits, detail
+        choice.bones, choice.side, choice.detail = int(bones), C["MOBIL_BOTH"], detail
+        muscles.put(choice)
         self._surfaces = ctypes.c_void_p()
         self._world = world
         world.do(lib.mobil_bind_surfaces(world._sim, like, ctypes.byref(choice), ctypes.byref(self._surfaces)))

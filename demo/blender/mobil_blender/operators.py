@@ -112,7 +112,7 @@ class MOBIL_OT_preset(bpy.types.Operator):
 
 def draw_sections(layout: bpy.types.UILayout, of: Any) -> None:
     """Draws all settings of a person except the style."""
-    hidden = {"muscles", "contract"} | ({"strides"} if of.length == "SECONDS" else {"seconds", "turn_rad"})
+    hidden = {"muscles", "single_muscles", "contract"} | ({"strides"} if of.length == "SECONDS" else {"seconds", "turn_rad"})
     for title, names in settings.SECTIONS.items():
         box = layout.box().column()
         box.label(text=title)
@@ -123,12 +123,15 @@ def draw_sections(layout: bpy.types.UILayout, of: Any) -> None:
 
 def draw_muscles(layout: bpy.types.UILayout, of: Any) -> None:
     """Draws muscles at full width, groups first."""
-    for text, names in (("Groups", library.MUSCLES[:4]), ("Single muscles", library.MUSCLES[4:])):
+    for text, field, names in (
+        ("Groups", "muscles", library.GROUPS),
+        ("Single muscles", "single_muscles", library.SINGLE_MUSCLES),
+    ):
         box = layout.column(align=True)
         box.use_property_split = False
         box.label(text=text)
         for name in names:
-            box.prop_enum(of, "muscles", name)
+            box.prop_enum(of, field, name)
 
 
 CLASSES = (MOBIL_OT_walk, MOBIL_OT_crowd, MOBIL_OT_read, MOBIL_OT_preset)

@@ -125,8 +125,15 @@ MESHES = {
     ),
     "muscles": EnumProperty(
         name="Muscles",
-        description="Leg muscles as shape keys: a group, or single muscles of it",
-        items=[(name, _label(name), "", 1 << i) for i, name in enumerate(library.MUSCLES)],
+        description="Groups of leg muscles as shape keys",
+        items=[(name, _label(name), "", 1 << i) for i, name in enumerate(library.GROUPS)],
+        options={"ENUM_FLAG"},
+        default=set(),
+    ),
+    "single_muscles": EnumProperty(
+        name="Single muscles",
+        description="Single leg muscles as shape keys, those that can be seen",
+        items=[(name, _label(name), "", 1 << i) for i, name in enumerate(library.SINGLE_MUSCLES)],
         options={"ENUM_FLAG"},
         default=set(),
     ),
@@ -188,7 +195,7 @@ def clip(of: Any, scene: bpy.types.Scene) -> Clip:
 
 
 def muscles(of: Any) -> Muscles:
-    return Muscles(frozenset(of.muscles), of.contract)
+    return Muscles(frozenset(of.muscles) | frozenset(of.single_muscles), of.contract)
 
 
 def register() -> None:

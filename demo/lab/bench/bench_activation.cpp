@@ -123,7 +123,7 @@ std::vector<LineBlock> make_blocks(BenchCrowd& crowd) {
   std::vector<LineBlock> blocks;
   const auto& people = crowd.people();
   for (std::size_t first = 0; first < people.size(); first += lane_count / 2) {
-    for (std::size_t g = 0; g < muscle_group_count; ++g) {
+    for (std::size_t g = 0; g < usual_muscle_count; ++g) {
       LineBlock& block = blocks.emplace_back();
       block.group = g;
       for (std::size_t l = 0; l < lane_count; ++l) {
@@ -189,8 +189,8 @@ void bench_lines(BenchRun& run) {
   BenchCrowd crowd(std::min(max_people, run.people));
   crowd.simulation().advance(0.2);
   auto blocks = make_blocks(crowd);
-  std::array<MuscleLines, muscle_group_count> lines;
-  for (std::size_t g = 0; g < muscle_group_count; ++g) lines[g] = make_muscle_lines(static_cast<Muscle>(g));
+  std::array<MuscleLines, usual_muscle_count> lines;
+  for (std::size_t g = 0; g < usual_muscle_count; ++g) lines[g] = make_muscle_lines(static_cast<Muscle>(g));
 
   const Lookup<Pose> poses(crowd.simulation().world());
   const auto gather = [&](LineBlock& block) {

@@ -169,11 +169,14 @@ Json attachments(const Body& body, const MemberMuscle& member) {
 Json muscle(const Body& body, Muscle which) {
   const MuscleParameters p = muscle_parameters(body, which);
   const auto plan = make_muscle_plan(body, which);
-  const bool group = static_cast<std::size_t>(which) < muscle_group_count;
+  const bool group = is_muscle_group(which);
   Json row = {{"name", muscle_name(which)}, {"kind", group ? "group" : "member"}};
   if (group) {
-    Json members = Json::array();
-    for (const MemberMuscle& member : members_of(which)) members.push_back(member.name);
+    std::vector<std::string_view> members;
+    for (const MemberMuscle& line : members_of(which)) {
+      const std::string_view name = muscle_name(muscle_of_line(line));
+      if (members.empty() || members.back() != name) members.push_back(name);
+    }
     row["members"] = members;
   } else {
     row["group"] = muscle_name(members_of(which).front().group);
@@ -194,7 +197,8 @@ Json muscle(const Body& body, Muscle which) {
                    {"section_m2", number(plan->section_m2)},
                    {"start_m", point(plan->start_m)}};
   }
-  if (members_of(which).size() == 1) row["attachments"] = attachments(body, members_of(which).front());
+  if (muscle_members()[static_cast<std::size_t>(which)])
+    row["attachments"] = attachments(body, members_of(which).front());
   return row;
 }
 
@@ -296,7 +300,7 @@ std::string body_table(const Body& body) {
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     const auto which = static_cast<Muscle>(m);
     const MuscleParameters p = muscle_parameters(body, which);
-    const bool group = m < muscle_group_count;
+    const bool group = is_muscle_group(which);
     text += fmt::format("{:<28}{:>10.1f}{:>10.0f}{:>10.0f}{:>10.0f}{:>10.0f}{:>10.1f}{:>11.1f}\n",
                         fmt::format("{}{}", group ? "" : "  ", muscle_name(which)), 1e6 * p.volume_m3,
                         1e3 * p.muscle_tendon_m, 1e3 * p.belly_m, 1e3 * p.fibre_m, 1e3 * p.tendon_m, 1e4 * p.section_m2,

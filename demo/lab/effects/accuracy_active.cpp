@@ -1,6 +1,5 @@
 #include "demo/lab/effects/accuracy_active.h"
 
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -272,7 +271,7 @@ std::array<AccuracyPlan, 2> active_plans() {
   members.bodies.resize(1);
   members.seconds = 1;
   members.muscles.clear();
-  for (std::size_t m = muscle_group_count; m < muscles().size(); ++m) members.muscles.push_back(static_cast<Muscle>(m));
+  for (std::size_t m = usual_muscle_count; m < muscles().size(); ++m) members.muscles.push_back(static_cast<Muscle>(m));
   return {groups, members};
 }
 

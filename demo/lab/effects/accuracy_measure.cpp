@@ -27,7 +27,7 @@ constexpr std::size_t driving_level = 1;  // its lines move the references
 struct Walk {
   std::size_t body = 0, speed = 0;
   std::array<Entity, level_count> person{};
-  std::vector<std::array<ReferenceMuscle, 2>> reference;            // by muscle
+  std::vector<std::array<ReferenceMuscle, 2>> reference;             // by muscle
   std::vector<std::array<std::vector<float>, level_count>> error_m;  // by muscle
 };
 
@@ -150,7 +150,7 @@ float percentile(std::vector<float>& values, double part) {
 
 AccuracyPlan accuracy_plan() {
   AccuracyPlan plan;
-  for (std::size_t g = 0; g < muscle_group_count; ++g) plan.muscles.push_back(static_cast<Muscle>(g));
+  for (std::size_t g = 0; g < usual_muscle_count; ++g) plan.muscles.push_back(static_cast<Muscle>(g));
   const auto add = [&](float height_m, float mass_kg, Constitution constitution) {
     BodyRequest body;
     body.height_m = height_m;
@@ -228,7 +228,7 @@ LevelCost measure_costs(std::size_t people, bool inertia, bool active) {
   for (const Entity person : crowd.people()) must(simulation.set_muscles(person, choice));
   const auto measure = [&](std::size_t level, bool points) {
     for (const Entity person : crowd.people()) {
-      for (std::size_t g = 0; g < muscle_group_count; ++g)
+      for (std::size_t g = 0; g < usual_muscle_count; ++g)
         must(simulation.set_method(person, static_cast<Muscle>(g), level_method(level, points, active)));
     }
     for (int i = 0; i < 60; ++i) simulation.tick();  // until all fades have ended
@@ -244,7 +244,7 @@ LevelCost measure_costs(std::size_t people, bool inertia, bool active) {
       }
       least = std::min(least, sum);
     }
-    return 1e6 * least / (ticks * 2.0 * muscle_group_count * static_cast<double>(crowd.size()));
+    return 1e6 * least / (ticks * 2.0 * usual_muscle_count * static_cast<double>(crowd.size()));
   };
   LevelCost cost;
   const double nothing = measure(0, false);  // time of reading the clock

@@ -91,7 +91,7 @@ std::string_view level_adds(const LodLevel& level) {
 /// the current measurement. Errors: refusals of the simulation.
 EffectAccount measure_effects(std::size_t count, const std::function<void(const std::string&)>& progress) {
   Simulation simulation;
-  EffectAccount account{count, 2 * muscle_group_count, simulation.tick_s(), {}, {}};
+  EffectAccount account{count, 2 * usual_muscle_count, simulation.tick_s(), {}, {}};
   std::vector<Entity> people;
   progress("spawning");
   for (std::size_t i = 0; i < count; ++i) {
@@ -150,7 +150,7 @@ EffectAccount measure_effects(std::size_t count, const std::function<void(const 
     MuscleMethod method = level_method(level, points);
     method.modal.tuned = tuned;
     for (const Entity person : people) {
-      for (std::size_t g = 0; g < muscle_group_count; ++g)
+      for (std::size_t g = 0; g < usual_muscle_count; ++g)
         must(simulation.set_method(person, static_cast<Muscle>(g), method));
     }
   };

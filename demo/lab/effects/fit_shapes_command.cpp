@@ -44,7 +44,9 @@ void write_table(Muscle muscle, const std::string& folder) {
 }
 
 /// Also prints the errors for shapes from which the tables were not made.
-void write_finite_tables(const std::string& folder) {
+void write_finite_tables(const std::string& folder, const std::string& only) {
+  const auto chosen = find_muscle(only);
+  if (!only.empty() && !chosen) throw Stopped(fmt::format("--muscle {}: no such muscle; leave it out for all", only));
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed) throw Stopped(fmt::format("--out {}: {}; give a folder that can be made", folder, failed.message()));
@@ -54,6 +56,7 @@ void write_finite_tables(const std::string& folder) {
       "off, %\n{:<27}{:>26}{:>26}{:>26}\n",
       "", "slenderness 0.9", "1", "1.1");
   for (std::size_t m = 0; m < muscles().size(); ++m) {
+    if (chosen && m != static_cast<std::size_t>(*chosen)) continue;
     show_part(std::string(muscles()[m].name), static_cast<double>(m) / static_cast<double>(muscles().size()));
     write_table(static_cast<Muscle>(m), folder);
   }
@@ -64,13 +67,17 @@ void write_finite_tables(const std::string& folder) {
 
 Subcommand fit_shapes_command() {
   auto out = std::make_shared<std::string>("tables");
+  auto only = std::make_shared<std::string>();
   Subcommand command{.name = "fit-shapes"};
   command.footer =
       "For those who change the library: a file a muscle, as assets/finite/tables has them. Minutes.\n"
       "Example: mobil fit-shapes --out assets/finite/tables";
-  command.options = {{"--out", out.get(), "Folder for the tables, made if missing"}};
+  command.options = {{"--out", out.get(), "Folder for the tables, made if missing"},
+                     {"--muscle", only.get(), "Only the table of this muscle"}};
   command.empty_refused = true;
-  command.run = [out] { return exit_status_of("fit-shapes", attempt([&] { write_finite_tables(*out); })); };
+  command.run = [out, only] {
+    return exit_status_of("fit-shapes", attempt([&] { write_finite_tables(*out, *only); }));
+  };
   return command;
 }
 

@@ -99,7 +99,7 @@ void robustness_excitation(RobustnessRun& run) {
   std::size_t refused = 0, asked = 0;
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                           -std::numeric_limits<float>::infinity()}) {
-    for (std::size_t m = 0; m < muscle_group_count; ++m, ++asked)
+    for (std::size_t m = 0; m < usual_muscle_count; ++m, ++asked)
       refused += simulation.set_excitation(person, static_cast<Muscle>(m), Side::right, bad) ? 0 : 1;
   }
   run.at_most("excitations that are no numbers", "of them taken", 0, static_cast<double>(asked - refused),
@@ -130,7 +130,7 @@ void robustness_excitation(RobustnessRun& run) {
   const auto belly = [&](std::size_t m) {
     return double{still.get<Musculotendon>(still.muscle(stands, static_cast<Muscle>(m), Side::right))->belly_m};
   };
-  std::array<double, muscle_group_count> at_first{};
+  std::array<double, usual_muscle_count> at_first{};
   Worst held;
   for (int tick = 0; tick < minutes * 3600; ++tick) {
     still.tick();
@@ -168,7 +168,7 @@ void robustness_contraction(RobustnessRun& run) {
       const LegBend bend{90 * part, 120 * part, 60 * part - 40};
       must(simulation.set_pose(person, with_bent_legs(body, bend)));
       if (flickers) {
-        for (std::size_t g = 0; g < muscle_group_count; ++g) {
+        for (std::size_t g = 0; g < usual_muscle_count; ++g) {
           const Method method = methods[(static_cast<std::size_t>(tick) + g) % methods.size()];
           must(simulation.set_method(person, static_cast<Muscle>(g), {method, {.cells = {2, 2, 8}}}));
         }

@@ -222,7 +222,7 @@ Entity doll(Simulation& simulation, const LegMuscles& choice) {
 std::vector<std::uint32_t> person_words(const Simulation& simulation, Entity person) {
   std::vector<std::uint32_t> words;
   add_row(simulation.world(), person, false, words);
-  for (std::size_t g = 0; g < muscle_group_count; ++g) {
+  for (std::size_t g = 0; g < usual_muscle_count; ++g) {
     for (const Side side : {Side::right, Side::left}) {
       add_row(simulation.world(), simulation.muscle(person, static_cast<Muscle>(g), side), false, words);
     }

@@ -54,7 +54,7 @@ struct Viewpoint {
 
 /// Needs of the scene for all managed people. LodOverrides overrides them for one person.
 struct LodScene {
-  MuscleSet muscles = muscle_groups();
+  MuscleSet muscles = usual_muscles();
   /// Maximum error of a control point, m; 1 mm if unset. With a camera, `tolerance_px` and the distance replace it.
   std::optional<float> tolerance_m{};
   std::optional<Viewpoint> camera{};

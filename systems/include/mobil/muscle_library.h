@@ -1,7 +1,7 @@
 #pragma once
 // Meshes, operators and bases that a simulation's muscles share. They are made at first use, or ahead of it.
 //
-//   simulation.muscle_library().prepare({.muscles = muscle_groups()});
+//   simulation.muscle_library().prepare({.muscles = usual_muscles()});
 //   const std::vector<std::byte> baked = simulation.muscle_library().bake();  // for a file
 //   other_simulation.muscle_library().load(baked);
 

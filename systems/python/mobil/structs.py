@@ -32,6 +32,8 @@ def _put(made: Any, field: str, value: Any, kind: Any) -> None:
     """Sets a field of a C type."""
     if field == "muscles":
         value = muscle_bits(value)
+        made.more_muscles = value >> 32
+        value &= 2**32 - 1
     elif field in _NAMED:
         value = number_of(value, _NAMED[field], field)
     elif field in _SWITCHES:
@@ -57,7 +59,8 @@ def _put(made: Any, field: str, value: Any, kind: Any) -> None:
 def _fields(of: Any) -> dict[str, Any]:
     """Returns the types of a struct's fields that can be set by name."""
     every = ffi.typeof(of).item.fields
-    return {name: field.type for name, field in every if name != "size" and field.type.kind != "pointer"}
+    hidden = {"size", "more_muscles", "unused"}
+    return {name: field.type for name, field in every if name not in hidden and field.type.kind != "pointer"}
 
 
 def _fill(kind: str, given: Mapping[str, Any]) -> Any:
@@ -73,6 +76,8 @@ def _fill(kind: str, given: Mapping[str, Any]) -> Any:
 
 def _read(made: Any, field: str, kind: Any) -> Any:
     value = getattr(made, field)
+    if field == "muscles":
+        value |= made.more_muscles << 32
     return tuple(value) if kind.kind == "array" else value
 
 
@@ -134,7 +139,7 @@ def _remade(kind: type[_Value], given: dict[str, Any]) -> _Value:
 def muscles(**fields: Any) -> Muscles:
     """Returns a choice of leg muscles: muscles(method="modal", modes=8, activation="phase").
 
-    `muscles`: names (names.MUSCLES), by default the four groups. `method`: "static", "explicit_central",
+    `muscles`: names (names.MUSCLES), by default the first four groups. `method`: "static", "explicit_central",
     "implicit_central", "newmark", "modal", "none" or "finite". Other fields are those of mobil_muscles, in SI units.
     """
     return Muscles(**fields)

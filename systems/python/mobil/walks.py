@@ -63,7 +63,8 @@ def walk(*, seconds: float = 2.4, settle_s: float = 2.0, muscles: Any = None, ti
     world.enable(who, "forces")
     world.tick(_ticks(settle_s, "settle_s", tick_s))
     ticks = _ticks(seconds, "seconds", tick_s) + 1
-    chosen = [name for name in names.MUSCLES if muscles is not None and muscles.muscles >> names.MUSCLES.index(name) & 1]
+    bits = 0 if muscles is None else muscles.muscles
+    chosen = [name for number, name in enumerate(names.MUSCLES) if bits >> number & 1]
     reported = muscles is not None and names.METHODS[muscles.method] != "none" and bool(muscles.reported)
     made = Walk(
         mass_kg=float(np.max(person.get("mass_kg", 75.0))),

@@ -13,11 +13,11 @@ namespace mobil::inline v0_3 {
 /// along −Y). Bodies are the 48 segments, with masses, centres of mass and inertias of `body` (segment_inertia_kg_m2).
 /// Joints have the names of their segments: a free joint for the pelvis, hinges for knees, kneecaps and toes, balls for
 /// all others. A kneecap turns about the knee by `kneecap_part` of its flexion, which is an equality. Ranges are those
-/// of assets/body/joint_limits.h; a ball has the angle to the farthest corner of its joint's. Each leg has the thirteen
-/// muscles of the table, as spatial tendons over sites with an actuator of type muscle. It has the simulation's force,
-/// fibre and slack tendon, and the path's lengths over the range of the joints. Geoms are capsules of the segment's
-/// mass, which touch the floor and not each other. Two touch sensors a foot are under sole and toes. The keyframe
-/// `walk` is the recording's first frame, with velocities.
+/// of assets/body/joint_limits.h; a ball has the angle to the farthest corner of its joint's. Each leg has the 39 lines
+/// of the table, as spatial tendons over sites with an actuator of type muscle. It has the simulation's force, fibre
+/// and slack tendon, and the path's lengths over the range of the joints. Geoms are capsules of the segment's mass,
+/// which touch the floor and not each other. Two touch sensors a foot are under sole and toes. The keyframe `walk` is
+/// the recording's first frame, with velocities.
 ///
 /// Fails as check_recording, or without as many `around` as frames. Also fails if a joint turns by more than 0.1° out
 /// of its hinge or is more than 0.1 mm from its place in `body`, or on a file that cannot be written. Format: MuJoCo's

@@ -32,7 +32,7 @@ Result<void> write_opensim_forces(const std::filesystem::path& path, const WalkR
 /// Bodies are pelvis, torso with head and arms in the anatomical position, and femur with kneecap, tibia, calcn and
 /// toes of each side. They have the masses, centres and inertias of their segments. Joints are CustomJoints with the
 /// motions' coordinates: three at hips and back, knee_angle, ankle_angle and subtalar_angle, mtp_angle; axes are z, x,
-/// y. Ranges of the legs are those of assets/body/joint_limits.h. Muscles are the thirteen of the table in each leg, as
+/// y. Ranges of the legs are those of assets/body/joint_limits.h. Muscles are the 39 lines of the table in each leg, as
 /// Thelen2003Muscles of the simulation's fibres, tendons, pennation and isometric force; the knee does not roll. Fails
 /// on a file that cannot be written. Source: the gait2392 model; the XML of OpenSim 4.
 Result<void> write_opensim_model(const std::filesystem::path& path, const Body& body);

@@ -51,9 +51,9 @@ template <class F>
 struct MemberDesign {
   F fibre_m, tendon_m, height_m, rest_belly_m, force_n;
 };
-/// All single muscles of a leg (`member_muscles`, both legs alike) and the leg's size relative to the published one.
-/// Used for people whose muscles follow the moments.
-inline constexpr std::size_t leg_member_count = 13;
+/// All lines of a leg (`member_muscles`, both legs alike) and the leg's size relative to the published one. Used for
+/// people whose muscles follow the moments.
+inline constexpr std::size_t leg_member_count = 39;
 template <class F>
 struct LegDesign {
   MemberDesign<F> member[leg_member_count];
@@ -66,12 +66,30 @@ struct AskedForces {
   };
   Leg leg[2];
 };
-/// Moments that the muscles do not produce, N m, signs as in JointMoments; at the hip mostly those of iliopsoas and
-/// glutei, which are not modelled. `at_most`: number of muscles at full activation. Index 0 right, 1 left.
+/// Moments at a leg's joints, N m, or moment arms about them, m: hip extending, abducting and rotating inward, knee
+/// extending, ankle plantarflexing.
+inline constexpr std::size_t leg_moment_count = 5;
+template <class F>
+struct LegMoments {
+  F hip, hip_abduction, hip_rotation, knee, ankle;
+};
+/// Flexion of hip and knee, rad.
+template <class F>
+struct LegFlexion {
+  F hip, knee;
+};
+/// Moments that the muscles do not produce, N m. `at_most`: number of lines at full activation. Index 0 right, 1 left.
 template <class F>
 struct MomentReserve {
-  F hip_nm[2], knee_nm[2], ankle_nm[2];
+  LegMoments<F> left_nm[2];
   UInt32<F> at_most[2];
+};
+/// From where the next tick continues to share a leg's moments: the rise of the cost with each moment; and the tendons'
+/// forces, smoothed, relative to the isometric force. Index 0 right, 1 left.
+template <class F>
+struct SharingProgress {
+  LegMoments<F> price[2];
+  F of_most[2][leg_member_count];
 };
 
 /// Activation, and the fibre's length relative to its optimal one.

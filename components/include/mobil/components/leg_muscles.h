@@ -15,10 +15,10 @@ enum class Drive : std::uint8_t { displacement, force };
 
 /// Bellies that move along a few modes of a finer mesh (Method::modal).
 struct ModalOptions {
-  std::uint32_t modes = 12;    // 1–32
-  bool moving = true;          // false: static solution only, without state
-  bool corrected = true;       // extrapolates the mesh's own error away (assets/reduction/modal_basis.h)
-  Cells cells = {4, 4, 16};    // of the modes' mesh, which has all nodes of LegMuscles::cells
+  std::uint32_t modes = 12;  // 1–32
+  bool moving = true;        // false: static solution only, without state
+  bool corrected = true;     // extrapolates the mesh's own error away (assets/reduction/modal_basis.h)
+  Cells cells = {4, 4, 16};  // of the modes' mesh, which has all nodes of LegMuscles::cells
   /// Control points are placed (NodalDisplacement). Without them only the state is advanced.
   bool control_points = true;
   /// BellyReport is written, at more than half the cost of placing the control points.
@@ -59,7 +59,7 @@ inline constexpr Cells close_up_cells = {4, 4, 16};
 /// Options of leg muscles. Each is implemented by the parts that a muscle's row has (systems/muscles/muscle_parts.h).
 struct LegMuscles {
   /// Simulated muscles: the groups, unless a scene shows close-ups (muscle_members()) or needs only a few.
-  MuscleSet muscles{(1U << muscle_group_count) - 1};
+  MuscleSet muscles{(1U << usual_muscle_count) - 1};
   Drive drive = Drive::displacement;
   Method method = Method::explicit_central;
   ModalOptions modal{};  // for Method::modal

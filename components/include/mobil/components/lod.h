@@ -12,11 +12,11 @@
 namespace mobil::inline v0_3 {
 
 /// Request for one person. `own`: bits of OwnNeed for the values that the person overrides; the scene sets all others.
-/// `muscles`: one bit a muscle. `tolerance_m`: tolerated error of control points.
+/// `muscles`: one bit a muscle, muscle m in word m / 32. `tolerance_m`: tolerated error of control points.
 template <class F>
 struct LodRequest {
   static constexpr std::uint64_t stable_id = 0xac0dbd2fe7aa7417;
-  UInt32<F> own, muscles, looked_at;
+  UInt32<F> own, looked_at, muscles[max_muscles / 32];
   F tolerance_m;
 };
 enum OwnNeed : std::uint32_t { own_muscles = 1, own_tolerance = 2, own_look = 4 };
@@ -34,8 +34,8 @@ template <class F>
 struct LodState {
   static constexpr std::uint64_t stable_id = 0xba57c91d4f94a3f7;
   UInt32<F> level[max_muscles / 8], goal[max_muscles / 8];
-  UInt32<F> points, goal_points;
-  UInt32<F> view, muscles, speed_step, effects;
+  UInt32<F> points[max_muscles / 32], goal_points[max_muscles / 32], muscles[max_muscles / 32];
+  UInt32<F> view, speed_step, effects;
   F tolerance_m, relative_size;
 };
 /// Levels of the table that apply to a person: those with inertia; those of active muscles, unless

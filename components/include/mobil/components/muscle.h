@@ -13,13 +13,68 @@
 
 namespace mobil::inline v0_3 {
 
-/// A muscle of the table (mobil/muscle_table.h): a group of muscles that act alike, or a single muscle. Groups are
-/// named here; the others are numbered as the table's rows and found by `find_muscle("soleus")`.
-enum class Muscle : std::uint8_t { hamstrings, quadriceps, triceps_surae, tibialis_anterior };
-inline constexpr std::size_t muscle_group_count = 4;
+/// A muscle of the table (mobil/muscle_table.h): a group of muscles that act alike, or a single muscle. The first four
+/// are the default choice. Numbers are stable; new muscles are added at the end.
+enum class Muscle : std::uint8_t {
+  // groups
+  hamstrings,
+  quadriceps,
+  triceps_surae,
+  tibialis_anterior,
+  // their members
+  semimembranosus,
+  semitendinosus,
+  biceps_femoris_long_head,
+  biceps_femoris_short_head,
+  rectus_femoris,
+  vastus_medialis,
+  vastus_intermedius,
+  vastus_lateralis,
+  gastrocnemius_medial,
+  gastrocnemius_lateral,
+  soleus,
+  plantaris,
+  // groups
+  gluteus_maximus,
+  hip_abductors,
+  iliopsoas,
+  short_adductors,
+  adductor_magnus,
+  deep_calf,
+  peroneals,
+  toe_extensors,
+  // their members
+  gluteus_medius,
+  gluteus_minimus,
+  iliacus,
+  psoas,
+  pectineus,
+  adductor_longus,
+  adductor_brevis,
+  tibialis_posterior,
+  flexor_digitorum_longus,
+  flexor_hallucis_longus,
+  peroneus_longus,
+  peroneus_brevis,
+  extensor_digitorum_longus,
+  extensor_hallucis_longus,
+  peroneus_tertius,
+  // single muscles of no group
+  tensor_fasciae_latae,
+  sartorius,
+  gracilis,
+  piriformis,
+  quadratus_femoris,
+  obturator_internus,
+  obturator_externus,
+  popliteus
+};
+inline constexpr std::size_t muscle_count = 47;
+/// Number of muscles in the default choice.
+inline constexpr std::size_t usual_muscle_count = 4;
 
 /// A set of muscles, by number.
-inline constexpr std::size_t max_muscles = 32;
+inline constexpr std::size_t max_muscles = 64;
 using MuscleSet = std::bitset<max_muscles>;
 
 /// Elements of a belly's mesh along x, y and z.

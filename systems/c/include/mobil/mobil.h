@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 /* Version of this header. The library's version, mobil_interface(), must be equal or greater. */
-#define MOBIL_INTERFACE 4
+#define MOBIL_INTERFACE 5
 MOBIL_API int mobil_interface(void);               /* the library's MOBIL_INTERFACE */
 MOBIL_API const char* mobil_library_version(void); /* "0.3.0" */
 
@@ -278,8 +278,16 @@ enum {
   MOBIL_HAMSTRINGS,
   MOBIL_QUADRICEPS,
   MOBIL_TRICEPS_SURAE,
-  MOBIL_TIBIALIS_ANTERIOR
-}; /* others: mobil_find_muscle */
+  MOBIL_TIBIALIS_ANTERIOR,
+  MOBIL_GLUTEUS_MAXIMUS = 16,
+  MOBIL_HIP_ABDUCTORS,
+  MOBIL_ILIOPSOAS,
+  MOBIL_SHORT_ADDUCTORS,
+  MOBIL_ADDUCTOR_MAGNUS,
+  MOBIL_DEEP_CALF,
+  MOBIL_PERONEALS,
+  MOBIL_TOE_EXTENSORS
+}; /* groups; single muscles: mobil_find_muscle */
 
 /* Method of one muscle. */
 typedef struct mobil_method {
@@ -293,7 +301,7 @@ typedef struct mobil_method {
 /* Choice of leg muscles and of their deformation. */
 typedef struct mobil_muscles {
   size_t size;
-  unsigned int muscles; /* bits 1 << MOBIL_HAMSTRINGS and so on; default: the four groups */
+  unsigned int muscles; /* bits 1 << MOBIL_HAMSTRINGS and so on; default: the first four groups */
   int method;           /* this and the fields to modal_cells are those of mobil_method */
   MOBIL_RENAMED(int, modes, vectors);
   int moving, corrected, control_points, reported, tuned, linear_shape;
@@ -304,8 +312,10 @@ typedef struct mobil_muscles {
   unsigned int cells[3];
   double density_kg_m3, young_pa, poisson; /* 1 to 1e6, 1 to 1e12, -0.99 to 0.4999 */
   double damping_per_s, stiffness_damping_s;
-  double foundation_hz; /* negative: chosen for each muscle */
-  double dt_s;          /* negative: 0.9 of each individual's critical step */
+  double foundation_hz;      /* negative: chosen for each muscle */
+  double dt_s;               /* negative: 0.9 of each individual's critical step */
+  unsigned int more_muscles; /* bits of muscles 32 and above, as 1 << (muscle - 32); since interface 5 */
+  int unused;
 } mobil_muscles;
 
 MOBIL_API int mobil_find_muscle(const char* name);   /* MOBIL_MISSING if unknown */

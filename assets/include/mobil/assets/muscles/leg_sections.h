@@ -18,9 +18,21 @@ inline constexpr double reference_height_mm = 1690;
 
 /// One horizontal section. `level` is 0 at the hip centre, 1 at the knee's and 2 at the ankle's, linear between and
 /// beyond. The centre is in mm from the straight lines hip–knee–ankle and the semi-axes are in mm. The angle (degrees)
-/// is that of the first semi-axis from anterior towards lateral.
+/// is that of the first semi-axis from anterior towards lateral. `bow` (mm) bends the section as in TubeStation
+/// (assets/surfaces/tube.h): a curved sheet is not an ellipse.
 struct LegSection {
   float level, lateral, anterior, semi_1, semi_2, angle_deg;
+  float bow = 0;
+};
+
+/// Axis of sections that are orthogonal to it instead of horizontal: its ends as centres of LegSection. Their `level`
+/// is 0 at `from` and 1 at `to`, their centres are in mm from the axis. Anterior is the leg's, carried from straight
+/// down to the axis by the smallest rotation, and lateral is orthogonal to both.
+struct SectionAxis {
+  struct End {
+    float level, lateral, anterior;
+  };
+  End from, to;
 };
 
 /// Return the sections of the three long bones by ascending level; the file's head names the source.
@@ -37,6 +49,19 @@ struct LegFrame {
 };
 LegFrame leg_frame(const Body& body);
 Vec3<double> leg_point(const LegFrame& leg, double level, double lateral_mm, double anterior_mm);
+
+/// Planes of a muscle's sections in a leg: the level's origin and one level along the normal, m, and directions.
+struct SectionPlanes {
+  bool horizontal;
+  Vec3<double> origin, along;              // of an axis
+  Vec3<double> normal, anterior, lateral;  // unit vectors; normal downwards, or along the axis
+};
+SectionPlanes section_planes(const LegFrame& leg, const std::optional<SectionAxis>& across);
+/// Returns the centre of a section, m.
+Vec3<double> section_centre(const LegFrame& leg, const SectionPlanes& planes, double level, double lateral_mm,
+                            double anterior_mm);
+/// Returns the level of a point in these planes.
+double section_level(const LegFrame& leg, const SectionPlanes& planes, const Vec3<double>& at);
 
 /// Returns the level of a height above the ground (m).
 double leg_level(const LegFrame& leg, double height_m);

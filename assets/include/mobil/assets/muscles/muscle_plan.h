@@ -57,7 +57,8 @@ double bar_stiffness(const Material& material, double section_m2, double rest_le
 double reference_belly_m(Muscle muscle);
 
 /// Returns the volume of a member in a body. The part of the regression that scales with the limb's volume is
-/// multiplied by the body's muscle factor, the constant part is not. The volume rises with height, mass and mesomorphy.
+/// multiplied by the body's muscle factor, the constant part is not. A muscle has at least half of its share in the
+/// reference body's limb. The volume rises with height, mass and mesomorphy.
 double member_volume_m3(const Body& body, const MemberMuscle& member);
 
 }  // namespace mobil::inline v0_3

@@ -9,6 +9,7 @@
 #include <mobil/components/body.h>
 #include <mobil/components/muscle.h>
 #include <mobil/components/surface.h>
+#include <mobil/muscle_table.h>
 
 namespace mobil::inline v0_3 {
 
@@ -31,13 +32,12 @@ std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, M
 /// beneath and to the skin of mean people's legs (mobil/assets/body/leg_profile.h), growing it to its volume.
 enum class MuscleRoom : std::uint8_t { alone, together };
 
-/// Returns the members in the order of member_muscles(), then the calcaneal tendon and the patellar ligament. They are
-/// of the right side in world axes, the body standing in the anatomical position at x = z = 0, m; closed, wound
-/// outwards, not yet bound. Each follows its measured path (muscle_table.h) on this body's bones. Its girth encloses
-/// the member's volume, growing away from the bone, and it is cut back where it would enter the femur or the tibia.
-std::vector<GroupSurface> make_muscle_surfaces(const Body& body, MuscleRoom room = MuscleRoom::together);
-
-/// Returns the volume of each member in this body, physique included, m³, in the order of member_muscles().
-std::vector<double> member_volumes_m3(const Body& body);
+/// Returns the single muscles that `simulated` ones drive, in the order of member_muscles(), then the calcaneal tendon
+/// and the patellar ligament. They are of the right side in world axes, the body standing in the anatomical position at
+/// x = z = 0, m; closed, wound outwards, not yet bound. Each follows its measured path (muscle_table.h) on this body's
+/// bones. Its girth encloses the muscle's volume, growing away from the bone, and it is cut back where it would enter
+/// the femur or the tibia.
+std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet& simulated = usual_muscles(),
+                                               MuscleRoom room = MuscleRoom::together);
 
 }  // namespace mobil::inline v0_3

@@ -15,19 +15,23 @@ typedef struct mobil_scene {
   float eye[3], gaze[3];
   float half_angle_rad; /* of the cone through the picture's corners */
   float radians_per_pixel;
-  float near_m, reach_m; /* unseen people within near_m are simulated; beyond reach_m none are */
-  float asleep_beyond_m; /* people farther than this from being seen sleep; optional: none sleep */
-  int compact_unseen;    /* 1: unseen people are compact */
-  int looked_at;         /* without a camera: 1 places control points */
-  double budget_s;       /* processor time a tick for deformation; optional: unlimited */
+  float near_m, reach_m;     /* unseen people within near_m are simulated; beyond reach_m none are */
+  float asleep_beyond_m;     /* people farther than this from being seen sleep; optional: none sleep */
+  int compact_unseen;        /* 1: unseen people are compact */
+  int looked_at;             /* without a camera: 1 places control points */
+  double budget_s;           /* processor time a tick for deformation; optional: unlimited */
+  unsigned int more_muscles; /* as in mobil_muscles; since interface 5 */
+  int unused;
 } mobil_scene;
 
 /* Needs of one person that override those of the scene. */
 typedef struct mobil_needs {
   size_t size;
-  unsigned int muscles; /* 0: the scene's */
-  float tolerance_m;    /* optional: the scene's */
-  int looked_at;        /* negative: the scene's */
+  unsigned int muscles;      /* 0, with more_muscles: the scene's */
+  float tolerance_m;         /* optional: the scene's */
+  int looked_at;             /* negative: the scene's */
+  unsigned int more_muscles; /* as in mobil_muscles; since interface 5 */
+  int unused;
 } mobil_needs;
 
 /* Parameters of the choice, and limits of the changes in one tick. */

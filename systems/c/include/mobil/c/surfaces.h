@@ -11,8 +11,9 @@ typedef struct mobil_surface_choice {
   int side;             /* MOBIL_RIGHT, MOBIL_LEFT, MOBIL_BOTH */
   unsigned int muscles; /* muscles and cells must be those of the people */
   unsigned int cells[3];
-  double detail; /* fraction of the triangles, 0.05 to 1 */
-  int textured;  /* 1: texture coordinates, and tangents on request */
+  double detail;             /* fraction of the triangles, 0.05 to 1 */
+  int textured;              /* 1: texture coordinates, and tangents on request */
+  unsigned int more_muscles; /* as in mobil_muscles; since interface 5 */
 } mobil_surface_choice;
 
 /* One bone or muscle of the surfaces. */

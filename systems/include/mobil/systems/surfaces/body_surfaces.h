@@ -26,7 +26,7 @@ namespace mobil::inline v0_3 {
 struct SurfaceChoice {
   bool bones = true;
   std::array<bool, 2> sides = {true, true};  // by Side; bones in the middle belong to both
-  MuscleSet simulated = muscle_groups();
+  MuscleSet simulated = usual_muscles();
   Cells cells = {2, 2, 8};
   /// Fraction of the triangles of each piece that is kept before binding, for medium distances (assets/surfaces/
   /// coarser_surface.h). The mean error is 0.5 mm at a third and 1.5 mm at a tenth, at which small pieces can vanish.
@@ -48,6 +48,7 @@ Result<RestMesh> rest_mesh(const Body& body, Muscle muscle, const Cells& cells);
 struct DrivenSurface {
   Muscle driver{};
   MuscleSurface surface;
+  std::vector<float> tendon = {};  // of each vertex, 0 in the belly to 1 in the tendon; empty: unknown
 };
 
 /// Surfaces of a body before they are bound: generated, or read from files.
@@ -74,6 +75,7 @@ struct BodySurfaces {
   std::vector<SurfacePart> part;
   std::vector<std::uint32_t> index;   // three per triangle, into all vertices of the body, wound outwards
   std::vector<TexturePlace> texture;  // by vertex, folded; empty if not textured
+  std::vector<std::uint8_t> tendon;   // by vertex, 0 in a belly or bone to 255 in a tendon
   std::uint32_t vertices = 0;
 
   // The rest is for SurfaceWriter.

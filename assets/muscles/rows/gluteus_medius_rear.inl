@@ -1,0 +1,18 @@
+// The belly is that of gluteus_medius_anterior.
+{.name = "gluteus_medius_rear",
+ .group = Muscle::hip_abductors,
+ .origin = Segment::pelvis,
+ .insertion = Segment::thigh_right,
+ .path = {
+     in_pelvis(-0.02006, 0.09817, -0.0366),
+     in_thigh(0.05028, -0.0046, -0.02727),
+ },
+ .limb_share = 0.02865,
+ .offset_cm3 = -10.13,
+ .fibre_m = 0.073,
+ .pennation_deg = 18.1,
+ .belly_m = 0.1999,
+ .model_fibre_m = 0.073,
+ .model_pennation_deg = 18.1,
+ .model_tendon_m = 0.0568,
+ .model_path_m = 0.1249},

@@ -301,8 +301,7 @@ MuscleSet muscles_of_groups(const MuscleSet& groups) {
 
 Muscle muscle_of_line(const MemberMuscle& line) {
   if (members_of(line.group).size() == 1) return line.group;
-  const auto* const own =
-      std::ranges::find_if(names, [&](std::string_view name) { return line.name.starts_with(name); });
+  const auto own = std::ranges::find_if(names, [&](std::string_view name) { return line.name.starts_with(name); });
   return static_cast<Muscle>(own - names.begin());
 }
 

@@ -5,6 +5,8 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include "assets/surfaces/coarser_surface.h"
+#include "assets/surfaces/distance_field.h"
 #include "assets/surfaces/surface_mesh.h"
 
 namespace mobil::inline v0_3::bones {
@@ -47,6 +49,19 @@ void add_ellipsoid(SurfaceMesh& mesh, const Vec3<double>& centre, const Vec3<dou
 void add_pair(SurfaceMesh& mesh, const SurfaceMesh& part) {
   append(mesh, part);
   append(mesh, mirror_image(part));
+}
+
+SurfaceMesh united(const SurfaceMesh& parts) {
+  if (!can_be_coarser()) return parts;
+  constexpr double cell_mm = 2.5, rounding_mm = 4;
+  const SurfaceMesh whole = zero_surface(distance_field(parts, cell_mm, rounding_mm + cell_mm, rounding_mm));
+  double share = 0.85 * static_cast<double>(parts.triangle.size()) / static_cast<double>(whole.triangle.size());
+  for (;; share *= 1.25) {  // thin plates can lose their inside
+    SurfaceMesh bone = coarser(whole, share);
+    drop_fins(bone.triangle);
+    drop_unused(bone);
+    if (share >= 1 || is_closed(bone)) return bone;
+  }
 }
 
 }  // namespace mobil::inline v0_3::bones

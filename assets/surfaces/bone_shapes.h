@@ -31,5 +31,8 @@ void add_ellipsoid(SurfaceMesh& mesh, const Vec3<double>& centre, const Vec3<dou
                    int segments = 9);
 /// Adds `part` and its mirror image.
 void add_pair(SurfaceMesh& mesh, const SurfaceMesh& part);
+/// Returns one bone of overlapping parts as one closed surface with rounded creases and about as many triangles. Builds
+/// that cannot simplify a mesh (coarser_surface.h) return the parts.
+SurfaceMesh united(const SurfaceMesh& parts);
 
 }  // namespace mobil::inline v0_3::bones

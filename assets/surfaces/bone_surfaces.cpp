@@ -1,7 +1,9 @@
 #include "assets/surfaces/bone_surfaces.h"
 
 #include <string>
+#include <utility>
 
+#include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
 #include "assets/surfaces/bone_surfaces_arm.h"
@@ -15,12 +17,15 @@ namespace mobil::inline v0_3 {
 
 using namespace geometry;
 
-std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
+namespace {
+
+using bones::Proportions;
+
+/// Draws all bones in mm of a man of reference_height_mm.
+std::vector<BoneSurface> drawn_bones(const Proportions& p) {
   using enum Segment;
-  const bones::Proportions p = bones::proportions(body);
   std::vector<BoneSurface> all(segment_count);
   const auto put = [&](Segment segment, std::string name, SurfaceMesh mesh) {
-    scale(mesh, static_cast<double>(body.request.height_m) / reference_height_mm);
     mesh.name = std::move(name);
     all[index(segment)] = {segment, std::move(mesh)};
   };
@@ -45,6 +50,25 @@ std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
   put_both(hand_right, "hand", bones::hand(p));
   put_both(fingers_right, "fingers", bones::fingers(p));
   put_both(thumb_right, "thumb", bones::thumb(p));
+  return all;
+}
+
+bool are_equal(const Proportions& a, const Proportions& b) {
+  constexpr double enough_mm = 0.01;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    if (length(a.joint[s] - b.joint[s]) > enough_mm || length(a.tip[s] - b.tip[s]) > enough_mm) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
+  static const Proportions usual = bones::proportions(*make_body({}));
+  static const std::vector<BoneSurface> usual_bones = drawn_bones(usual);
+  const Proportions own = bones::proportions(body);
+  std::vector<BoneSurface> all = are_equal(own, usual) ? usual_bones : drawn_bones(own);
+  for (BoneSurface& bone : all) scale(bone.mesh, static_cast<double>(body.request.height_m) / reference_height_mm);
   return all;
 }
 

@@ -8,11 +8,12 @@
 
 namespace mobil::inline v0_3 {
 
-/// Returns one closed surface (of several parts) per segment, in the order of `Segment`, each in its segment's frame,
-/// m, wound outwards. The left ones mirror the right ones. Joints are the body's, the shapes between them scale with
-/// stature. Ribs are fixed to their vertebrae, the sternum to T4, the scapula to the clavicle, the fibula to the shank.
-/// Names of pairs end in _right and _left. Proportions of the pelvis and the leg are measured (see leg_sections.h), the
-/// others are drawn after anatomical plates.
+/// Returns the closed surfaces of each segment's bones, one a bone, in the order of `Segment`, each in its segment's
+/// frame, m, wound outwards. The left ones mirror the right ones. Joints are the body's, the shapes between them scale
+/// with stature. Ribs are fixed to their vertebrae, the sternum to T4, the scapula to the clavicle, the fibula to the
+/// shank. Names of pairs end in _right and _left. Proportions of the pelvis and the leg are measured (see
+/// leg_sections.h), the others are drawn after anatomical plates. Bodies with usual proportions share shapes, which
+/// take a second at first use.
 std::vector<BoneSurface> make_bone_surfaces(const Body& body);
 
 }  // namespace mobil::inline v0_3

@@ -1,6 +1,7 @@
 #include "assets/surfaces/bone_surfaces_arm.h"
 
 #include <array>
+#include <utility>
 
 #include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
@@ -35,6 +36,7 @@ SurfaceMesh clavicle_and_scapula(const Proportions& p) {
         {0.85 * s.x, s.y + 17, 0.72 * s.z, 5.5, 8},
         {0.98 * s.x, s.y + 24, 0.88 * s.z, 5, 9}},
        {.reference = up, .rings = 10, .segments = 6});
+  const SurfaceMesh clavicle = std::exchange(mesh, {});
   // Blade, drawn from the shoulder's centre: sections from the lower angle up, turned with the back of the ribs.
   const auto at = [&](double x, double y, double z, double a, double b, double angle) {
     return Station{s.x + x, s.y + y, s.z + z, a, b, angle};
@@ -54,6 +56,8 @@ SurfaceMesh clavicle_and_scapula(const Proportions& p) {
   tube({at(22, 6, -6, 9, 9, 0), at(22, 22, 4, 6.5, 6.5, 0), at(12, 25, 18, 5.5, 6, 0), at(2, 18, 26, 5, 5, 0)},
        {.reference = up, .rings = 8, .segments = 6});               // coracoid process
   add_ellipsoid(mesh, {s.x + 21, s.y - 2, s.z - 12}, {8, 19, 14});  // glenoid
+  mesh = united(mesh);
+  append(mesh, clavicle);
   return mesh;
 }
 
@@ -77,7 +81,7 @@ SurfaceMesh humerus(const Proportions& p) {
   add_ellipsoid(mesh, {-23, -0.965 * l, 0}, {8, 13, 8});  // lateral
   add_tube(mesh, {{22, -l - 3, 3, 14, 14}, {8, -l, 3, 9.5, 9.5}, {-4, -l, 3, 11, 11}, {-20, -l, 5, 11, 11}},
            {.reference = forward, .rings = 8, .segments = 12, .cap = 0.4});  // trochlea and capitulum
-  return mesh;
+  return united(mesh);
 }
 
 SurfaceMesh radius_and_ulna(const Proportions& p) {
@@ -95,6 +99,7 @@ SurfaceMesh radius_and_ulna(const Proportions& p) {
             {-11, -l + 4, 0, 10.5, 16}},
            {.reference = forward, .normal = up, .rings = 16, .segments = 9, .cap = 0.3});
   add_tube(mesh, {{-22, -l + 8, 0, 8, 6}, {-25, -l - 5, 1, 5, 4}}, {.reference = forward, .rings = 3, .segments = 8});
+  const SurfaceMesh radius = united(std::exchange(mesh, {}));
   add_tube(mesh,
            {{10, 14, -18, 8, 10},
             {10, 2, -17, 9, 11},
@@ -108,6 +113,8 @@ SurfaceMesh radius_and_ulna(const Proportions& p) {
            {.reference = forward, .normal = up, .rings = 16, .segments = 9, .cap = 0.5});
   add_tube(mesh, {{10, -14, -2, 8, 9}, {10, -20, 9, 5, 7}}, {.reference = up, .rings = 3, .segments = 8});  // coronoid
   add_ellipsoid(mesh, {19, -l + 2, -5}, {3.5, 7, 3.5}, 4, 8);
+  mesh = united(mesh);
+  append(mesh, radius);
   return mesh;
 }
 

@@ -82,7 +82,7 @@ SurfaceMesh femur(const Proportions& p) {
     add_tube(mesh, {{g0.x, g0.y, g0.z, 9, 6}, {g1.x, g1.y, g1.z, 11, 8}, {g2.x, g2.y, g2.z, 11, 9}},
              {.reference = {1, 0, 0}, .rings = 6, .segments = 8});
   }
-  return mesh;
+  return united(mesh);
 }
 
 SurfaceMesh patella() {
@@ -96,7 +96,7 @@ SurfaceMesh patella() {
 SurfaceMesh tibia_and_fibula(const Proportions& p) {
   LegFrame leg = p.leg;
   SurfaceMesh mesh = shaft(leg, tibia_sections(), 1, 22, 12);
-  append(mesh, shaft(leg, fibula_sections(), 1, 16, 8));
+  const SurfaceMesh fibula = shaft(leg, fibula_sections(), 1, 16, 8);
   leg.hip = {0, leg.thigh_length, 0};  // the shank's frame begins at the knee
   const auto at = [&](double level, double lateral, double anterior) {
     return leg_point(leg, level, lateral, anterior);
@@ -112,6 +112,8 @@ SurfaceMesh tibia_and_fibula(const Proportions& p) {
   const Vec m0 = at(1.92, -20, 8), m1 = at(1.965, -26, 7), m2 = at(2.005, -27, 8);
   add_tube(mesh, {{m0.x, m0.y, m0.z, 14, 9}, {m1.x, m1.y, m1.z, 13, 7}, {m2.x, m2.y, m2.z, 9, 5}},
            {.reference = forward, .normal = down, .rings = 6, .segments = 10});
+  mesh = united(mesh);
+  append(mesh, fibula);
   return mesh;
 }
 
@@ -126,6 +128,7 @@ SurfaceMesh foot(const Proportions& p) {
        {-8, -30, 24, 13, 13}},
       {.reference = up, .normal = forward, .rings = 8, .segments = 11, .cap = 0.5});
   put({{10, -22, 2, 7, 8}, {13, -22, 10, 6, 9}}, {.reference = up, .rings = 3, .segments = 8});  // sustentaculum
+  mesh = united(mesh);
   // talus: the trochlea under the shank, neck and head
   put({{0, -6, -18, 9, 12}, {0, -4, -6, 15, 17}, {1, -3, 6, 15, 18}, {5, -9, 20, 11, 13}, {8, -13, 31, 12, 14}},
       {.reference = up, .normal = forward, .rings = 8, .segments = 11, .cap = 0.6});

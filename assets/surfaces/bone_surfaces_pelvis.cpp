@@ -68,8 +68,6 @@ SurfaceMesh pelvis() {
        {.reference = up, .rings = 8, .segments = 9});
   tube(hip, {{-8, -10, 49, 6, 8}, {-8, -22, 44, 6, 8}, {-9, -34, 34, 6, 7}},
        {.reference = across, .rings = 4, .segments = 8});
-  add_pair(mesh, hip);
-  add_ellipsoid(mesh, {0, -21, 44}, {4, 16, 7});  // symphysis
   // sacrum and coccyx, with wings above and a crest behind
   tube(mesh,
        {{0, 103, -32, 14, 44},
@@ -85,6 +83,9 @@ SurfaceMesh pelvis() {
        {.reference = forward, .normal = up, .rings = 20, .segments = 18, .cap = 0.4});
   add_ellipsoid(mesh, {0, 92, -24}, {27, 9, 17});
   for (int i = 0; i < 4; ++i) add_ellipsoid(mesh, {0, 84.0 - 17 * i, -62.0 - 8.5 * i}, {4, 8, 7}, 4, 8);
+  mesh = united(mesh);
+  add_pair(mesh, united(hip));
+  add_ellipsoid(mesh, {0, -21, 44}, {4, 16, 7});  // symphysis
   return mesh;
 }
 

@@ -1,7 +1,10 @@
 #include "assets/surfaces/bone_surfaces_skull.h"
 
+#include <utility>
+
 #include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_shapes.h"
+#include "assets/surfaces/surface_mesh.h"
 
 namespace mobil::inline v0_3::bones {
 using namespace geometry;
@@ -38,18 +41,20 @@ SurfaceMesh skull() {
        {.reference = forward, .rings = 5, .segments = 8});
   tube(mesh, {{0, 6, 54, 22, 26}, {0, -10, 60, 24, 25}, {0, -24, 63, 25, 25}, {0, -34, 63, 25, 25}},
        {.reference = forward, .normal = up, .rings = 7, .segments = 18, .cap = 0.2});
+  add_pair(mesh, std::exchange(side, {}));
+  mesh = united(mesh);
   // teeth: two arches that meet
   tube(mesh, {{0, -34, 63.5, 25, 24.5}, {0, -43, 63.5, 24.5, 24}},
        {.reference = forward, .normal = up, .rings = 2, .segments = 20, .cap = 0.1});
   tube(mesh, {{0, -44, 62, 24, 23}, {0, -54, 62, 23.5, 24}},
        {.reference = forward, .normal = up, .rings = 2, .segments = 20, .cap = 0.1});
-  // lower jaw: two branches and the arch between them
+  SurfaceMesh jaw;  // two branches and the arch between them
   tube(side, {{-52, 8, 8, 6, 5}, {-51.5, -10, 9, 12, 4}, {-50, -32, 12, 17, 4.5}, {-46, -52, 16, 17, 6}},
        {.reference = forward, .normal = up, .rings = 8, .segments = 11});
   tube(side, {{-50, 2, 30, 5, 3.5}, {-50, -16, 26, 8, 4}, {-48, -34, 22, 11, 4.5}},
        {.reference = forward, .rings = 5, .segments = 8});
-  add_pair(mesh, side);
-  tube(mesh,
+  add_pair(jaw, side);
+  tube(jaw,
        {{-46, -50, 12, 12, 5},
         {-43, -55, 32, 12, 6},
         {-35, -60, 54, 12, 6},
@@ -60,6 +65,7 @@ SurfaceMesh skull() {
         {43, -55, 32, 12, 6},
         {46, -50, 12, 12, 5}},
        {.reference = up, .rings = 19, .segments = 9});
+  append(mesh, united(jaw));
   return mesh;
 }
 

@@ -163,6 +163,7 @@ SurfaceMesh vertebra(const Proportions& p, Segment segment) {
              {.reference = up, .rings = 7, .segments = 8});
   }
   add_pair(mesh, side);
+  mesh = united(mesh);
   if (segment >= Segment::T12 && segment <= Segment::T1) add_ribs(mesh, p, segment, v);
   if (segment == Segment::T4) add_sternum(mesh, p.world[index(segment)]);
   return mesh;

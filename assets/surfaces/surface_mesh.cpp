@@ -56,6 +56,20 @@ void drop_fins(std::vector<std::uint32_t>& triangle) {
   triangle.resize(kept);
 }
 
+bool is_closed(const SurfaceMesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edge, back;
+  for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = mesh.triangle[t + k], b = mesh.triangle[t + (k + 1) % 3];
+      edge.emplace_back(a, b);
+      back.emplace_back(b, a);
+    }
+  }
+  std::ranges::sort(edge);
+  std::ranges::sort(back);
+  return edge == back && std::ranges::adjacent_find(edge) == edge.end();
+}
+
 void scale(SurfaceMesh& mesh, double factor) {
   for (auto& p : mesh.position) p = to_float(factor * to_double(p));
 }

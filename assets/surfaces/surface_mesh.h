@@ -18,6 +18,9 @@ void drop_unused(SurfaceMesh& mesh);
 /// order.
 void drop_fins(std::vector<std::uint32_t>& triangle);
 
+/// Returns true if every edge belongs to two triangles, one on either side.
+bool is_closed(const SurfaceMesh& mesh);
+
 /// Multiplies every position by `factor` (positive).
 void scale(SurfaceMesh& mesh, double factor);
 

@@ -223,7 +223,7 @@ TEST(Coarser, SurfacesAreNearTheFineOnes) {
   const BodySurfaces fine = *bind_surfaces(walker.subject.body);
   const auto is = walker.show(fine, false);
   double before = 1;
-  for (const auto& [share, mean_mm, max_mm] : {std::tuple{0.3, 1.0, 10.0}, {0.1, 2.0, 60.0}, {0.05, 4.0, 100.0}}) {
+  for (const auto& [share, mean_mm, max_mm] : {std::tuple{0.3, 1.0, 10.0}, {0.1, 2.0, 60.0}, {0.05, 4.0, 125.0}}) {
     const BodySurfaces coarse = *bind_surfaces(walker.subject.body, {.detail = share, .textured = true});
     const auto out = walker.show(coarse, true);
     ASSERT_EQ(coarse.part.size(), fine.part.size());

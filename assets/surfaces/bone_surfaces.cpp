@@ -1,5 +1,6 @@
 #include "assets/surfaces/bone_surfaces.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -63,11 +64,15 @@ bool are_equal(const Proportions& a, const Proportions& b) {
 
 }  // namespace
 
-std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
+SharedBones shared_bones(const Body& body) {
   static const Proportions usual = bones::proportions(*make_body({}));
-  static const std::vector<BoneSurface> usual_bones = drawn_bones(usual);
+  static const auto usual_bones = std::make_shared<const std::vector<BoneSurface>>(drawn_bones(usual));
   const Proportions own = bones::proportions(body);
-  std::vector<BoneSurface> all = are_equal(own, usual) ? usual_bones : drawn_bones(own);
+  return are_equal(own, usual) ? usual_bones : std::make_shared<const std::vector<BoneSurface>>(drawn_bones(own));
+}
+
+std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
+  std::vector<BoneSurface> all = *shared_bones(body);
   for (BoneSurface& bone : all) scale(bone.mesh, static_cast<double>(body.request.height_m) / reference_height_mm);
   return all;
 }

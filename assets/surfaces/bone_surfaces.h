@@ -1,6 +1,7 @@
 #pragma once
 // A skeleton made of lofted tubes and ellipsoids, from a body's lengths alone.
 
+#include <memory>
 #include <vector>
 
 #include <mobil/components/body.h>
@@ -15,5 +16,9 @@ namespace mobil::inline v0_3 {
 /// leg_sections.h), the others are drawn after anatomical plates. Bodies with usual proportions share shapes, which
 /// take a second at first use.
 std::vector<BoneSurface> make_bone_surfaces(const Body& body);
+
+/// The same in mm of a man of reference_height_mm. Bodies with usual proportions share one object.
+using SharedBones = std::shared_ptr<const std::vector<BoneSurface>>;
+SharedBones shared_bones(const Body& body);
 
 }  // namespace mobil::inline v0_3

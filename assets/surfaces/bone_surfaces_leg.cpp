@@ -76,9 +76,9 @@ SurfaceMesh femur(const Proportions& p) {
   add_ellipsoid(mesh, at(0.155, 14, -15), {9, 13, 9});
   // condyles and the groove between them in front
   for (const double side : {-1.0, 1.0}) {
-    add_ellipsoid(mesh, at(1.012, 23 * side, -4), {14, 25, 29}, 8, 12);
+    add_ellipsoid(mesh, at(1.014, 23 * side, -2), {14.5, 26.5, 29}, 8, 12);
     add_ellipsoid(mesh, at(0.992, 34 * side, 2), {11, 17, 16});
-    const Vec g0 = at(0.94, 15 * side, 24), g1 = at(0.985, 17 * side, 27), g2 = at(1.03, 20 * side, 18);
+    const Vec g0 = at(0.94, 15 * side, 21), g1 = at(0.985, 17 * side, 23), g2 = at(1.046, 17 * side, 11);
     add_tube(mesh, {{g0.x, g0.y, g0.z, 9, 6}, {g1.x, g1.y, g1.z, 11, 8}, {g2.x, g2.y, g2.z, 11, 9}},
              {.reference = {1, 0, 0}, .rings = 6, .segments = 8});
   }
@@ -88,7 +88,11 @@ SurfaceMesh femur(const Proportions& p) {
 SurfaceMesh patella() {
   SurfaceMesh mesh;
   add_tube(mesh,
-           {{0, 17, -1, 15, 6}, {0, 9, 0, 20, 9}, {0, -2, 0, 20.5, 9.5}, {0, -12, 0, 14, 8}, {0, -20, -2, 5, 4.5}},
+           {{0, 17, -2, 15, 7},
+            {0, 9, -3.7, 20, 12.9},
+            {0, -2, -3.7, 20.5, 13.5},
+            {0, -12, -2.5, 14, 10.5},
+            {0, -20, -2, 5, 4.5}},
            {.reference = {1, 0, 0}, .normal = up, .rings = 8, .segments = 12, .cap = 0.5});
   return mesh;
 }

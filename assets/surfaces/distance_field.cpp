@@ -179,6 +179,36 @@ class PartSampler {
   Box box_{};
 };
 
+/// Continues distances inside from those at the band's edge, neighbour by neighbour, there and back (a chamfer
+/// transform).
+void fill_depths(DistanceField& field) {
+  const Box whole{{0, 0, 0}, field.count};
+  const auto [nx, ny, nz] = field.count;
+  const auto edge = static_cast<float>(-field.band);
+  constexpr float unknown = std::numeric_limits<float>::lowest();
+  for (float& v : field.value) v = v <= edge ? unknown : v;
+  const auto sweep = [&](int dir) {
+    for (int k = 1; k + 1 < nz; ++k) {
+      for (int j = 1; j + 1 < ny; ++j) {
+        for (int i = 1; i + 1 < nx; ++i) {
+          const int x = dir > 0 ? i : nx - 1 - i, y = dir > 0 ? j : ny - 1 - j, z = dir > 0 ? k : nz - 1 - k;
+          float& own = field.value[whole.index(x, y, z)];
+          if (own > edge) continue;
+          for (int n = 0; n < 13; ++n) {  // the neighbours that the sweep has passed
+            const int dx = n % 3 - 1, dy = n / 3 % 3 - 1, dz = n / 9 - 1;
+            const float step = static_cast<float>(field.cell * std::sqrt(dx * dx + dy * dy + dz * dz));
+            const float next = field.at(x + dir * dx, y + dir * dy, z + dir * dz);
+            if (next != unknown) own = std::max(own, next - step);
+          }
+        }
+      }
+    }
+  };
+  sweep(1);
+  sweep(-1);
+  for (float& v : field.value) v = v == unknown ? edge : v;
+}
+
 /// The cube of eight samples about a point, and the point's place in it (0 to 1).
 struct Around {
   std::array<int, 3> first;
@@ -267,6 +297,7 @@ DistanceField distance_field(const SurfaceMesh& mesh, double cell, double band, 
       }
     }
   }
+  fill_depths(field);
   return field;
 }
 

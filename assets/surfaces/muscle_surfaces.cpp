@@ -16,7 +16,11 @@
 #include <mobil/assets/muscles/muscle_plan.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/muscle_table.h>
+#include "assets/surfaces/leg_bones.h"
 #include "assets/surfaces/leg_station.h"
+#include "assets/surfaces/muscle_ends.h"
+#include "assets/surfaces/muscle_room.h"
+#include "assets/surfaces/muscle_shapes.h"
 #include "assets/surfaces/surface_mesh.h"
 
 namespace mobil::inline v0_3 {
@@ -24,58 +28,8 @@ namespace {
 
 using namespace geometry;
 
-constexpr int muscle_rings = 36, muscle_segments = 18;
-
-constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
-
-/// A member as drawn on the right leg, from its origin (first section) to its insertion (last), or the calcaneal
-/// tendon. It covers the shape `lies_on` and ends at the shape `cut_back_to`. `ends_in` is the tendon that continues
-/// it.
-struct MuscleShape {
-  std::string_view name;
-  Muscle group, muscle;
-  Segment origin, insertion;
-  std::vector<LegSection> sections;
-  SectionPlanes planes;
-  double volume_m3 = 0;
-  std::size_t lies_on = no_muscle, cut_back_to = no_muscle, ends_in = no_muscle;
-};
-
-/// Returns the single muscles in the order of member_muscles(), then the calcaneal tendon.
-std::vector<MuscleShape> muscle_shapes(const Body& body, const LegFrame& leg) {
-  std::vector<MuscleShape> all;
-  std::vector<const MemberMuscle*> row;
-  for (const MemberMuscle& m : member_muscles()) {
-    if (m.sections.empty()) continue;  // a further line of a muscle
-    const Muscle own = muscle_of_line(m);
-    MuscleShape shape{muscle_name(own), m.group, own, m.origin, m.insertion, {}, section_planes(leg, m.across)};
-    for (const MemberMuscle& line : members_of(own)) shape.volume_m3 += member_volume_m3(body, line);
-    auto& to = shape.sections;
-    to.insert(to.end(), m.drawn_above.begin(), m.drawn_above.end());
-    to.insert(to.end(), m.sections.begin(), m.sections.end() - m.not_drawn);
-    to.insert(to.end(), m.drawn_below.begin(), m.drawn_below.end());
-    row.push_back(&m);
-    all.push_back(std::move(shape));
-  }
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const auto number_of = [&](std::string_view name) {
-      const auto found = std::ranges::find(all, name, &MuscleShape::name);
-      return found == all.end() ? no_muscle : static_cast<std::size_t>(found - all.begin());
-    };
-    all[i].lies_on = number_of(row[i]->lies_on);
-    all[i].cut_back_to = number_of(row[i]->cut_back_to.empty() ? row[i]->lies_on : row[i]->cut_back_to);
-    if (row[i]->in_calcaneal_tendon) all[i].ends_in = row.size();
-  }
-  const auto tendon = calcaneal_tendon();
-  all.push_back({"calcaneal_tendon",
-                 Muscle::triceps_surae,
-                 Muscle::triceps_surae,
-                 Segment::shank_right,
-                 Segment::foot_right,
-                 {tendon.begin(), tendon.end()},
-                 section_planes(leg, std::nullopt)});
-  return all;
-}
+constexpr TubeLayout layout{36, 18, 2};
+constexpr double cover_m = 0.002, bone_gap_m = 0.0012;  // of a muscle from the skin and from bones
 
 /// Kneecap of the measured man: level of its upper edge, and its centre in mm from the knee's.
 constexpr double measured_patella_top = 0.992, measured_patella_lateral = 12, measured_patella_anterior = 40;
@@ -133,14 +87,19 @@ Point bone_centre(const std::array<Bone, 3>& bones, double level) {
   return {e.lateral, e.anterior};
 }
 
+/// What muscles are cut back to.
+struct Surroundings {
+  SkinRoom skin;
+  LegBones bones;
+};
+
 /// Fits a muscle's sections to this body, in mm of the measured man. Multiplies the girth of the belly, moves it out of
 /// the way of the muscle beneath, and leads the quadriceps to this body's kneecap. Published volumes are larger than
 /// the measured man's, so sections grow. The parts in the bone, in the muscle beneath or outside of the skin are cut
 /// off, and the rest grows until the volume is met.
 struct Fitting {
   const LegFrame& leg;
-  const LegProfile* skin;  // muscles stay inside it, widened by `wider`; null: each alone
-  double wider;
+  const Surroundings* around;  // null: each alone
   const std::array<Bone, 3>& bones;
   Point patella;         // the kneecap's centre, mm
   double patella_shift;  // of its upper edge's level from the measured man's
@@ -180,6 +139,10 @@ std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, doubl
     double shift = grows_from_bone(shape) ? reach(s, away) * (girth - 1) * thick : 0;
     if (beneath != nullptr) shift += 2 * growth(*beneath, girth_beneath, level, away) * thick;
     const double factor = 1 + (girth - 1) * thick;
+    // Flat muscles of the hip become thicker rather than wider.
+    const double flatness = f.around != nullptr && !grows_from_bone(shape)
+                                ? static_cast<double>((s.semi_1 - s.semi_2) / (s.semi_1 + s.semi_2))
+                                : 0;
     Point moved{static_cast<double>(s.lateral) + shift * away.l, static_cast<double>(s.anterior) + shift * away.a};
     if (shape.group == Muscle::quadriceps) {
       const double w = smoothstep(0.45, measured_patella_top, level);
@@ -189,122 +152,67 @@ std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, doubl
     }
     s.lateral = static_cast<float>(moved.l);
     s.anterior = static_cast<float>(moved.a);
-    s.semi_1 *= static_cast<float>(factor);
-    s.semi_2 *= static_cast<float>(factor);
+    s.semi_1 *= static_cast<float>(flatness == 0 ? factor : std::pow(factor, 1 - flatness));
+    s.semi_2 *= static_cast<float>(flatness == 0 ? factor : std::pow(factor, 1 + flatness));
     s.bow *= static_cast<float>(factor);
   }
   return out;
 }
 
-/// Cuts a ring of vertices back to the bone or muscle beneath, each along its ray from the ring's middle. The middle is
-/// moved out first if it is within.
-void keep_out(const Fitting& f, std::span<const LegSection> beneath, std::span<Vec3<float>> ring) {
-  constexpr double skin_mm = 1.5, middle_outside = 1.12;
-  const double level = leg_level(f.leg, static_cast<double>(ring[0].y));
-  const auto e = beneath.empty() ? std::nullopt : leg_ellipse(beneath, level);
-  if (!e) return;
-  const double aa = e->aa + skin_mm, ll = e->ll + skin_mm, al = e->al, det = aa * ll - al * al;
-  const Vec axis = leg_point(f.leg, level, 0, 0);
-  // to the circle whose image is the section beneath, and back
-  const auto inward = [&](double l, double a) { return Point{(aa * l - al * a) / det, (ll * a - al * l) / det}; };
-  const auto outward = [&](Point p) { return Point{al * p.a + ll * p.l, aa * p.a + al * p.l}; };
-  const auto local = [&](const Vec3<float>& p) {
-    return inward((axis.x - static_cast<double>(p.x)) / f.leg.unit - e->lateral,
-                  (static_cast<double>(p.z) - axis.z) / f.leg.unit - e->anterior);
-  };
-  Point middle{0, 0};
-  std::vector<Point> points;
-  for (const auto& p : ring) {
-    points.push_back(local(p));
-    middle.l += points.back().l / static_cast<double>(ring.size());
-    middle.a += points.back().a / static_cast<double>(ring.size());
-  }
-  const double distance = std::hypot(middle.l, middle.a);
-  Point moved = middle;
-  if (distance < middle_outside) {
-    const double factor = middle_outside / std::max(distance, 1e-6);
-    moved = {middle.l * factor, middle.a * factor};
-  }
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point d{points[i].l - middle.l, points[i].a - middle.a};
-    const double dd = d.l * d.l + d.a * d.a, md = moved.l * d.l + moved.a * d.a;
-    const double mm = moved.l * moved.l + moved.a * moved.a - 1, root = md * md - dd * mm;
-    double s = 1;
-    if (md < 0 && root > 0) s = std::min(1.0, (-md - std::sqrt(root)) / dd);
-    const Point q = outward({moved.l + s * d.l, moved.a + s * d.a});
-    ring[i].x = static_cast<float>(axis.x - (q.l + e->lateral) * f.leg.unit);
-    ring[i].z = static_cast<float>(axis.z + (q.a + e->anterior) * f.leg.unit);
+/// Returns false where a muscle ends in the calcaneal tendon, and where that tendon begins.
+bool ends_on_bone(const MuscleShape& shape, TubeEnd end) {
+  return end == TubeEnd::origin ? shape.volume_m3 > 0 : shape.ends_in == no_muscle;
+}
+
+/// Evens out the rings from `first` to before `last` along the muscle.
+void smooth_along(SurfaceMesh& mesh, std::size_t first, std::size_t last) {
+  for (int round = 0; round < 3; ++round) {
+    const std::vector<Vec3<float>> was = mesh.position;
+    for (std::size_t v = layout.vertex(first + 1); v + layout.segments < layout.vertex(last); ++v)
+      mesh.position[v] = 0.5F * was[v] + 0.25F * (was[v - layout.segments] + was[v + layout.segments]);
   }
 }
 
-/// Cuts a ring of vertices back to the inside of the leg's skin, each along its ray from the ring's middle. The middle
-/// is moved in first if it is outside.
-void keep_in(const Fitting& f, std::span<Vec3<float>> ring) {
-  constexpr double cover_mm = 2, middle_inside = 0.9;
-  const double level = leg_level(f.leg, static_cast<double>(ring[0].y));
-  if (f.skin == nullptr || level < LegProfile::first_s || level > LegProfile::last_s) return;
-  const Vec axis = leg_point(f.leg, level, 0, 0);
-  const auto room = [&](Point p) {
-    const double turn = std::atan2(-p.l, p.a);
-    return f.wider * f.skin->radius(level, turn < 0 ? turn + 2 * std::numbers::pi : turn) / f.leg.unit - cover_mm;
-  };
-  const auto is_in = [&](Point p) { return std::hypot(p.l, p.a) <= room(p); };
-  Point middle{0, 0};
-  std::vector<Point> points;
-  for (const auto& p : ring) {
-    points.push_back(
-        {(axis.x - static_cast<double>(p.x)) / f.leg.unit, (static_cast<double>(p.z) - axis.z) / f.leg.unit});
-    middle.l += points.back().l / static_cast<double>(ring.size());
-    middle.a += points.back().a / static_cast<double>(ring.size());
-  }
-  Point moved = middle;
-  if (const double far = std::hypot(middle.l, middle.a), most = middle_inside * room(middle); far > most)
-    moved = {middle.l * most / far, middle.a * most / far};
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point d{points[i].l - middle.l, points[i].a - middle.a};
-    const auto at = [&](double s) { return Point{moved.l + s * d.l, moved.a + s * d.a}; };
-    double low = 0, high = 1;
-    if (is_in(at(1))) low = 1;
-    for (int round = 0; round < 16 && low < 1; ++round) {
-      const double s = 0.5 * (low + high);
-      (is_in(at(s)) ? low : high) = s;
-    }
-    const Point q = at(low);
-    ring[i].x = static_cast<float>(axis.x - q.l * f.leg.unit);
-    ring[i].z = static_cast<float>(axis.z + q.a * f.leg.unit);
-  }
-}
-
-/// Builds a muscle's mesh. `beneath` has the sections of the muscle under it, if any.
-SurfaceMesh build(const Fitting& f, const SectionPlanes& planes, std::span<const LegSection> sections,
+/// Builds a muscle's mesh. `beneath` has the sections of the muscle under it, if any. A muscle alone is cut back only
+/// to the measured bones.
+SurfaceMesh build(const Fitting& f, const MuscleShape& shape, std::span<const LegSection> sections,
                   std::span<const LegSection> beneath) {
   std::vector<TubeStation> stations;
-  for (const auto& s : sections) stations.push_back(leg_station(f.leg, planes, s));
-  SurfaceMesh mesh = loft(stations, {.reference = planes.anterior,
-                                     .normal = planes.normal,
-                                     .rings = muscle_rings,
-                                     .segments = muscle_segments,
+  for (const auto& s : sections) stations.push_back(leg_station(f.leg, shape.planes, s));
+  SurfaceMesh mesh = loft(stations, {.reference = shape.planes.anterior,
+                                     .normal = shape.planes.normal,
+                                     .rings = static_cast<int>(layout.rings),
+                                     .segments = static_cast<int>(layout.segments),
                                      .cap = 0.5});
-  if (f.skin != nullptr) {
-    for (auto& p : mesh.position) p.x = std::min(p.x, 0.0F);  // both glutei meet in the middle
+  const auto ring = [&](std::size_t r) { return std::span(mesh.position).subspan(layout.vertex(r), layout.segments); };
+  if (f.around == nullptr) {
+    if (!shape.planes.horizontal) return mesh;
+    for (const auto& bone : f.bones) {
+      for (std::size_t r = 0; r < layout.all_rings(); ++r) keep_off(f.leg, bone.sections, ring(r));
+      keep_off(f.leg, bone.sections, std::span(mesh.position).first(1));
+      keep_off(f.leg, bone.sections, std::span(mesh.position).last(1));
+    }
+    return mesh;
   }
-  if (!planes.horizontal) return mesh;  // bones and skin cut horizontal rings
-  const std::size_t ring_count = (mesh.position.size() - 2) / muscle_segments;
-  for (std::size_t r = 0; r < ring_count; ++r) {
-    const auto ring = std::span(mesh.position).subspan(1 + r * muscle_segments, muscle_segments);
-    keep_in(f, ring);
-    // Tendons are not cut: they continue to the end of the muscle beneath.
-    const double thick =
-        smoothstep(0.3, 0.7, relative_area(sections, sections, leg_level(f.leg, static_cast<double>(ring[0].y))));
-    const std::vector<Vec3<float>> uncut(ring.begin(), ring.end());
-    keep_out(f, beneath, ring);
-    for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = uncut[i] + static_cast<float>(thick) * (ring[i] - uncut[i]);
-    for (const auto& bone : f.bones) keep_out(f, bone.sections, ring);
+  const auto& [skin, bones] = *f.around;
+  for (auto& p : mesh.position) p.x = std::min(p.x, 0.0F);  // both glutei meet in the middle
+  if (ends_on_bone(shape, TubeEnd::origin)) spread_end(bones, shape.origin, TubeEnd::origin, layout, mesh);
+  if (ends_on_bone(shape, TubeEnd::insertion)) spread_end(bones, shape.insertion, TubeEnd::insertion, layout, mesh);
+  const std::size_t first = ends_on_bone(shape, TubeEnd::origin) ? layout.cap + 1 : 0,
+                    last = layout.all_rings() - (ends_on_bone(shape, TubeEnd::insertion) ? layout.cap + 1 : 0);
+  for (std::size_t r = first; r < last; ++r) {
+    keep_in(skin, cover_m, ring(r));
+    if (shape.planes.horizontal && !beneath.empty()) {
+      // Tendons are not cut: they continue to the end of the muscle beneath.
+      const double level = leg_level(f.leg, static_cast<double>(ring(r)[0].y));
+      const auto thick = static_cast<float>(smoothstep(0.3, 0.7, relative_area(sections, sections, level)));
+      const std::vector<Vec3<float>> uncut(ring(r).begin(), ring(r).end());
+      keep_off(f.leg, beneath, ring(r));
+      for (std::size_t i = 0; i < uncut.size(); ++i) ring(r)[i] = uncut[i] + thick * (ring(r)[i] - uncut[i]);
+    }
   }
-  for (const auto& bone : f.bones) {
-    keep_out(f, bone.sections, std::span(mesh.position).first(1));
-    keep_out(f, bone.sections, std::span(mesh.position).last(1));
-  }
+  smooth_along(mesh, first, last);
+  for (std::size_t r = first; r < last; ++r) keep_out(bones, bone_gap_m, ring(r));
   return mesh;
 }
 
@@ -331,22 +239,33 @@ double given_way(const LegFrame& leg, const LegProfile& skin, double volume_m3) 
   return std::sqrt(std::max(1.0, volume_m3 / (usual_share * enclosed_m3)));
 }
 
+/// The quadriceps' aponeurosis over the kneecap and the ligament from there to the tibia.
 GroupSurface patellar_ligament(const Body& body, const Fitting& f) {
+  constexpr TubeLayout own{16, 12, 2};
   const double unit = f.leg.unit;
   const Vec patella = f.leg.hip + to_double(body.joint_offset_m[index(Segment::patella_right)]);
-  const Vec top = patella + Vec{0, -16 * unit, -1 * unit}, bottom = leg_point(f.leg, 1.185, 5, 40);
-  const auto at = [&](double t) { return top + t * (bottom - top); };
-  const std::array<TubeStation, 4> line = {TubeStation{at(0), 3 * unit, 12 * unit},
-                                           {at(0.3), 2.6 * unit, 13 * unit},
-                                           {at(0.7), 2.6 * unit, 12 * unit},
-                                           {at(1), 3 * unit, 9 * unit}};
-  GroupSurface s{Muscle::quadriceps, Muscle::quadriceps, {}, {}, {to_float(top), to_float(bottom)}, true};
-  s.surface.mesh =
-      loft(line, {.reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = 10, .segments = 12, .cap = 0.6});
-  s.surface.mesh.name = "patellar_ligament_right";
+  const Vec tip = patella + unit * Vec{0, -21, 3}, bottom = leg_point(f.leg, 1.185, 5, 40);
+  const auto over = [&](double y, double z, double half_width, double bow) {
+    return TubeStation{patella + unit * Vec{0, y, z}, half_width * unit, 1.8 * unit, 0, bow * unit};
+  };
+  const auto below = [&](double t, double half_width, double half_depth) {
+    return TubeStation{tip + t * (bottom - tip), half_width * unit, half_depth * unit};
+  };
+  const std::array<TubeStation, 7> line = {over(18, 5, 14, 1.5), over(9, 8, 16, 2),    over(-3, 8.5, 15, 2),
+                                           over(-13, 7, 13, 1),  below(0.05, 12, 2.6), below(0.5, 12, 2.6),
+                                           below(1, 9, 3)};
+  GroupSurface s{Muscle::quadriceps, Muscle::quadriceps, {}, {}, {to_float(tip), to_float(bottom)}, true};
+  SurfaceMesh& mesh = s.surface.mesh;
+  mesh = loft(line, {.reference = {1, 0, 0},
+                     .normal = Vec{0, -1, 0},
+                     .rings = static_cast<int>(own.rings),
+                     .segments = static_cast<int>(own.segments),
+                     .cap = 0.6});
+  mesh.name = "patellar_ligament_right";
   s.surface.origin = Segment::patella_right;
   s.surface.insertion = Segment::shank_right;
-  s.tendon.assign(s.surface.mesh.position.size(), 1.0F);
+  if (f.around != nullptr) spread_end(f.around->bones, Segment::shank_right, TubeEnd::insertion, own, mesh);
+  s.tendon.assign(mesh.position.size(), 1.0F);
   return s;
 }
 
@@ -374,15 +293,18 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
   const auto bones = hard_bones();
   const Vec patella = to_double(body.joint_offset_m[index(Segment::patella_right)]);
   const double top_mm = 18;  // from the kneecap's centre to its upper edge
-  const LegProfile skin(body_measures(body.request));
   const auto shapes = muscle_shapes(body, leg);
   double usual_m3 = 0;
   for (const MuscleShape& shape : shapes) {
     if (usual_muscles()[static_cast<std::size_t>(shape.group)]) usual_m3 += shape.volume_m3;
   }
+  std::optional<Surroundings> around;
+  if (room == MuscleRoom::together) {
+    around.emplace(Surroundings{SkinRoom(body, leg), LegBones(body)});
+    around->skin.widen(given_way(leg, around->skin.profile(), usual_m3));
+  }
   const Fitting f{leg,
-                  room == MuscleRoom::together ? &skin : nullptr,
-                  given_way(leg, skin, usual_m3),
+                  around ? &*around : nullptr,
                   bones,
                   {-patella.x / leg.unit, patella.z / leg.unit},
                   -(patella.y + top_mm * leg.unit) / leg.thigh_length - measured_patella_top};
@@ -414,7 +336,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
       const auto filling = [&](double low, double high) {
         for (int i = 0; i < 14; ++i) {
           const double middle = 0.5 * (low + high);
-          const SurfaceMesh mesh = build(f, shapes[m].planes, sections_of(m, middle), under);
+          const SurfaceMesh mesh = build(f, shapes[m], sections_of(m, middle), under);
           (enclosed_volume(mesh) < shapes[m].volume_m3 ? low : high) = middle;
         }
         return 0.5 * (low + high);
@@ -429,16 +351,20 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
     if (!is_drawn(m)) continue;
     const auto sections = sections_of(m, girth[m]);
     GroupSurface s{shapes[m].group, shapes[m].muscle, {}, {}, {}, false};
-    s.surface.mesh = build(f, shapes[m].planes, sections, beneath(m));
+    s.surface.mesh = build(f, shapes[m], sections, beneath(m));
     s.surface.mesh.name = std::string(shapes[m].name) + "_right";
     s.surface.origin = shapes[m].origin;
     s.surface.insertion = shapes[m].insertion;
     s.tendon = tendon_shares(leg, shapes[m], sections, s.surface.mesh);
     if (shapes[m].volume_m3 == 0) s.tendon.assign(s.tendon.size(), 1.0F);
     s.attachments = {s.surface.mesh.position.front(), s.surface.mesh.position.back()};
+    if (around && ends_on_bone(shapes[m], TubeEnd::origin))
+      s.surface.origin_held = held_shares(TubeEnd::origin, layout, s.surface.mesh.position.size());
+    if (around && ends_on_bone(shapes[m], TubeEnd::insertion))
+      s.surface.insertion_held = held_shares(TubeEnd::insertion, layout, s.surface.mesh.position.size());
     if (shapes[m].ends_in != no_muscle) {
       const MuscleShape& last = shapes[shapes[m].ends_in];
-      s.attachments.insertion_m = build(f, last.planes, sections_of(shapes[m].ends_in, 1), {}).position.back();
+      s.attachments.insertion_m = build(f, last, sections_of(shapes[m].ends_in, 1), {}).position.back();
     }
     all.push_back(std::move(s));
   }

@@ -134,6 +134,20 @@ Vec in_frame(const RestFrame& frame, const Vec3<float>& position) {
   return rotated(conjugate(to_double(frame.rotation)), to_double(position) - to_double(frame.start_m));
 }
 
+/// Replaces a part of a vertex' shares by those that its bones hold.
+void hold(const MuscleSurface& surface, std::size_t v, VertexBinding& b) {
+  const auto share = [&](const std::vector<float>& held) { return v < held.size() ? held[v] : 0.0F; };
+  b.origin_held = share(surface.origin_held);
+  b.insertion_held = share(surface.insertion_held);
+  const float rest = 1 - b.origin_held - b.insertion_held;
+  if (rest == 1) return;
+  (b.origin_held > 0 ? b.origin : b.insertion) += b.lattice;
+  b.lattice = 0;
+  const float sum = b.origin + b.insertion;
+  b.origin *= rest / sum;
+  b.insertion *= rest / sum;
+}
+
 }  // namespace
 
 LatticePlace place_in_lattice(const HexahedralMesh& lattice, const Vec3<double>& point) {
@@ -158,6 +172,7 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& lattice, const R
     b.origin = static_cast<float>(1 - smoothstep(passages.origin_to, passages.origin_from, q.z));
     b.insertion = static_cast<float>(smoothstep(passages.insertion_from, passages.insertion_to, q.z));
     b.lattice = 1 - b.origin - b.insertion;
+    hold(surface, surface.binding.size(), b);
     surface.binding.push_back(b);
     surface.rest_in_lattice.push_back(to_float(q));
   }

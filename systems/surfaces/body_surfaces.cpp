@@ -13,6 +13,7 @@
 #include <mobil/engine/geometry.h>
 #include "assets/surfaces/bone_surfaces.h"
 #include "assets/surfaces/coarser_surface.h"
+#include "assets/surfaces/leg_bones.h"
 #include "assets/surfaces/muscle_lattice.h"
 #include "assets/surfaces/surface_mesh.h"
 
@@ -37,6 +38,7 @@ Texture texture_of(const SurfaceMesh& mesh, std::vector<TexturePlace> place) {
 /// Returns the values of the nearest vertices of the finer mesh.
 std::vector<float> carried_over(const SurfaceMesh& fine, std::span<const float> value, const SurfaceMesh& coarse) {
   std::vector<float> carried;
+  if (value.empty()) return carried;
   for (const Vec3<float>& at : coarse.position) {
     const auto away = [&](const Vec3<float>& p) {
       const float x = p.x - at.x, y = p.y - at.y, z = p.z - at.z;
@@ -156,11 +158,15 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
   if (choice.bones) drawn.bones = make_bone_surfaces(body);
   for (BoneSurface& bone : drawn.bones) bone.mesh = coarser(bone.mesh, choice.detail);
   if (choice.simulated.none()) return drawn;
+  if (choice.clear_of_bones) drawn.clear_of = std::make_shared<const LegBones>(body);
   for (auto& muscle : make_muscle_surfaces(body, choice.simulated)) {
     const auto driver = driving_muscle(choice.simulated, muscle.group, muscle.muscle);
     const SurfaceMesh fine = std::exchange(muscle.surface.mesh, {});
     muscle.surface.mesh = coarser(fine, choice.detail);
-    if (choice.detail < 1) muscle.tendon = carried_over(fine, muscle.tendon, muscle.surface.mesh);
+    if (choice.detail < 1) {
+      for (auto* values : {&muscle.tendon, &muscle.surface.origin_held, &muscle.surface.insertion_held})
+        *values = carried_over(fine, *values, muscle.surface.mesh);
+    }
     if (muscle.ligament) {
       bind_ligament(muscle.surface, muscle.attachments.origin_m, muscle.attachments.insertion_m);
     } else {
@@ -178,6 +184,7 @@ Result<BodySurfaces> bind_surfaces(const Body& body, const DrawnSurfaces& drawn,
   binding.made.height_m = body.request.height_m;
   binding.made.limbs = limb_lengths(body);
   binding.made.sides = choice.sides;
+  binding.made.clear_of = drawn.clear_of;
   for (const BoneSurface& bone : drawn.bones) {
     if (auto done = binding.add(bone); !done) return tl::unexpected(done.error());
   }

@@ -15,9 +15,10 @@ using namespace geometry;
 
 namespace {
 
-enum class Follows : std::uint8_t { lattice, both, bones };
+enum class Follows : std::uint8_t { lattice, both, bones, held, fixed };
 
 Follows follows(const VertexBinding& b) {
+  if (const float held = b.origin_held + b.insertion_held; held > 0) return held < 1 ? Follows::held : Follows::fixed;
   if (b.lattice == 0) return Follows::bones;
   return b.lattice == 1 && b.origin == 0 && b.insertion == 0 ? Follows::lattice : Follows::both;
 }
@@ -62,16 +63,22 @@ std::vector<std::uint16_t> fill_blocks(const MuscleSurface& surface, PackedSurfa
   for (const auto& [key, vertices] : grouped(surface)) {
     const auto& [kind, node] = key;
     for (std::size_t first = 0; first < vertices.size(); first += block_vertices, ++blocks) {
+      const bool in_lattice = kind == Follows::lattice || kind == Follows::both;
       LatticeBlock lattice;
       BoneBlock bone;
+      HeldBlock held;
       for (std::size_t lane = 0; lane < block_vertices; ++lane) {
         const std::uint32_t v = vertices[std::min(first + lane, vertices.size() - 1)];
-        if (kind != Follows::bones) set_lane(surface, v, lane, lattice);
+        if (in_lattice) set_lane(surface, v, lane, lattice);
         if (kind != Follows::lattice) set_lane(surface, v, lane, bone);
+        held.origin.lane[lane] = surface.binding[v].origin_held;
+        held.insertion.lane[lane] = surface.binding[v].insertion_held;
         if (first + lane < vertices.size()) place[v] = static_cast<std::uint16_t>(blocks * block_vertices + lane);
       }
-      if (kind != Follows::bones) packed.lattice.push_back(lattice), packed.node.push_back(node);
+      if (in_lattice) packed.lattice.push_back(lattice), packed.node.push_back(node);
       if (kind != Follows::lattice) packed.bone.push_back(bone);
+      if (kind == Follows::held || kind == Follows::fixed) packed.held.push_back(held);
+      if (kind == Follows::fixed) ++packed.fixed_blocks;
       if (kind == Follows::lattice) ++packed.lattice_only_blocks;
     }
   }

@@ -42,6 +42,16 @@ HWY_INLINE EightVec on_bones(const BoneBlock& block, const SkinMaps& maps) {
           multiply_add(origin, a.z, multiply(insertion, b.z))};
 }
 
+/// Returns vertices that bones hold.
+HWY_INLINE EightVec on_held_bones(const BoneBlock& block, const HeldBlock& held, const SkinMaps& maps) {
+  const EightVec p = load(block.rest), a = apply<true>(maps.origin_held, p), b = apply<true>(maps.insertion_held, p);
+  const EightVec on = on_bones(block, maps);
+  const WideEight origin = load(held.origin), insertion = load(held.insertion);
+  const auto sum = [&](const WideEight& x, const WideEight& y, const WideEight& z)
+                       HWY_ATTR { return multiply_add(origin, x, multiply_add(insertion, y, z)); };
+  return {sum(a.x, b.x, on.x), sum(a.y, b.y, on.y), sum(a.z, b.z, on.z)};
+}
+
 void place_surface(const PackedSurface& surface, const SkinMaps& maps, const float* node, float sign, float* places) {
   const WideEight signs = all(sign);
   const auto put = [&](EightVec p) HWY_ATTR {
@@ -61,7 +71,10 @@ void place_surface(const PackedSurface& surface, const SkinMaps& maps, const flo
     const WideEight lattice = load(block.lattice);
     put({multiply_add(lattice, p.x, b.x), multiply_add(lattice, p.y, b.y), multiply_add(lattice, p.z, b.z)});
   }
-  for (std::size_t i = both; i < surface.bone.size(); ++i) put(on_bones(surface.bone[i], maps));
+  const std::size_t loose = surface.bone.size() - surface.held.size();
+  for (std::size_t i = both; i < loose; ++i) put(on_bones(surface.bone[i], maps));
+  for (std::size_t i = loose; i < surface.bone.size(); ++i)
+    put(on_held_bones(surface.bone[i], surface.held[i - loose], maps));
 }
 
 }  // namespace

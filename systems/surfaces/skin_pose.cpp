@@ -52,14 +52,14 @@ SurfaceEnd surface_end(const Body& body, Segment right_bone, const Vec3<float>& 
 /// Returns the motion of points of the body to which the surface was bound. `lengths` is relative to that body,
 /// `stretch` is relative to `lengths`, along the bone's own axis. Points that turn with the muscle move with its place
 /// on the bone and are not stretched themselves.
-AffineMap end_map(const SurfaceEnd& end, Side side, RigidPose now, const Quat<float>& muscle_turn, float lengths,
-                  float stretch) {
+AffineMap end_map(const SurfaceEnd& end, Side side, RigidPose now, const Quat<float>& muscle_turn, float turn,
+                  float lengths, float stretch) {
   RigidPose rest{lengths * end.bone_m[side], {0, 0, 0, 1}};
-  if (end.turn != 0) {
+  if (turn != 0) {
     const Vec3<float> at = lengths * (side == Side::left ? mirrored(end.attachment_m) : end.attachment_m);
     Vec3<float> arm = at - rest.position_m;
     arm.y *= stretch;
-    now = {now.position_m + rotated(now.rotation, arm), between(now.rotation, muscle_turn, end.turn)};
+    now = {now.position_m + rotated(now.rotation, arm), between(now.rotation, muscle_turn, turn)};
     rest.position_m = at;
     stretch = 1;
   }
@@ -91,8 +91,15 @@ SkinMaps skin_maps(const SurfaceRest& rest, Side side, RigidPose origin, RigidPo
   origin.position_m = origin.position_m - from_m;
   insertion.position_m = insertion.position_m - from_m;
   const RigidPose frame{line.start_m - (side == Side::left ? mirrored(from_m) : from_m), line.rotation};
-  return {affine_map(frame), end_map(rest.origin, side, origin, muscle_turn, scale.lengths, scale.origin),
-          end_map(rest.insertion, side, insertion, muscle_turn, scale.lengths, scale.insertion), scale.belly};
+  const auto of_origin = [&](float turn) {
+    return end_map(rest.origin, side, origin, muscle_turn, turn, scale.lengths, scale.origin);
+  };
+  const auto of_insertion = [&](float turn) {
+    return end_map(rest.insertion, side, insertion, muscle_turn, turn, scale.lengths, scale.insertion);
+  };
+  return {
+      affine_map(frame), of_origin(rest.origin.turn), of_insertion(rest.insertion.turn), of_origin(0), of_insertion(0),
+      scale.belly};
 }
 
 }  // namespace mobil::inline v0_3

@@ -18,6 +18,7 @@
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/pose_history.h"
 #include "systems/poses/walk_ahead.h"
+#include "systems/surfaces/clear_of_bones.h"
 #include "systems/surfaces/place_vertices.h"
 
 namespace mobil::inline v0_3 {
@@ -152,6 +153,18 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
   const SkinMaps maps = skin_maps(rest, side, segment_pose(person.pose, rest.origin.bone[side]),
                                   segment_pose(person.pose, rest.insertion.bone[side]), line, request.origin_m, scale);
   place_vertices(packed, maps, node, side, places);
+  if (request.surfaces->clear_of != nullptr) {
+    std::array<PosedBone, LegBones::hard.size()> posed;
+    for (std::size_t b = 0; b < posed.size(); ++b) {
+      const Segment bone =
+          LegBones::hard[b] < Segment::thigh_right ? LegBones::hard[b] : on_side(LegBones::hard[b], side);
+      posed[b] = {segment_pose(person.pose, bone), scale.lengths,
+                  request.fit == nullptr ? 1.0F : stretch(*request.fit, bone)};
+      posed[b].pose.position_m = posed[b].pose.position_m - request.origin_m;
+    }
+    keep_clear(*request.surfaces->clear_of, posed, side, places,
+               packed.places() - block_vertices * packed.fixed_blocks);  // ends stay on their bones
+  }
   const SurfacePart& part = request.surfaces->part[*piece.part[side]];
   write_vertices(packed.rings, packed.along, places, side == Side::left ? -1.0F : 1.0F,
                  target_of(request, part.first_vertex));

@@ -78,7 +78,11 @@ inline std::vector<Vec3<float>> skinned_one_by_one(const MuscleSurface& surface,
       }
     }
     for (int r = 0; r < 3; ++r) {
-      const float bones = std::fma(b.origin, carried(maps.origin, p, r), b.insertion * carried(maps.insertion, p, r));
+      float bones = std::fma(b.origin, carried(maps.origin, p, r), b.insertion * carried(maps.insertion, p, r));
+      if (b.origin_held > 0 || b.insertion_held > 0) {
+        bones = std::fma(b.insertion_held, carried(maps.insertion_held, p, r), bones);
+        bones = std::fma(b.origin_held, carried(maps.origin_held, p, r), bones);
+      }
       place[r] = std::fma(b.lattice, carried(maps.frame, q, r), bones);
     }
     out.push_back({side == Side::left ? -place[0] : place[0], place[1], place[2]});

@@ -113,13 +113,18 @@ RC_GTEST_PROP(PlaceInLattice, OutsideItNeverExtrapolates, ()) {
   RC_ASSERT(std::abs(sum - 1) < 1e-12);
 }
 
+float sum_of(const VertexBinding& b) {
+  return b.lattice + b.origin + b.insertion + b.origin_held + b.insertion_held;
+}
+
 TEST(Binding, WeightsArePartitionsOfOne) {
   for (std::size_t m = 0; m < 12; ++m) {
     const Bound bound(m);
     ASSERT_EQ(bound.surface.binding.size(), bound.surface.mesh.position.size());
     for (const auto& b : bound.surface.binding) {
-      EXPECT_GE(std::min({b.lattice, b.origin, b.insertion}), 0.0F);
-      EXPECT_NEAR(b.lattice + b.origin + b.insertion, 1.0F, 1e-6F);
+      EXPECT_GE(std::min({b.lattice, b.origin, b.insertion, b.origin_held, b.insertion_held}), 0.0F);
+      EXPECT_NEAR(sum_of(b), 1.0F, 1e-6F);
+      EXPECT_TRUE(b.lattice == 0 || b.origin_held + b.insertion_held == 0);
       float sum = 0;
       for (int i = 0; i < 8; ++i) {
         EXPECT_GE(b.node_weight[i], 0.0F);
@@ -145,14 +150,15 @@ TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
   }
   ASSERT_EQ(group.size(), 4U);
   const auto& tendon = *group.back();
-  EXPECT_EQ(tendon.binding.back().insertion, 1.0F);
+  EXPECT_EQ(tendon.binding.back().insertion_held, 1.0F);
   for (const MuscleSurface* s : group) {
     for (std::size_t v = 0; v < s->binding.size(); ++v) {
-      EXPECT_NEAR(s->binding[v].lattice + s->binding[v].origin + s->binding[v].insertion, 1.0F, 1e-6F);
+      EXPECT_NEAR(sum_of(s->binding[v]), 1.0F, 1e-6F);
       for (std::size_t w = 0; w < tendon.binding.size(); ++w) {
         const bool together = std::abs(s->rest_in_lattice[v].z - tendon.rest_in_lattice[w].z) < 1e-3F;
         if (together) {
-          EXPECT_NEAR(s->binding[v].insertion, tendon.binding[w].insertion, 0.02F);
+          const VertexBinding &own = s->binding[v], &other = tendon.binding[w];
+          EXPECT_NEAR(own.insertion + own.insertion_held, other.insertion + other.insertion_held, 0.02F);
         }
       }
     }

@@ -62,6 +62,7 @@ SurfaceChoice choice_of(const LegMuscles& muscles, bool bones) {
   choice.bones = bones;
   choice.simulated = muscles.muscles;
   choice.cells = muscles.cells;
+  choice.clear_of_bones = false;  // the formulas are those of one vertex
   return choice;
 }
 
@@ -301,6 +302,7 @@ TEST(SurfaceWriter, SidesAndBonesCanBeChosen) {
   const Shown whole = shown;
   SurfaceChoice choice;
   choice.sides = {false, true};
+  choice.clear_of_bones = false;
   shown.surfaces = bind_surfaces(shown.subject.body, choice).value();
   shown.out.assign(shown.surfaces.vertices, Vertex{});
   for (SurfaceMuscle& m : shown.muscles) m.entity[Side::right] = {};  // not displayed

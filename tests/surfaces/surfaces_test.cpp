@@ -14,6 +14,7 @@
 #include <mobil/engine/geometry.h>
 #include <mobil/muscle_table.h>
 #include "assets/surfaces/bone_surfaces.h"
+#include "assets/surfaces/leg_bones.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "assets/surfaces/tube.h"
 
@@ -210,20 +211,16 @@ TEST(MuscleSurfaces, AreClosedAndHoldTheirVolumes) {
 }
 
 TEST(MuscleSurfaces, AreOutsideTheBones) {
-  const Body b = body();
-  const LegFrame leg = leg_frame(b);
-  for (const auto& m : make_muscle_surfaces(b)) {
-    for (const auto& p : m.surface.mesh.position) {
-      const double level = leg_level(leg, static_cast<double>(p.y));
-      for (const auto sections : {femur_sections(), tibia_sections(), fibula_sections()}) {
-        const auto e = leg_ellipse(sections, level);
-        if (!e) continue;
-        const Vec axis = leg_point(leg, level, 0, 0);
-        const double l = (axis.x - static_cast<double>(p.x)) / leg.unit - e->lateral;
-        const double a = (static_cast<double>(p.z) - axis.z) / leg.unit - e->anterior;
-        const double det = e->aa * e->ll - e->al * e->al;
-        const double r = std::hypot((e->aa * l - e->al * a) / det, (e->ll * a - e->al * l) / det);
-        EXPECT_GT(r, 1.0) << m.surface.mesh.name << " at level " << level;
+  for (const Body& b : {body(1.5F, 45), body(1.75F, 75), body(2.0F, 110)}) {
+    const LegBones bones(b);
+    for (const auto& m : make_muscle_surfaces(b, muscle_members())) {
+      const MuscleSurface& s = m.surface;
+      for (std::size_t v = 0; v < s.mesh.position.size(); ++v) {
+        const bool is_held = (v < s.origin_held.size() && s.origin_held[v] > 0) ||
+                             (v < s.insertion_held.size() && s.insertion_held[v] > 0);
+        if (is_held || m.ligament) continue;
+        for (const Segment bone : LegBones::hard)
+          ASSERT_GT(bones.distance(bone, to_double(s.mesh.position[v])), -0.002) << s.mesh.name << " vertex " << v;
       }
     }
   }
@@ -231,21 +228,22 @@ TEST(MuscleSurfaces, AreOutsideTheBones) {
 
 TEST(MuscleSurfaces, ReachTheirBones) {
   const Body b = body();
-  const auto bones = make_bone_surfaces(b);
-  const auto at = standing(b);
-  for (const auto& m : make_muscle_surfaces(b)) {
-    const auto& mesh = m.surface.mesh;
-    const Vec first = to_double(mesh.position.front()), last = to_double(mesh.position.back());
-    const auto distance = [&](Segment s, const Vec& p) { return nearest(bones[index(s)].mesh, p - at[index(s)]); };
-    const bool begins_in_muscle = mesh.name.starts_with("calcaneal");
-    if (!begins_in_muscle) {
-      EXPECT_LT(distance(m.surface.origin, first), 0.025) << mesh.name;
+  const LegBones bones(b);
+  const auto all = make_muscle_surfaces(b, muscle_members());
+  const auto off = [&](Segment segment, const Vec3<float>& p) {
+    return std::abs(bones.distance(segment, to_double(p)));
+  };
+  for (const auto& m : all) {
+    const SurfaceMesh& mesh = m.surface.mesh;
+    if (m.ligament) continue;
+    if (!mesh.name.starts_with("calcaneal")) {  // which begins in the muscle
+      EXPECT_LT(off(m.surface.origin, mesh.position.front()), 0.002) << mesh.name;
     }
     const bool ends_in_tendon = mesh.name.starts_with("gastrocnemius") || mesh.name.starts_with("soleus");
     if (!ends_in_tendon) {
-      EXPECT_LT(distance(m.surface.insertion, last), 0.025) << mesh.name;
+      EXPECT_LT(off(m.surface.insertion, mesh.position.back()), 0.002) << mesh.name;
     } else {
-      const auto all = make_muscle_surfaces(b);
+      const Vec last = to_double(mesh.position.back());
       EXPECT_LT(nearest(named(all, "calcaneal_tendon_right").surface.mesh, last), 0.025) << mesh.name;
     }
   }

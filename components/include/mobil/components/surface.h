@@ -24,16 +24,18 @@ struct BoneSurface {
 };
 
 /// One vertex of a muscle surface. It has eight nodes of its lattice with trilinear weights (sum 1), and shares for the
-/// lattice, the bone of origin and the bone of insertion (sum 1).
+/// lattice, and for the bones of origin and insertion as attached and as held (sum 1). A vertex that is held has no
+/// share of the lattice.
 struct VertexBinding {
   std::uint16_t node[8];
   float node_weight[8];
-  float lattice, origin, insertion;
+  float lattice, origin, insertion, origin_held = 0, insertion_held = 0;
 };
 
 /// A right-side muscle surface in the anatomical position, in world axes, the body standing at x = z = 0 (m). Each
 /// vertex: p = lattice · frame(rest_in_lattice + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀). T
-/// translates with the attachment on its bone. It rotates with the bone (`…_turn` 0) or with the muscle (1).
+/// translates with the attachment on its bone. It rotates with the bone (`…_turn` 0) or with the muscle (1). Held shares
+/// move with their bone alone.
 struct MuscleSurface {
   SurfaceMesh mesh;
   Segment origin = Segment::pelvis, insertion = Segment::shank_right;
@@ -42,6 +44,7 @@ struct MuscleSurface {
   Vec3<float> origin_m{}, insertion_m{};  // attachment points
   Quat<float> rest_rotation{0, 0, 0, 1};  // of the muscle's frame
   float origin_turn = 0, insertion_turn = 0;
+  std::vector<float> origin_held, insertion_held;  // held share of each vertex; empty: none
 };
 
 }  // namespace mobil::inline v0_3

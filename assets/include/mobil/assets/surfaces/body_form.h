@@ -19,6 +19,7 @@ class BodyForm {
   double distance(const Vec& p) const { return united(parts(p)); }
   /// Returns the distance of a point in the anatomical position, where arms and thighs can overlap.
   double rest_distance(const Vec& p) const;
+  double armless_distance(const Vec& p) const;
   /// Returns the gradient of `distance`, by differences.
   Vec slope(const Vec& p) const;
   /// Returns the distance from a point within to the skin of trunk, legs and head in a unit direction, in the
@@ -41,7 +42,6 @@ class BodyForm {
   const LegForm& leg() const { return leg_; }
 
  private:
-  double armless_distance(const Vec& p) const;
   static double united(const Parts& part);
   static Vec turned(const Vec& p, const Vec& about, double angle);
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -21,6 +22,8 @@
 
 namespace mobil::inline v0_3 {
 
+class LegBones;  // assets/surfaces/leg_bones.h
+
 /// Selection of surfaces. Muscles and their tendons are included if a muscle in `simulated` drives them: the muscle
 /// itself or its group. `simulated` and `cells` must be those of the people's LegMuscles.
 struct SurfaceChoice {
@@ -33,6 +36,9 @@ struct SurfaceChoice {
   double detail = 1;
   /// True for texture coordinates, and for tangents if requested.
   bool textured = false;
+  /// Moves muscle vertices that would be within the drawn bones of the pose onto their surface (generated surfaces of
+  /// the pelvis and the legs). Costs as much again as writing the muscles without it.
+  bool clear_of_bones = true;
 };
 
 /// A muscle's mesh at rest in one body, right side, in the muscle's frame, and that frame.
@@ -55,6 +61,7 @@ struct DrivenSurface {
 struct DrawnSurfaces {
   std::vector<BoneSurface> bones;      // both sides
   std::vector<DrivenSurface> muscles;  // right side
+  std::shared_ptr<const LegBones> clear_of = nullptr;  // bones that muscles do not enter; null: they can
 };
 /// Generates surfaces from published dimensions. Errors: those of rest_mesh, a `detail` outside 0.05 to 1.
 Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choice);
@@ -96,6 +103,7 @@ struct BodySurfaces {
   std::vector<Driver> driver;
   std::vector<Piece> piece;
   std::size_t max_nodes = 0, max_places = 0;
+  std::shared_ptr<const LegBones> clear_of = nullptr;
 };
 
 /// Scales that fit the surfaces of one body to another one, so that a crowd can share bound surfaces.

@@ -35,9 +35,14 @@ struct BoneBlock {
   Eight origin, insertion, lattice;
 };
 
-/// A muscle's surface. Blocks are stored in three groups: those of the lattice alone, of lattice and bones, and of
-/// bones alone. The first two groups have a LatticeBlock and nodes, the last two a BoneBlock. Unused lanes repeat a
-/// vertex. A vertex' place is its index among all lanes.
+/// Shares of the bones that hold vertices rigidly, in addition to those of their BoneBlock.
+struct HeldBlock {
+  Eight origin, insertion;
+};
+
+/// A muscle's surface. Blocks are stored in four groups: those of the lattice alone, of lattice and bones, of bones
+/// alone, and of bones that hold them. The first two groups have a LatticeBlock and nodes, the others a BoneBlock, and
+/// the last one a HeldBlock. Unused lanes repeat a vertex. A vertex' place is its index among all lanes.
 struct PackedSurface {
   SurfaceRest rest;
   std::uint32_t nodes = 0;              // of the lattice
@@ -45,6 +50,8 @@ struct PackedSurface {
   std::vector<std::array<std::uint16_t, 8>> node;
   std::vector<LatticeBlock> lattice;
   std::vector<BoneBlock> bone;
+  std::vector<HeldBlock> held;   // of the last blocks of `bone`
+  std::size_t fixed_blocks = 0;  // the last ones of these, whose vertices are held whole
   VertexRings rings;
   std::vector<PlacedAlong> along;  // by vertex; empty: no tangents
 

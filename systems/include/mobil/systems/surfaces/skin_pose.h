@@ -46,9 +46,9 @@ struct SurfaceScale {
 };
 
 /// Maps from the muscle's frame, and from the standing body by the bones of origin and insertion, to the present world.
-/// Maps of a left muscle are mirrored at x = 0. `belly` scales positions in the muscle's rest frame.
+/// Held parts do not turn with the muscle. Maps of a left muscle are mirrored at x = 0. `belly` scales positions in the muscle's rest frame.
 struct SkinMaps {
-  AffineMap frame, origin, insertion;
+  AffineMap frame, origin, insertion, origin_held, insertion_held;
   BellyScale<float> belly{1, 1};
 };
 

@@ -1,0 +1,75 @@
+#include "assets/surfaces/leg_bones.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <mobil/anthropometry.h>
+#include <mobil/assets/muscles/leg_sections.h>
+#include <mobil/engine/geometry.h>
+#include "assets/surfaces/bone_surfaces.h"
+
+namespace mobil::inline v0_3 {
+namespace {
+
+using namespace geometry;
+
+constexpr std::array<Segment, 7> leg_segments = {Segment::pelvis,        Segment::L3,          Segment::thigh_right,
+                                                 Segment::patella_right, Segment::shank_right, Segment::foot_right,
+                                                 Segment::toes_right};
+
+}  // namespace
+
+LegBones::Shapes LegBones::shapes_of(const std::vector<BoneSurface>& bones) {
+  constexpr double cell_mm = 3, band_mm = 15;
+  Shapes shapes;
+  for (const Segment segment : leg_segments) {
+    const SurfaceMesh& mesh = bones[index(segment)].mesh;
+    shapes.push_back({mesh, distance_field(mesh, cell_mm, band_mm)});
+  }
+  return shapes;
+}
+
+LegBones::LegBones(const Body& body) : m_per_mm_(static_cast<double>(body.request.height_m) / reference_height_mm) {
+  const SharedBones bones = shared_bones(body);
+  static const SharedBones usual = shared_bones(*make_body({}));
+  static const auto usual_shapes = std::make_shared<const Shapes>(shapes_of(*usual));
+  shapes_ = bones == usual ? usual_shapes : std::make_shared<const Shapes>(shapes_of(*bones));
+  const Pose<float> standing = standing_pose(body);
+  for (const Vec3<float>& at : standing.position_m) joint_m_.push_back(to_double(at));
+}
+
+const LegBones::Shape& LegBones::shape(Segment segment) const {
+  return (*shapes_)[static_cast<std::size_t>(std::ranges::find(leg_segments, segment) - leg_segments.begin())];
+}
+
+Vec LegBones::in_shape(Segment segment, const Vec& at) const {
+  return (1 / m_per_mm_) * (at - joint_m_[index(segment)]);
+}
+
+double LegBones::distance(Segment segment, const Vec& at) const {
+  return m_per_mm_ * mobil::distance(shape(segment).field, in_shape(segment, at));
+}
+
+Vec LegBones::outward(Segment segment, const Vec& at) const {
+  const Vec up = slope(shape(segment).field, in_shape(segment, at));
+  const double steep = length(up);
+  return steep < 1e-6 ? Vec{0, 0, 0} : (1 / steep) * up;
+}
+
+Vec LegBones::nearest(Segment segment, const Vec& to) const {
+  return joint_m_[index(segment)] + m_per_mm_ * nearest_point(shape(segment).mesh, in_shape(segment, to));
+}
+
+bool LegBones::can_touch(Segment segment, const Vec& centre, double radius) const {
+  const DistanceField& field = shape(segment).field;
+  const Vec at = in_shape(segment, centre), corner = field.corner;
+  const double reach = radius / m_per_mm_ - field.band;  // the field is wider than the bone by its band
+  const auto is_near = [&](double p, double low, int count) {
+    return p > low - reach && p < low + field.cell * count + reach;
+  };
+  return is_near(at.x, corner.x, field.count[0]) && is_near(at.y, corner.y, field.count[1]) &&
+         is_near(at.z, corner.z, field.count[2]);
+}
+
+}  // namespace mobil::inline v0_3

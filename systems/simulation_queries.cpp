@@ -21,7 +21,7 @@ std::optional<Person> read_person(const Simulation& simulation, Entity entity) {
   const auto asleep = kept_choice(world, entity);
   LegMuscles choice = asleep ? *asleep : choice_of(world, entity).value_or(LegMuscles{});
   if (is_compact(world, entity) && choice.muscles.any()) {
-    const auto first = static_cast<Muscle>(std::countr_zero(choice.muscles.to_ulong()));
+    const auto first = static_cast<Muscle>(std::countr_zero(choice.muscles.to_ullong()));
     const MuscleMethod method = simulation.method(entity, first);
     choice.method = method.method;
     choice.modal = method.modal;

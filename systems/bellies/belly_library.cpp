@@ -111,7 +111,7 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   }
   if (auto ok = check_material(choice.material); !ok) return ok;
   if (auto ok = check_cells(choice.cells); !ok) return ok;
-  const auto first = static_cast<Muscle>(std::countr_zero(choice.muscles.to_ulong()));
+  const auto first = static_cast<Muscle>(std::countr_zero(choice.muscles.to_ullong()));
   if (auto ok = check_muscle_options(options_of(choice, first)); !ok) return ok;
   if (!choice.dt_s) return {};
   const double least = tick_s / static_cast<double>(max_steps);

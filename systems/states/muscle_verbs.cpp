@@ -63,7 +63,7 @@ Result<void> check_method(const Frame& frame, Entity person, Muscle muscle, cons
   auto choice = choice_of(frame.world, person);
   if (!choice || !choice->muscles[static_cast<std::size_t>(muscle)])
     return fail(fmt::format("{}: no such muscle; set_muscles gives muscles", muscle_name(muscle)), Status::missing);
-  choice->muscles = MuscleSet(1UL << static_cast<unsigned long>(muscle));
+  choice->muscles = MuscleSet{}.set(static_cast<std::size_t>(muscle));
   choice->method = method.method;
   choice->modal = method.modal;
   auto ok = check_leg_muscles(frame.world, *means_of(frame).library, means_of(frame).tick_s, person, *choice);

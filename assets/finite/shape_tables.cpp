@@ -126,7 +126,7 @@ HexahedralMesh finite_mesh(Muscle muscle, const Cells& cells) {
 }
 
 SampledBelly sampled_belly(Muscle muscle) {
-  const double foundation_hz = muscle_row(muscle).drawn.along == LegBone::shank ? 12 : 7;
+  const double foundation_hz = on_shank(muscle) ? 12 : 7;
   return {finite_mesh(muscle, coarse_cells),
           finite_mesh(muscle, fine_cells),
           {},

@@ -280,6 +280,10 @@ bool is_muscle_group(Muscle muscle) {
   return is_group(muscle);
 }
 
+bool is_single_muscle(Muscle muscle) {
+  return !is_group(muscle) || members_of(muscle).size() == 1;
+}
+
 MuscleSet muscle_groups() {
   MuscleSet set;
   for (std::size_t i = 0; i < muscle_count; ++i) set[i] = is_group(static_cast<Muscle>(i));
@@ -288,7 +292,7 @@ MuscleSet muscle_groups() {
 
 MuscleSet muscle_members() {
   MuscleSet set;
-  for (const MemberMuscle& line : members) set.set(static_cast<std::size_t>(muscle_of_line(line)));
+  for (std::size_t i = 0; i < muscle_count; ++i) set[i] = is_single_muscle(static_cast<Muscle>(i));
   return set;
 }
 

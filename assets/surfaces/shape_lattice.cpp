@@ -97,7 +97,7 @@ std::vector<Vec> outline(const MusclePlan& plan) {
   const Quat<double> into_frame = conjugate(plan.rotation);
   for (const GroupSurface& s : surfaces) {
     const bool own = s.muscle == plan.muscle || s.group == plan.muscle;
-    if (!own || !muscle_members()[static_cast<std::size_t>(s.muscle)]) continue;  // tendons and ligaments have no mesh
+    if (!own || !is_single_muscle(s.muscle)) continue;  // tendons and ligaments have no mesh
     for (const auto& p : s.surface.mesh.position) points.push_back(rotated(into_frame, to_double(p) - plan.start_m));
   }
   return points;
@@ -207,7 +207,7 @@ LatticeStations shape_lattice(Muscle muscle) {
   const std::vector<Vec> points = outline(plan);
   const double spacing = plan.belly_length_m / last_station;
   Stations stations = follow(points, spacing);
-  if (muscle_members()[static_cast<std::size_t>(muscle)]) {
+  if (is_single_muscle(muscle)) {
     straighten(plan.belly_length_m, stations);
     fill(plan.volume_m3, plan.belly_length_m, stations);
   } else {

@@ -161,11 +161,10 @@ const AccuracyRow* AccuracyTable::find(Muscle muscle, SpeedClass speed, bool ine
     return at == rows.end() ? nullptr : &*at;
   };
   // Muscles of the hip and deep ones are not measured. They move less than these two groups.
-  const bool on_shank = muscle_row(muscle).drawn.along == LegBone::shank;
   for (const Muscle whose : {muscle, members_of(muscle).front().group}) {
     if (const AccuracyRow* row = row_of(whose)) return row;
   }
-  return row_of(on_shank ? Muscle::triceps_surae : Muscle::quadriceps);
+  return row_of(on_shank(muscle) ? Muscle::triceps_surae : Muscle::quadriceps);
 }
 
 }  // namespace mobil::inline v0_3

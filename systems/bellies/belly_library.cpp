@@ -29,11 +29,6 @@ Strain strain_of(const LegMuscles& choice) {
   return choice.method == Method::finite ? Strain::finite : Strain::small;
 }
 
-/// Returns true for single muscles, which are long and thin.
-bool is_single(Muscle muscle) {
-  return !is_muscle_group(muscle);
-}
-
 bool same_template(const LegMuscles& a, const LegMuscles& b, Muscle muscle) {
   return same_tissue(a, b) && a.drive == b.drive && stepped_mass(a) == stepped_mass(b) &&
          strain_of(a) == strain_of(b) && a.damping_per_s == b.damping_per_s &&
@@ -125,8 +120,8 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
 double foundation_of(const LegMuscles& choice, Muscle muscle) {
   if (choice.foundation_hz) return *choice.foundation_hz;
   // The belly's response to a force is tabulated without a foundation.
-  if ((is_single(muscle) || has_activation(choice)) && (choice.drive == Drive::displacement || choice.inertia))
-    return muscle_row(muscle).drawn.along == LegBone::shank ? shank_hz : thigh_hz;
+  if ((!is_muscle_group(muscle) || has_activation(choice)) && (choice.drive == Drive::displacement || choice.inertia))
+    return on_shank(muscle) ? shank_hz : thigh_hz;
   return choice.inertia ? thigh_hz : 0;
 }
 
@@ -177,7 +172,7 @@ Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, c
   }
   if (!known) {
     // Groups are held sideways only if they have inertia, and then settle under the load at that instant.
-    const bool held = is_single(muscle);
+    const bool held = !is_muscle_group(muscle);
     const bool as_alike =
         alike != nullptr && (!held || foundation_of(alike->choice, muscle) == foundation_of(choice, muscle));
     made->stretch = as_alike ? alike->stretch : static_stretch(shape->terms, 1, 1, held ? options.foundation_hz : 0);

@@ -121,11 +121,10 @@ Result<void> Binding::add(const DrivenSurface& muscle) {
   made.max_places = std::max(made.max_places, packed->places());
   const SurfaceMesh& mesh = muscle.surface.mesh;
   const std::string name = mesh.name.ends_with("_right") ? mesh.name.substr(0, mesh.name.size() - 6) : mesh.name;
-  const bool on_shank = muscle_row(muscle.driver).drawn.along == LegBone::shank;
   BodySurfaces::Piece piece{std::move(*packed), *driver, {}};
   for (const Side side : {Side::right, Side::left}) {
     if (!choice.sides[side]) continue;
-    const Segment segment = on_side(on_shank ? Segment::shank_right : Segment::thigh_right, side);
+    const Segment segment = on_side(on_shank(muscle.driver) ? Segment::shank_right : Segment::thigh_right, side);
     piece.part[side] = add_part(name + (side == Side::right ? "_right" : "_left"), segment, muscle.driver, side, mesh,
                                 texture.place, muscle.tendon);
   }

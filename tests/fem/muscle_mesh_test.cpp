@@ -31,10 +31,6 @@ std::vector<Muscle> all_muscles() {
   return all;
 }
 
-bool single(Muscle muscle) {
-  return muscle_members()[static_cast<std::size_t>(muscle)];
-}
-
 Body reference() {
   return make_body({static_cast<float>(reference_body_height_m), static_cast<float>(reference_body_mass_kg)}).value();
 }
@@ -55,7 +51,7 @@ TEST(MuscleMesh, SingleMuscleHasItsVolumeAndGroupEnclosesIt) {
   for (const Muscle muscle : all_muscles()) {
     const MusclePlan plan = make_muscle_plan(body, muscle).value();
     const double share = volume(mesh_of(muscle, coarse)) / plan.volume_m3;
-    if (single(muscle)) {
+    if (is_single_muscle(muscle)) {
       EXPECT_NEAR(share, 1, 0.02) << muscle_name(muscle);
     } else {
       EXPECT_GT(share, 1.1) << muscle_name(muscle);
@@ -128,7 +124,7 @@ TEST(MuscleMesh, FollowsTheSurfacesOfItsMuscle) {
     double outside = 0, farthest = 0;
     std::size_t count = 0;
     for (const auto& s : surfaces) {
-      if (!single(s.muscle) || (s.muscle != muscle && s.group != muscle)) continue;
+      if (!is_single_muscle(s.muscle) || (s.muscle != muscle && s.group != muscle)) continue;
       for (const auto& p : s.surface.mesh.position) {
         const Vec at = rotated(conjugate(plan.rotation), to_double(p) - plan.start_m);
         if (at.z < 0 || at.z > plan.belly_length_m) continue;
@@ -147,9 +143,9 @@ TEST(MuscleMesh, FollowsTheSurfacesOfItsMuscle) {
       EXPECT_LT(farthest, 0.055) << muscle_name(muscle);
       continue;
     }
-    EXPECT_LT(outside / static_cast<double>(count), std::max(0.0015, single(muscle) ? 0.12 * width : 0.002))
+    EXPECT_LT(outside / static_cast<double>(count), std::max(0.0015, is_single_muscle(muscle) ? 0.12 * width : 0.002))
         << muscle_name(muscle);
-    EXPECT_LT(farthest, std::max(0.009, single(muscle) ? 0.6 * width : 0.012)) << muscle_name(muscle);
+    EXPECT_LT(farthest, std::max(0.009, is_single_muscle(muscle) ? 0.6 * width : 0.012)) << muscle_name(muscle);
   }
 }
 

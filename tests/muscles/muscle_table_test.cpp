@@ -47,6 +47,9 @@ TEST(MuscleTable, EveryMemberRunsFromAFixedOriginToAFixedEnd) {
   EXPECT_EQ(muscle_groups().count(), 12U);
   EXPECT_EQ(muscle_members().count(), 38U);
   EXPECT_EQ((muscle_groups() | muscle_members()).count(), muscle_count);
+  MuscleSet with_lines;
+  for (const MemberMuscle& line : member_muscles()) with_lines.set(static_cast<std::size_t>(muscle_of_line(line)));
+  EXPECT_EQ(muscle_members(), with_lines);
   for (const auto& m : member_muscles()) {
     names.insert(m.name);
     EXPECT_GE(m.path.size() + (m.kneecap ? 1 : 0), 2U) << m.name;

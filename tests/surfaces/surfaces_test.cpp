@@ -192,7 +192,7 @@ TEST(MuscleSurfaces, AreClosedAndHoldTheirVolumes) {
     const auto muscles = make_muscle_surfaces(b, muscle_members());
     std::vector<double> volumes;
     for (const GroupSurface& one : muscles) {
-      if (!muscle_members()[static_cast<std::size_t>(one.muscle)]) continue;  // tendons and ligaments
+      if (!is_single_muscle(one.muscle)) continue;  // tendons and ligaments
       double& sum = volumes.emplace_back(0);
       for (const MemberMuscle& line : members_of(one.muscle)) sum += member_volume_m3(b, line);
     }

@@ -150,6 +150,10 @@ inline const MuscleRow& muscle_row(Muscle muscle) {
 inline std::span<const MemberMuscle> members_of(Muscle muscle) {
   return muscle_row(muscle).members;
 }
+/// Returns true if a muscle's belly scales with the shank, false if it scales with the thigh.
+inline bool on_shank(Muscle muscle) {
+  return muscle_row(muscle).drawn.along == LegBone::shank;
+}
 std::string_view muscle_name(Muscle muscle);
 /// Returns the muscle of that name, or nothing.
 std::optional<Muscle> find_muscle(std::string_view name);
@@ -160,6 +164,7 @@ MuscleSet usual_muscles();
 MuscleSet muscle_groups();
 MuscleSet muscle_members();
 bool is_muscle_group(Muscle muscle);
+bool is_single_muscle(Muscle muscle);
 /// Returns the single muscles of these groups.
 MuscleSet muscles_of_groups(const MuscleSet& groups);
 

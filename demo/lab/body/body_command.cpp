@@ -197,8 +197,7 @@ Json muscle(const Body& body, Muscle which) {
                    {"section_m2", number(plan->section_m2)},
                    {"start_m", point(plan->start_m)}};
   }
-  if (muscle_members()[static_cast<std::size_t>(which)])
-    row["attachments"] = attachments(body, members_of(which).front());
+  if (is_single_muscle(which)) row["attachments"] = attachments(body, members_of(which).front());
   return row;
 }
 

@@ -51,11 +51,10 @@ inline void set_bit(MuscleWords& bits, std::uint32_t muscle, bool on) {
   word = (word & ~(1U << (muscle % 32))) | (on ? 1U : 0U) << (muscle % 32);
 }
 inline std::uint64_t all_bits(const MuscleWords& bits) {
-  return bits[0] | std::uint64_t{bits[1]} << 32;
+  return join_muscles(bits[0], bits[1]).to_ullong();
 }
-inline void set_bits(MuscleWords& bits, std::uint64_t all) {
-  bits[0] = static_cast<std::uint32_t>(all);
-  bits[1] = static_cast<std::uint32_t>(all >> 32);
+inline void set_bits(MuscleWords& bits, const MuscleSet& all) {
+  split_muscles(all, bits[0], bits[1]);
 }
 
 }  // namespace mobil::inline v0_3

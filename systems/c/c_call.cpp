@@ -139,7 +139,7 @@ int write_baked(Line& line, std::span<const std::byte> baked, void* out, std::si
 
 int muscle_set(Line& line, unsigned int bits, unsigned int more, MuscleSet& out) {
   const std::size_t known = muscles().size();
-  out = MuscleSet(bits | std::uint64_t{more} << 32U);
+  out = join_muscles(bits, more);
   if ((out >> known).none()) return MOBIL_OK;
   return line.refuse(MOBIL_REFUSED,
                      fmt::format("more_muscles {:#x} has bits of muscles that do not exist; there are {}, and muscle 32"
@@ -211,7 +211,7 @@ mobil_muscles usual() {
   const auto method = usual<mobil_method>();
   mobil_muscles to{};
   to.size = sizeof to;
-  put_muscles(as.muscles, to);
+  split_muscles(as.muscles, to.muscles, to.more_muscles);
   to.method = method.method;
   to.modes = method.modes;
   to.moving = method.moving;
@@ -252,7 +252,7 @@ mobil_scene usual() {
   const Viewpoint camera;
   mobil_scene scene{};
   scene.size = sizeof scene;
-  put_muscles(as.muscles, scene);
+  split_muscles(as.muscles, scene.muscles, scene.more_muscles);
   scene.tolerance_px = as.tolerance_px;
   scene.half_angle_rad = camera.half_angle_rad;
   scene.radians_per_pixel = camera.radians_per_pixel;
@@ -289,7 +289,7 @@ mobil_surface_choice usual() {
   auto choice = sized<mobil_surface_choice>();
   choice.bones = as.bones;
   choice.side = MOBIL_BOTH;
-  put_muscles(as.simulated, choice);
+  split_muscles(as.simulated, choice.muscles, choice.more_muscles);
   std::ranges::copy(as.cells, choice.cells);
   choice.detail = as.detail;
   choice.textured = as.textured;

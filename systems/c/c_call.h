@@ -250,12 +250,6 @@ void write_vertices(std::span<const Vec3<float>> from, const VertexStream& to, c
 /// number only.
 int write_baked(Line& line, std::span<const std::byte> baked, void* out, std::size_t room, std::size_t* bytes);
 int muscle_set(Line& line, unsigned int bits, unsigned int more, MuscleSet& out);
-/// Splits a set into the two words of a struct.
-template <class S>
-void put_muscles(const MuscleSet& set, S& to) {
-  to.muscles = static_cast<unsigned int>(set.to_ullong());
-  to.more_muscles = static_cast<unsigned int>(set.to_ullong() >> 32U);
-}
 int muscle_number(Line& line, int muscle, Muscle& out);
 int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& out);
 

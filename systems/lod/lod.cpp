@@ -203,7 +203,7 @@ Result<void> Lod::manage(std::span<const Entity> people, const LodOverrides& nee
   LodRequest<float> row{};
   if (needs.muscles) {
     row.own |= own_muscles;
-    set_bits(row.muscles, needs.muscles->to_ullong());
+    set_bits(row.muscles, *needs.muscles);
   }
   if (needs.tolerance_m) {
     row.own |= own_tolerance;

@@ -210,7 +210,7 @@ LodState<float> LodRound::begin_tiers(const LegMuscles* choice) const {
   lod_state.effects = lod_bare;
   if (choice->inertia) lod_state.effects |= lod_inertia;
   if (pulls_alive(*choice)) lod_state.effects |= lod_active;
-  set_bits(lod_state.muscles, choice->muscles.to_ullong());
+  set_bits(lod_state.muscles, choice->muscles);
   return lod_state;
 }
 

@@ -24,7 +24,7 @@ LodState<float> lod_state_of(const World& world, Entity person) {
   const bool anew = !before || before->relative_size == 0;
   LodState<float> lod_state = before.value_or(LodState<float>{});
   if (anew) lod_state.view = static_cast<std::uint32_t>(View::out_of_reach);
-  set_bits(lod_state.muscles, 0);
+  set_bits(lod_state.muscles, {});
   lod_state.effects = 0;
   lod_state.relative_size = 1;
   for (const MuscleRef& own : muscles_of(world, person)) {

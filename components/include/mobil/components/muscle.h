@@ -76,6 +76,14 @@ inline constexpr std::size_t usual_muscle_count = 4;
 /// A set of muscles, by number.
 inline constexpr std::size_t max_muscles = 64;
 using MuscleSet = std::bitset<max_muscles>;
+/// Split a set into the bits of muscles 0 to 31 and those of the others, and join these.
+inline void split_muscles(const MuscleSet& set, std::uint32_t& first, std::uint32_t& more) {
+  first = static_cast<std::uint32_t>(set.to_ullong());
+  more = static_cast<std::uint32_t>(set.to_ullong() >> 32U);
+}
+inline MuscleSet join_muscles(std::uint32_t first, std::uint32_t more) {
+  return {first | std::uint64_t{more} << 32U};
+}
 
 /// Elements of a belly's mesh along x, y and z.
 using Cells = std::array<std::uint32_t, 3>;

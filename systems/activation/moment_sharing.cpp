@@ -27,7 +27,7 @@ constexpr int newton_steps = 16;
 constexpr float at_an_end = 0.01F;
 constexpr float litre_of_force_and_length = 300;  // N · m, at 30 N/cm²
 /// size² / volume of the reserves, N² m² / l.
-constexpr float yields[moment_count] = {4, 4, 4, 4, 4};
+constexpr float yield = 4;
 
 struct Moments {
   Wide of[moment_count];
@@ -122,10 +122,10 @@ HWY_NOINLINE void dual_at(const Moments& y, const Moments& moments, const Pull* 
   const Wide zero = wide(0.0F);
   at.value = zero;
   for (std::size_t k = 0; k < moment_count; ++k) {
-    const Wide reserve = yields[k] * y.of[k];
-    at.value = fma(y.of[k], fnma(wide(1.0F), moments.of[k], 0.5F * reserve), at.value);
+    const Wide reserve = yield * y.of[k];
+    at.value = fma(y.of[k], 0.5F * reserve - moments.of[k], at.value);
     at.left.of[k] = moments.of[k] - reserve;
-    for (std::size_t c = k; c < moment_count; ++c) at.slope.entry[k][c] = c == k ? wide(yields[k]) : zero;
+    for (std::size_t c = k; c < moment_count; ++c) at.slope.entry[k][c] = c == k ? wide(yield) : zero;
   }
   for (std::size_t i = 0; i < leg_member_count; ++i) {
     const Pull& of = pull[i];

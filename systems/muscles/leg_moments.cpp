@@ -108,8 +108,9 @@ void set_leg_moments(World& world, Entity person, const Body& body, const LegMus
   std::size_t i = 0;
   const LegScale<double> scale = leg_scale(body);
   design.scale = {static_cast<float>(scale.thigh), static_cast<float>(scale.shank), static_cast<float>(scale.across)};
+  const LegFrames<double> standing = anatomical_leg(body);
   for (const MemberMuscle& line : member_muscles())
-    design.member[i++] = member_design(line, plan_member(body, line, member_length(line, scale, anatomical_leg(body))));
+    design.member[i++] = member_design(line, plan_member(body, line, member_length(line, scale, standing)));
   // A change of archetype, which a World::Transaction can undo.
   world.change_archetype({&person, 1},
                          std::array<PartValue, 4>{PartValue{component_id<LegDesign>(), nullptr},

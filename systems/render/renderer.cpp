@@ -30,9 +30,10 @@ PlacementColumns columns(const Placement& p) {
   return {p.scale.x * axis[0], p.scale.y * axis[1], p.scale.z * axis[2], p.position};
 }
 
-/// Converts an sRGB value to linear light, approximately.
-float linear(float encoded) {
-  return std::pow(std::clamp(encoded, 0.0F, 1.0F), 2.2F);
+/// Converts an sRGB colour to linear light, approximately.
+Colour linear(Colour encoded) {
+  const auto light = [](float value) { return std::pow(std::clamp(value, 0.0F, 1.0F), 2.2F); };
+  return {light(encoded.red), light(encoded.green), light(encoded.blue)};
 }
 
 /// A mesh with its copies: first those with unchanged winding, then the mirrored ones.
@@ -47,15 +48,17 @@ const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);  // NOLINT: as OpenGL wants it
 }
 
-void attribute(unsigned location, int size, std::size_t stride, std::size_t at, unsigned divisor) {
+/// Reads an attribute from the bound buffer; integers become 0 to 1.
+void attribute(unsigned location, int size, std::size_t stride, std::size_t at, unsigned divisor,
+               GLenum type = GL_FLOAT) {
   glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), offset(at));
+  glVertexAttribPointer(location, size, type, GL_TRUE, static_cast<GLsizei>(stride), offset(at));
   glVertexAttribDivisor(location, divisor);
 }
 
 void set_albedo(const ShaderProgram& program, Colour colour, float wetness) {
-  glUniform4f(program.albedo, linear(colour.red), linear(colour.green), linear(colour.blue),
-              std::clamp(wetness, 0.0F, 1.0F));
+  const Colour light = linear(colour);
+  glUniform4f(program.albedo, light.red, light.green, light.blue, std::clamp(wetness, 0.0F, 1.0F));
 }
 
 }  // namespace
@@ -170,9 +173,7 @@ void Renderer::Device::draw_mesh(const MeshDraw& draw, const ShaderProgram& prog
   attribute(at_position, 3, sizeof(Vec3<float>), draw.mesh.position_at, 0);
   attribute(at_normal, 3, sizeof(Vec3<float>), draw.mesh.normal_at, 0);
   if (draw.mesh.tinted) {
-    glEnableVertexAttribArray(at_tint);
-    glVertexAttribPointer(at_tint, 1, GL_UNSIGNED_BYTE, GL_TRUE, 1, offset(draw.mesh.tint_at));
-    glVertexAttribDivisor(at_tint, 0);
+    attribute(at_tint, 1, 1, draw.mesh.tint_at, 0, GL_UNSIGNED_BYTE);
   } else {
     glDisableVertexAttribArray(at_tint);
     glVertexAttrib1f(at_tint, 0);
@@ -183,9 +184,8 @@ void Renderer::Device::draw_mesh(const MeshDraw& draw, const ShaderProgram& prog
   if (program.outward >= 0) glUniform1f(program.outward, flip ? -1.0F : 1.0F);
   if (program.opacity >= 0) glUniform1f(program.opacity, draw.asked->opacity);
   if (program.albedo >= 0) set_albedo(program, draw.asked->colour, draw.asked->wetness);
-  const Colour tint = draw.asked->tint_colour;
-  if (program.tint_albedo >= 0)
-    glUniform3f(program.tint_albedo, linear(tint.red), linear(tint.green), linear(tint.blue));
+  const Colour tint = linear(draw.asked->tint_colour);
+  if (program.tint_albedo >= 0) glUniform3f(program.tint_albedo, tint.red, tint.green, tint.blue);
   std::size_t first = draw.first_placement;
   for (const bool mirrored : {false, true}) {
     const int copies = mirrored ? draw.mirrored : draw.upright;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 #include <mobil/components/activation.h>
@@ -16,6 +15,7 @@ constexpr ExcitationCurve curves[] = {
 #include "assets/muscles/excitation_curves.inl"
 };
 // clang-format on
+constexpr std::size_t measured_curves = 6;  // the first ones
 
 /// Returns the name of the curve that a line uses: its own, or that of another head.
 std::string_view curve_of(std::string_view muscle) {
@@ -28,9 +28,7 @@ std::string_view curve_of(std::string_view muscle) {
 }  // namespace
 
 bool is_measured(const MemberMuscle& line) {
-  constexpr std::string_view measured[] = {"tibialis_anterior", "soleus",          "gastrocnemius_medial",
-                                           "rectus_femoris",    "vastus_medialis", "biceps_femoris"};
-  return std::ranges::find(measured, curve_of(line.name)) != std::end(measured);
+  return member_excitation(line).curve < curves + measured_curves;
 }
 
 std::span<const ExcitationCurve> excitation_curves() {

@@ -45,7 +45,7 @@ struct FormerWord {
 };
 constexpr std::array former_words = {
     FormerWord{"", "--humans", "--people"},
-    FormerWord{"", "--members", "--single-muscles"},
+    FormerWord{"", "--members", "--muscles=all"},
     FormerWord{"", "--vectors", "--modes"},
     FormerWord{"--method", "ecd", "explicit-central"},
     FormerWord{"--method", "icd", "implicit-central"},

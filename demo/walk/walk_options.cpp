@@ -199,8 +199,6 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--no-forces", &text.no_forces, "Omit ground reactions and joint moments (empty cells in motion.csv)", gait},
       {"--muscles", &text.muscles,
        "Muscles of both legs to simulate: usual, groups, all, or names like hamstrings,soleus", muscles},
-      {"--single-muscles", &text.single_muscles,
-       "Simulate the single muscles of the usual groups in addition to --muscles", muscles},
       {"--drive", &text.drive,
        "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it", muscles,
        words_of(drives)},
@@ -314,7 +312,6 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
 
   options.muscles.muscles = read(read_muscles(text.muscles));
   options.muscles.line_motion = true;
-  if (text.single_muscles) options.muscles.muscles |= muscles_of_groups(usual_muscles());
   options.muscles.drive = read(choose<Drive>("--drive", text.drive, drives));
   options.muscles.method = read(choose<Method>("--method", text.method, method_name));
   if (options.muscles.method == Method::finite) options.muscles.cells = close_up_cells;

@@ -137,7 +137,7 @@ TEST(SkinInside, NothingComesThroughAnAverageMan) {
 }
 
 TEST(SkinInside, NothingComesThroughAHeavyWomanWithSingleMuscles) {
-  expect_inside("--height 1.65 --mass 95 --sex woman --speed 1.2m/s --seconds 1 --single-muscles");
+  expect_inside("--height 1.65 --mass 95 --sex woman --speed 1.2m/s --seconds 1 --muscles all");
 }
 
 TEST(SkinInside, NothingComesThroughAThinFastManWithMovingMuscles) {

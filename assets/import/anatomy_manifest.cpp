@@ -57,65 +57,61 @@ std::string known_bones() {
   return names;
 }
 
-std::optional<Muscle> group_of(std::string_view name) {
-  const auto found = find_muscle(name);
-  return found && usual_muscles()[static_cast<std::size_t>(*found)] ? found : std::nullopt;
-}
-
-/// Returns the letters of a name in lower case; all else is spaces.
+/// Returns the letters of a name in lower case; all else is spaces. Peroneal muscles have their older name.
 std::string plain_words(std::string_view name) {
   std::string words = " ";
   for (const char c : name) {
     const auto u = static_cast<unsigned char>(c);
     words += std::isalpha(u) != 0 ? static_cast<char>(std::tolower(u)) : ' ';
   }
-  return words + " ";
+  words += ' ';
+  constexpr std::string_view newer = " fibularis ", older = " peroneus ";
+  if (const auto at = words.find(newer); at != std::string::npos) words.replace(at, newer.size(), older);
+  return words;
 }
 
-/// Returns the member of the table whose name's words are all among these.
-const MemberMuscle* member_called(std::string_view name) {
+/// Returns the single muscle of the table whose name's words are all among these. Psoas minor is not in the table.
+std::optional<Muscle> muscle_called(std::string_view name) {
   const std::string words = plain_words(name);
-  for (const MemberMuscle& m : member_muscles()) {
-    std::istringstream wanted(plain_words(m.name));
+  const auto has = [&](std::string_view word) { return words.find(fmt::format(" {} ", word)) != std::string::npos; };
+  for (const MemberMuscle& line : member_muscles()) {
+    const Muscle muscle = muscle_of_line(line);
+    std::istringstream wanted(plain_words(muscle_name(muscle)));
     std::string word;
-    bool all = true;
-    while (wanted >> word) all = all && words.find(" " + word + " ") != std::string::npos;
-    if (all) return &m;
+    bool all = muscle != Muscle::psoas || !has("minor");
+    while (wanted >> word) all = all && has(word);
+    if (all) return muscle;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
-/// Finds group and muscle by the manifest's group and by the names. The manifest's group takes precedence.
+/// Finds group and muscle by the manifest's group and by the names. The manifest's group, which can be a single muscle,
+/// takes precedence.
 void find_muscle_of(AnatomyPart& part, std::string_view group, std::string_view name, std::string_view file) {
   if (part.kind == AnatomyKind::tendon) {
     part.group = Muscle::triceps_surae;
     return;
   }
-  part.group = group_of(group);
-  if (!part.group && !group.empty()) return;
-  const MemberMuscle* member = member_called(name);
-  if (member == nullptr) member = member_called(file);
-  if (member == nullptr || (part.group && member->group != *part.group)) return;
-  if (!usual_muscles()[static_cast<std::size_t>(member->group)]) return;
-  part.group = member->group;
-  part.muscle = find_muscle(member->name);
+  const auto named = find_muscle(group);
+  if (!named && !group.empty()) return;
+  auto muscle = named && !is_muscle_group(*named) ? named : muscle_called(name);
+  if (!muscle) muscle = muscle_called(file);
+  part.group = named;
+  if (!muscle) return;
+  const Muscle own = members_of(*muscle).front().group;
+  if (named && named != own && named != muscle) return;
+  part.group = own;
+  part.muscle = muscle;
 }
 
-/// Returns the default ends of a muscle of this group.
-std::pair<Segment, Segment> usual_ends(AnatomyKind kind, std::optional<Muscle> group) {
+/// Returns the default ends, of a muscle those of its lines that are farthest apart along the leg.
+std::pair<Segment, Segment> usual_ends(const AnatomyPart& part) {
   using enum Segment;
-  if (kind == AnatomyKind::tendon) return {shank_right, foot_right};
-  if (kind == AnatomyKind::skin || !group) return {pelvis, foot_right};
-  switch (*group) {
-    case Muscle::quadriceps:
-      return {pelvis, patella_right};
-    case Muscle::triceps_surae:
-      return {thigh_right, foot_right};
-    case Muscle::tibialis_anterior:
-      return {shank_right, foot_right};
-    default:
-      return {pelvis, shank_right};
-  }
+  if (part.kind == AnatomyKind::tendon) return {shank_right, foot_right};
+  if (part.kind == AnatomyKind::skin || !part.group) return {pelvis, foot_right};
+  const auto lines = members_of(part.muscle.value_or(*part.group));
+  return {std::ranges::min(lines, {}, &MemberMuscle::origin).origin,
+          std::ranges::max(lines, {}, &MemberMuscle::insertion).insertion};
 }
 
 std::optional<AnatomyKind> kind_of(std::string_view name) {
@@ -156,7 +152,7 @@ Result<std::optional<Vec3<float>>> point(const CsvTable& table, std::size_t row,
 }
 
 Result<void> read_attachments(const CsvTable& table, std::size_t row, const MeshFrame& frame, AnatomyPart& part) {
-  std::tie(part.origin, part.insertion) = usual_ends(part.kind, part.group);
+  std::tie(part.origin, part.insertion) = usual_ends(part);
   for (const bool origin : {true, false}) {
     const std::string prefix = origin ? "origin" : "insertion";
     const auto bone = cell(table, row, prefix + "_bone");

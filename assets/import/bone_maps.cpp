@@ -94,9 +94,8 @@ BoneMap foot_map(const Anatomy& anatomy, const Body& body, const Vector3d& ankle
 
 /// Returns the place along the leg, from the hip down: 0 pelvis, 1 thigh, 2 shank, 3 foot.
 int rank(Segment segment) {
+  if (segment < Segment::thigh_right) return 0;  // psoas comes from a vertebra
   switch (segment) {
-    case Segment::pelvis:
-      return 0;
     case Segment::thigh_right:
       return 1;
     case Segment::patella_right:  // the muscle continues to the shank as the ligament
@@ -158,9 +157,8 @@ Result<BoneMaps> bone_maps(const Anatomy& anatomy, const Body& body) {
 }
 
 const BoneMap& BoneMaps::of(Segment right_segment) const {
+  if (right_segment < Segment::thigh_right) return pelvis;
   switch (right_segment) {
-    case Segment::pelvis:
-      return pelvis;
     case Segment::thigh_right:
       return thigh;
     case Segment::patella_right:

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <utility>
 
+#include <mobil/muscle_table.h>
 #include "assets/import/bone_maps.h"
+#include "assets/muscles/muscle_architecture.h"
 #include "assets/surfaces/surface_mesh.h"
 
 namespace mobil::inline v0_3 {
@@ -58,25 +60,39 @@ void add_bone(const AnatomyPart& part, const BoneMaps& maps, const LegJoints& jo
   bones.push_back(std::move(image));
 }
 
-/// Returns the centre of the highest or lowest hundredth of a surface.
-Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
-  auto by_height = mesh.position;
-  std::sort(by_height.begin(), by_height.end(),
-            [top](const auto& a, const auto& b) { return top ? a.y > b.y : a.y < b.y; });
-  const std::size_t count = std::max<std::size_t>(1, by_height.size() / 100);
+/// Returns the centre of the hundredth of a surface that is farthest along `direction`.
+Vec3<float> extreme(const SurfaceMesh& mesh, const Vector3d& direction) {
+  auto by_place = mesh.position;
+  std::ranges::sort(by_place, {}, [&](const Vec3<float>& p) { return -direction.dot(eigen(p)); });
+  const std::size_t count = std::max<std::size_t>(1, by_place.size() / 100);
   Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 0; i < count; ++i) sum += eigen(by_height[i]);
+  for (std::size_t i = 0; i < count; ++i) sum += eigen(by_place[i]);
   return single(sum / static_cast<double>(count));
 }
 
-void hold(double knee_height, FittedMuscle& muscle) {
+/// Returns the direction from a single muscle's origin to its insertion; downwards for a group's.
+Vector3d direction_of(const FittedMuscle& muscle, const Body& body) {
+  const auto lines = members_of(muscle.muscle);
+  if (is_muscle_group(muscle.muscle) && lines.size() > 1) return -Vector3d::UnitY();
+  const auto places = member_places(body, lines.front());
+  const Vec3<double>&from = places.front().world_m, &to = places.back().world_m;
+  return Vector3d(to.x - from.x, to.y - from.y, to.z - from.z).normalized();
+}
+
+/// Sets the attachments, and the segments of surfaces that do not end where their muscle does.
+void hold(double knee_height, const Vector3d& way, FittedMuscle& muscle) {
+  constexpr double above_knee_m = 0.1;
   MuscleSurface& surface = muscle.surface;
-  const Vec3<float> bottom = extreme(surface.mesh, false);
-  const bool past_kneecap =
-      surface.insertion == Segment::patella_right && static_cast<double>(bottom.y) < knee_height - past_kneecap_m;
+  if (muscle.origin_m && muscle.insertion_m && way.dot(eigen(*muscle.insertion_m) - eigen(*muscle.origin_m)) < 0)
+    std::swap(muscle.origin_m, muscle.insertion_m);
+  const Vec3<float> bottom = extreme(surface.mesh, -Vector3d::UnitY());
+  const auto end_height = static_cast<double>(bottom.y);
+  const bool past_kneecap = surface.insertion == Segment::patella_right && end_height < knee_height - past_kneecap_m;
   if (past_kneecap) surface.insertion = Segment::shank_right;
-  muscle.attachments = {muscle.origin_m.value_or(extreme(surface.mesh, true)),
-                        past_kneecap ? bottom : muscle.insertion_m.value_or(bottom)};
+  if (surface.insertion > Segment::patella_right && end_height > knee_height + above_knee_m)
+    surface.insertion = Segment::thigh_right;  // tensor fasciae latae without its tract
+  muscle.attachments = {muscle.origin_m.value_or(extreme(surface.mesh, -way)),
+                        past_kneecap ? bottom : muscle.insertion_m.value_or(extreme(surface.mesh, way))};
 }
 
 }  // namespace
@@ -110,7 +126,7 @@ Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body) {
     FittedMuscle muscle{*part.group, part.muscle.value_or(*part.group), std::move(surface), {}, {}};
     if (part.origin_m) muscle.origin_m = place(*part.origin_m);
     if (part.insertion_m) muscle.insertion_m = place(*part.insertion_m);
-    hold(joints.knee.y(), muscle);
+    hold(joints.knee.y(), direction_of(muscle, body), muscle);
     fitted.muscles.push_back(std::move(muscle));
   }
   return fitted;

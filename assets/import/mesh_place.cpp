@@ -35,9 +35,8 @@ float gap(const MeshBox& a, const MeshBox& b) {
 
 /// Returns the place along the leg, from the hip down.
 int place_of(Segment segment) {
+  if (segment < Segment::thigh_right) return 0;  // psoas comes from a vertebra
   switch (segment) {
-    case Segment::pelvis:
-      return 0;
     case Segment::thigh_right:
       return 1;
     case Segment::patella_right:

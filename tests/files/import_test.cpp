@@ -120,8 +120,9 @@ TEST(AnatomyFolder, LoadsCubesClosedAndOutwards) {
 
 TEST(AnatomyFolder, MuscleFollowsFromNameOrFile) {
   const Folder folder;
-  const auto muscle = [&](const std::string& name, const std::string& file, const std::string& group) {
-    folder.write("muscles/" + file + ".obj", obj(leg.at("muscles/soleus_right")));
+  const auto muscle = [&](const std::string& name, const std::string& file, const std::string& group,
+                          const char* place = "muscles/soleus_right") {
+    folder.write("muscles/" + file + ".obj", obj(leg.at(place)));
     folder.write("manifest.csv", "file,name,side,kind,group\nbones/femur_right.obj,Femur,right,bone,\nmuscles/" + file +
                                      ".obj," + name + ",right,muscle," + group + "\n");
     const auto anatomy = folder.load();
@@ -138,7 +139,15 @@ TEST(AnatomyFolder, MuscleFollowsFromNameOrFile) {
   EXPECT_EQ(muscle("Right tibialis anterior", "c", ""), "tibialis_anterior/tibialis_anterior");
   EXPECT_EQ(muscle("Right quadriceps", "d", "quadriceps"), "quadriceps/?");
   EXPECT_EQ(muscle("Right soleus", "e", "hamstrings"), "hamstrings/?");  // the written group counts
-  EXPECT_EQ(muscle("Right sartorius", "f", ""), "none");
+  const char* const thigh = "muscles/rectus_femoris_right";
+  EXPECT_EQ(muscle("Right sartorius", "f", ""), "sartorius/sartorius");
+  EXPECT_EQ(muscle("Right gluteus medius", "g", "", thigh), "hip_abductors/gluteus_medius");
+  EXPECT_EQ(muscle("m. 13", "fibularis_longus_right", ""), "peroneals/peroneus_longus");
+  EXPECT_EQ(muscle("m. 14", "h", "gracilis"), "gracilis/gracilis");
+  EXPECT_EQ(muscle("m. 15", "i", "iliopsoas", thigh), "iliopsoas/?");
+  EXPECT_EQ(muscle("Right psoas major", "j", "iliopsoas", thigh), "iliopsoas/psoas");
+  EXPECT_EQ(muscle("Right psoas minor", "k", ""), "none");
+  EXPECT_EQ(muscle("Right gluteus maximus", "l", "of the hip"), "none");
 }
 
 TEST(AnatomyFolder, FilesAreFoundInAnotherCaseAndWithBackslashes) {

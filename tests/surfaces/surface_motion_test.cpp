@@ -76,7 +76,9 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
   std::vector<Driven> all;
   auto drawn = draw(person.body);
   for (Drawn& d : drawn) {
-    const Muscle driver = driving_muscle(muscles, d.group, d.muscle).value();
+    const auto follows = driving_muscle(muscles, d.group, d.muscle);
+    if (!follows) continue;
+    const Muscle driver = *follows;
     const auto own = std::find_if(person.muscles.begin(), person.muscles.end(),
                                   [driver](const PersonMuscle& m) { return m.plan.muscle == driver; });
     const RestFrame frame{to_float(own->plan.start_m), to_float(own->plan.rotation)};
@@ -299,12 +301,14 @@ void expect_whole(const std::vector<Moving>& all, double fold_deg, double smalle
 
 /// If a group's mesh spans fewer joints than one of its members, the member's shortening over the other joint changes
 /// the volume. `plantaris` is an additional allowance: its short belly follows the calf's change of length, a quarter
-/// of its own length, and the measured one is 3 times as large as in living people.
+/// of its own length, and the measured one is 3 times as large as in living people. Bellies of the hip are short, and
+/// toe muscles wind around the ankle.
 void expect_volumes(const std::vector<Moving>& all, double plantaris) {
   for (const Moving& m : all) {
     if (is_tendon(m) || m.cut) continue;
     const double more = m.surface.mesh.name.starts_with("plantaris") ? plantaris : 0;
-    EXPECT_LT(worst(m).volume, (m.crosses ? 0.10 : 0.035) + more) << m.label;
+    const bool usual = usual_muscles()[static_cast<std::size_t>(m.group)];
+    EXPECT_LT(worst(m).volume, (usual && !m.crosses ? 0.035 : usual ? 0.10 : 0.12) + more) << m.label;
   }
 }
 
@@ -351,9 +355,8 @@ TEST_F(RealSurfaceMotion, EveryMuscleExistsAndFollowsItsOwnMesh) {
   std::map<std::string, int> drivers;
   for (const Drawn& d : real(make_body({.height_m = 1.80F, .mass_kg = 80}).value()))
     ++drivers[std::string(muscle_name(d.muscle))];
-  const MuscleSet expected = muscles_of_groups(usual_muscles());
   for (const MuscleRow& row : muscles()) {
-    if (!expected[static_cast<std::size_t>(*find_muscle(row.name))]) continue;
+    if (!muscle_members()[static_cast<std::size_t>(*find_muscle(row.name))]) continue;
     EXPECT_EQ(drivers[std::string(row.name)], 1) << row.name;
   }
 }

@@ -15,7 +15,8 @@ namespace mobil::inline v0_3 {
 
 /// A right-hand muscle (or the tendon) with the muscles whose meshes can drive it, its own or its group's. `origin_m`
 /// and `insertion_m` are the folder's attachments, m, in the frame of the surface. `attachments` are those, or else the
-/// surface's ends. A muscle that runs past the kneecap ends on the shank.
+/// surface's ends. They change places if they run against the muscle's line. A muscle that runs past the kneecap ends on
+/// the shank, a mesh that ends well above the knee on the thigh.
 struct FittedMuscle {
   Muscle group, muscle;
   MuscleSurface surface;

@@ -66,7 +66,7 @@ struct AnatomySurvey {
 
 /// Selection of meshes, and their simplification.
 struct AnatomyOptions {
-  bool other_muscles = false;  // muscles of no group
+  bool other_muscles = false;  // muscles that are not in the table
   bool skin = false;
   double muscle_cell_m = 0.003;  // vertex clustering of all except bones, see clustered(); 0 keeps every vertex
   double bone_cell_m = 0;
@@ -74,15 +74,15 @@ struct AnatomyOptions {
   unsigned threads = 2;
 };
 
-/// Reads the folder. Muscles of the table's groups are selected, the tendon belongs to triceps_surae, and `options`
-/// selects the rest; left-hand rows are skipped. A mesh's name or its file's identifies its muscle, if it has all words
-/// of the table's name in any order ("Long head of right biceps femoris"). That also replaces an empty group. The
-/// part's report lists repairs of winding, pinched vertices, small holes, doubled triangles, specks and pieces on the
-/// left side; see mend_and_check. Fails with one line naming file and row on a missing folder, file, column or
-/// landmark; an invalid number; a file outside the folder; a mesh that cannot be read (see read_mesh), or has another
-/// count of triangles than in the manifest; one that is open but listed as watertight, is not the surface of a body
-/// (see mend_and_check), or is far from the landmarks or from the bones of its segments; landmarks in other units or
-/// axes; an unknown kind or bone.
+/// Reads the folder. Muscles of the table (mobil/muscle_table.h) are selected, the tendon belongs to triceps_surae, and
+/// `options` selects the rest; left-hand rows are skipped. A row's group is a group or a single muscle of the table. A
+/// mesh's name or its file's identifies its muscle, if it has all words of the table's name in any order ("Long head of
+/// right biceps femoris"; fibularis is peroneus). That also replaces an empty group. The part's report lists repairs of
+/// winding, pinched vertices, small holes, doubled triangles, specks and pieces on the left side; see mend_and_check.
+/// Fails with one line naming file and row on a missing folder, file, column or landmark; an invalid number; a file
+/// outside the folder; a mesh that cannot be read (see read_mesh), or has another count of triangles than in the
+/// manifest; one that is open but listed as watertight, is not the surface of a body (see mend_and_check), or is far
+/// from the landmarks or from the bones of its segments; landmarks in other units or axes; an unknown kind or bone.
 Result<Anatomy> load_anatomy(const std::string& folder, const AnatomyOptions& options = {});
 
 /// Reads the folder and continues after a fault.

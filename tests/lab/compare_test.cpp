@@ -416,7 +416,7 @@ TEST(Command, WritesNumbersAndPlotsAndReportsFailures) {
   const auto open = json.at("not_held").get<int>() + json.at("not_simulated").get<int>();
   EXPECT_EQ(json.at("held").get<int>() + open, static_cast<int>(json.at("bounds").size()));
   EXPECT_NE(ran.out.find("of " + std::to_string(json.at("bounds").size()) + " bounds hold"), std::string::npos);
-  for (const char* plot : {"angles", "ground_reaction", "moments", "steps", "centre_of_mass"}) {
+  for (const char* plot : {"angles", "ground_reaction", "moments", "steps", "centre_of_mass", "muscle_forces"}) {
     const std::string text = read_bytes(folder.path / "out" / (std::string(plot) + ".svg"));
     EXPECT_EQ(text.substr(0, 4), "<svg") << plot;
     EXPECT_EQ(text.find("nan"), std::string::npos) << plot;

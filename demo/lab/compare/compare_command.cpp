@@ -10,6 +10,7 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/files/output_file.h>
+#include "demo/lab/compare/compare_muscles.h"
 #include "demo/lab/compare/compare_verdicts.h"
 #include "demo/pictures/cycle_plot.h"
 #include "demo/pictures/svg_plot.h"
@@ -272,10 +273,13 @@ void walk_variations(const Walker& walker, Comparison& comparison) {
   }
 }
 
-void write_all(const std::filesystem::path& out, const Comparison& comparison, const std::vector<Verdict>& verdicts) {
+void write_all(const std::filesystem::path& out, const Comparison& comparison, const std::vector<Verdict>& verdicts,
+               const MuscleComparison& muscles) {
   auto results = must(OutputFolder::make(out));
   const auto& inside = results.inside();
   must(write_file(inside / "compare.json", comparison_json(comparison, verdicts)));
+  must(write_file(inside / "muscle_forces.json", muscle_json(muscles)));
+  must(write_file(inside / "muscle_forces.svg", muscle_plot(muscles)));
   for (const auto& plot : comparison_plots(comparison)) must(write_file(inside / plot.file, plot.text));
   must(results.put());
 }
@@ -291,10 +295,13 @@ bool run_compare(const CompareText& text) {
   walk_variations(walker, comparison);
   comparison.balance = walk_balance_scenes(options.body, options.gait.style);
   const auto verdicts = judge(comparison);
-  write_all(text.out, comparison, verdicts);
-  write_note(comparison_text(comparison, verdicts));
-  say_where(fmt::format(
-      "look at {}: compare.json angles.svg ground_reaction.svg moments.svg steps.svg centre_of_mass.svg", text.out));
+  const auto muscles = compare_muscles(options.body, options.gait.style);
+  write_all(text.out, comparison, verdicts, muscles);
+  write_note(comparison_text(comparison, verdicts) + muscle_text(muscles));
+  say_where(
+      fmt::format("look at {}: compare.json muscle_forces.json angles.svg ground_reaction.svg moments.svg steps.svg "
+                  "centre_of_mass.svg muscle_forces.svg",
+                  text.out));
   return std::ranges::all_of(verdicts, [](const Verdict& verdict) { return verdict.held.value_or(false); });
 }
 
@@ -305,7 +312,10 @@ Subcommand compare_command() {
   Subcommand command{.name = "compare"};
   command.footer =
       "Writes compare.json and plots of ours over the measured bands (SVG). The program carries the curves of\n"
-      "Schwartz et al. 2008 and the steps of Lencioni et al. 2019.\n"
+      "Schwartz et al. 2008, the steps of Lencioni et al. 2019, and electromyograms of Santuz and of Bovi et al. "
+      "2011.\n"
+      "muscle_forces.json and muscle_forces.svg: which moments the muscles make, their activation, and forces in the "
+      "joints.\n"
       "Example: mobil compare --height 1.75 --mass 75 --check --out out";
   add_options(command, body_options(text->walk.body));
   add_options(command,

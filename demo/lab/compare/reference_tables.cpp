@@ -10,6 +10,7 @@ REFERENCE_TABLE(bovi2011_emg);
 REFERENCE_TABLE(centre_of_mass_excursion);
 REFERENCE_TABLE(lencioni2019_steps);
 REFERENCE_TABLE(muscle_lengths);
+REFERENCE_TABLE(santuz_emg);
 REFERENCE_TABLE(schwartz2008_angles);
 REFERENCE_TABLE(schwartz2008_angles_extremes);
 REFERENCE_TABLE(schwartz2008_grf);
@@ -34,6 +35,7 @@ const ReferenceTable tables[] = {
     REFERENCE_ROW(centre_of_mass_excursion),
     REFERENCE_ROW(lencioni2019_steps),
     REFERENCE_ROW(muscle_lengths),
+    REFERENCE_ROW(santuz_emg),
     REFERENCE_ROW(schwartz2008_angles),
     REFERENCE_ROW(schwartz2008_angles_extremes),
     REFERENCE_ROW(schwartz2008_grf),

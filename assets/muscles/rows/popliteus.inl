@@ -1,4 +1,5 @@
-// Fibres and belly: Wickiewicz, Roy, Powell & Edgerton, Clin. Orthop. Relat. Res. 179, 1983.
+// Fibres and belly: Wickiewicz, Roy, Powell & Edgerton, Clin. Orthop. Relat. Res. 179, 1983 (not checked in print). The
+// belly's sides measure 62 to 119 mm in 22 legs (Shape and innervation of popliteus muscle, Anat. Cell Biol. 43, 2010).
 {.name = "popliteus",
  .group = Muscle::popliteus,
  .origin = Segment::thigh_right,

@@ -18,8 +18,8 @@
 #include <mobil/schedule.h>
 #include <mobil/step_report.h>
 #include <mobil/systems/limits/style_limits.h>
-#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/step_log.h>
+#include <mobil/systems/poses/roots.h>
 #include <mobil/terrain.h>
 #include "engine/state_hash.h"
 #include "systems/avoidance/avoidance_module.h"
@@ -31,6 +31,7 @@
 #include "systems/people/compact_pose.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
+#include "systems/people/person_requests.h"
 #include "systems/simulation_core.h"
 #include "systems/simulation_queries.h"
 #include "systems/snapshot/snapshot.h"
@@ -403,6 +404,10 @@ Result<void> Simulation::restore(std::span<const std::byte> in, const RestoreLim
   return {};
 }
 
+Result<void> Simulation::restore(std::span<const std::byte> in) {
+  return restore(in, RestoreLimits{});
+}
+
 std::uint64_t Simulation::state_hash() const {
   return state_hash_of(state_sum() + core_->world.globals().hash(), core_->tick.index);
 }
@@ -413,6 +418,10 @@ std::uint64_t Simulation::state_sum() const {
 
 bool Simulation::is_person(Entity entity) const {
   return mobil::is_person(core_->world, entity);
+}
+
+std::optional<PersonState> Simulation::state(Entity person) const {
+  return person_state(core_->world, person);
 }
 
 std::vector<Entity> Simulation::people() const {

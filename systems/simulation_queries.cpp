@@ -7,10 +7,12 @@
 #include <mobil/each.h>
 #include <mobil/engine/world.h>
 #include <mobil/schedule.h>
+#include <mobil/systems/gait/resolve_gait.h>
 #include <mobil/systems/limits/limit_monitor.h>
-#include <mobil/systems/people/person_requests.h>
+#include <mobil/systems/limits/style_limits.h>
 #include "systems/muscles/leg_muscles.h"
 #include "systems/people/compact_pose.h"
+#include "systems/people/person_requests.h"
 #include "systems/states/sleep.h"
 
 namespace mobil::inline v0_3 {
@@ -64,6 +66,14 @@ StepReport read_report(const Schedule& schedule, std::uint32_t ticks) {
     for (const TimedPhase& one : after ? schedule.after() : schedule.before())
       report.phases.push_back({one.phase.name, one.module, after, one.last_seconds, one.seconds});
   return report;
+}
+
+Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& asked) {
+  const auto made = make_body(body);
+  if (!made) return tl::unexpected(made.error());
+  auto gait = resolve_gait(*made, asked);
+  if (!gait) return tl::unexpected(gait.error());
+  return keep_walk_limits(body_size(body), *gait);
 }
 
 }  // namespace mobil::inline v0_3

@@ -9,7 +9,7 @@
 #endif
 
 #include <mobil/anthropometry.h>
-#include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include "engine/wide_curve-inl.h"
 
 HWY_BEFORE_NAMESPACE();

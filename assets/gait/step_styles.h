@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include "assets/gait/step_table.h"
 
 namespace mobil::inline v0_3 {

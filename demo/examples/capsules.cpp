@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <mobil/simulation.h>
+#include <mobil/systems/people/step_event.h>
+#include <mobil/systems/poses/roots.h>
 
 namespace {
 

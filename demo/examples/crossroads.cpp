@@ -11,6 +11,7 @@
 
 #include <mobil/avoidance.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/poses/roots.h>
 
 namespace {
 

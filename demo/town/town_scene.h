@@ -6,6 +6,7 @@
 
 #include <mobil/avoidance.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/poses/roots.h>
 #include "demo/town/town_map.h"
 
 namespace mobil {

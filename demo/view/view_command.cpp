@@ -8,7 +8,7 @@
 #include <cmath>
 #include <iterator>
 
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include <mobil/png.h>
 #include "demo/program/body_options.h"
 #include "demo/program/commands.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include <mobil/forces.h>
 #include <mobil/lod.h>
 #include <mobil/muscle_table.h>

@@ -1,11 +1,11 @@
 #pragma once
-// Listing and reading of gait parameters (mobil/components/gait_style.h).
+// Listing and reading of gait parameters (mobil/components/gait.h).
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include <mobil/engine/error.h>
 
 namespace mobil {

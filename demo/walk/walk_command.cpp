@@ -17,7 +17,9 @@
 #include <mobil/assets/export/recorded_skin.h>
 #include <mobil/assets/files/output_file.h>
 #include <mobil/body_composition.h>
+#include <mobil/components/activation.h>
 #include <mobil/components/fat.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/world.h>
 #include <mobil/pose_writer.h>
 #include <mobil/schedule.h>
@@ -268,7 +270,8 @@ Result<Walked> walk(Simulation& simulation, const Person& person, const Figure& 
       if (auto done = record_root(simulation, person.entity, walked.recording.root); !done)
         return tl::unexpected(done.error());
       if (options.fat)
-        walked.fat.push_back(shown_fat(body_size(person.body), *simulation.get<FatWobble>(person.entity)));
+        walked.fat.push_back(
+            shown_fat(*simulation.get<BodySize>(person.entity), *simulation.get<FatWobble>(person.entity)));
       if (options.view == WalkView::stick) walked.action_line.push_back(action_lines(simulation, person));
       if (options.view == WalkView::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, person));
     }

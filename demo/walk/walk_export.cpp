@@ -12,6 +12,7 @@
 #include <mobil/assets/export/recorded_axes.h>
 #include <mobil/assets/export/root_motion.h>
 #include <mobil/systems/gait/resolve_gait.h>
+#include <mobil/systems/poses/roots.h>
 
 namespace mobil {
 namespace {

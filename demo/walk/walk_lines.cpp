@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include <mobil/components/activation.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/muscles/person.h>

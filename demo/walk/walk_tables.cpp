@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include <mobil/components/activation.h>
 #include <mobil/muscle_table.h>
 
 namespace mobil {

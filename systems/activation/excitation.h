@@ -10,6 +10,7 @@
 #include <mobil/components/gait.h>
 #include <mobil/components/lanes.h>
 #include <mobil/components/leg_frames.h>
+#include <mobil/components/step_plan.h>
 #include "assets/muscles/excitation_curves.h"
 
 namespace mobil::inline v0_3 {

@@ -14,7 +14,6 @@
 #include <mobil/engine/access.h>
 #include <mobil/engine/table_list.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person_requests.h>
 #include "assets/gait/slope_pace.h"
 #include "engine/row_hash.h"
 #include "systems/avoidance/choice.h"
@@ -22,6 +21,7 @@
 #include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
 #include "systems/people/group_by_table.h"
+#include "systems/people/person_requests.h"
 #include "systems/states/person_states.h"
 
 namespace mobil::inline v0_3 {

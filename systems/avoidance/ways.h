@@ -8,6 +8,7 @@
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/systems/avoidance/obstacles.h>
 
 namespace mobil::inline v0_3 {

@@ -3,6 +3,7 @@
 #include <unordered_set>
 
 #include <mobil/muscle_table.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 
 namespace mobil::inline v0_3::c {
 namespace {

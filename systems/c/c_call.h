@@ -31,6 +31,7 @@
 #include <mobil/skin_tables.h>
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
+#include <mobil/systems/poses/roots.h>
 #include <mobil/terrain.h>
 #include "systems/poses/pose_axes.h"
 

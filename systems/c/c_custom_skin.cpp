@@ -7,13 +7,13 @@
 #include <mobil/assets/surfaces/custom_skin.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/systems/muscles/person.h>
-#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/surfaces/follow_skin.h>
 #include <mobil/systems/surfaces/place_skin.h>
 #include <mobil/systems/surfaces/rest_surfaces.h>
 #include "assets/surfaces/surface_mesh.h"
 #include "systems/c/c_skin.h"
 #include "systems/c/c_surfaces.h"
+#include "systems/people/person_requests.h"
 
 struct mobil_custom_skin {
   mobil::BodySkin bare;

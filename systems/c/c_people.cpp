@@ -10,11 +10,11 @@
 #include <mobil/components/lod.h>
 #include <mobil/components/sleep.h>
 #include <mobil/forces.h>
-#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/step_log.h>
 #include "systems/c/c_call.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
+#include "systems/people/person_requests.h"
 #include "systems/states/sleep.h"
 
 namespace {

@@ -5,8 +5,9 @@
 
 #include <mobil/step_report.h>
 #include <mobil/systems/limits/limit_monitor.h>
-#include <mobil/systems/people/person_requests.h>
+#include <mobil/systems/poses/roots.h>
 #include "systems/c/c_call.h"
+#include "systems/people/person_requests.h"
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include <mobil/version.h>
 
 #include <mobil/schedule.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "systems/c/c_call.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <new>
 #include <vector>
 
-#include <mobil/systems/people/person_requests.h>
 #include "systems/c/c_skin.h"
+#include "systems/people/person_requests.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Skins for the graphics card, and skins baked before.
 
 #include <mobil/skin_weights.h>
-#include <mobil/systems/people/person_requests.h>
 #include "systems/c/c_skin.h"
+#include "systems/people/person_requests.h"
 
 namespace {
 

@@ -7,9 +7,9 @@
 
 #include <mobil/components/avoidance.h>
 #include <mobil/components/footing.h>
-#include <mobil/systems/people/person_requests.h>
 #include "systems/c/c_call.h"
 #include "systems/people/group_by_table.h"
+#include "systems/people/person_requests.h"
 
 namespace {
 

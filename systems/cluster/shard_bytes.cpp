@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include <mobil/systems/snapshot/restore_limits.h>
+
 namespace mobil::inline v0_3 {
 
 Result<std::vector<std::byte>> pack_shard(const Simulation& simulation, std::span<const std::byte> host) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include <mobil/components/activation.h>
 #include <mobil/each.h>
 #include "assets/reduction/modal_bellies.h"
 #include "systems/deformation/modal.h"

@@ -7,6 +7,7 @@
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/sleep.h>
+#include <mobil/components/step_plan.h>
 #include "systems/gait/gait.h"
 
 namespace mobil::inline v0_3 {

@@ -5,6 +5,7 @@
 #include <mobil/components/footing.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/pose.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/forces.h>
 
 namespace mobil::inline v0_3 {

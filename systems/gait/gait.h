@@ -6,6 +6,7 @@
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/error.h>
 #include <mobil/systems/gait/resolve_gait.h>
 

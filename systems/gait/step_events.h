@@ -7,6 +7,7 @@
 #include <mobil/components/gait.h>
 #include <mobil/components/lanes.h>
 #include <mobil/components/step_events.h>
+#include <mobil/components/step_plan.h>
 
 namespace mobil::inline v0_3 {
 

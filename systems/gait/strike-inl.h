@@ -14,6 +14,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include "assets/gait/step_lookup.h"
 #include "engine/wide_curve-inl.h"
 #include "systems/gait/heading-inl.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include <mobil/components/step_plan.h>
 #include <mobil/rows.h>
 #include <mobil/systems/limits/walk_limits.h>
 #include "systems/gait/step_limits.h"

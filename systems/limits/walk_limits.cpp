@@ -10,6 +10,7 @@
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/interrupt.h>
 #include <mobil/rows.h>
 #include "assets/body/column.h"

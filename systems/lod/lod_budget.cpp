@@ -5,12 +5,12 @@
 #include <mobil/anthropometry.h>
 #include <mobil/lod.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/people/person_requests.h>
 #include "systems/accuracy/packed_levels.h"
 #include "systems/lod/basis_orders.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/people/person_requests.h"
 #include "systems/states/muscle_verbs.h"
 
 namespace mobil::inline v0_3 {

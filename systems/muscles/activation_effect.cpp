@@ -4,8 +4,10 @@
 #include <array>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/rows.h>
 #include "systems/activation/excitation.h"
 #include "systems/activation/musculotendon.h"

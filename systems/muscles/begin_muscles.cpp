@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include <mobil/components/activation.h>
 #include <mobil/components/fade.h>
 #include <mobil/components/pose.h>
 #include <mobil/engine/access.h>

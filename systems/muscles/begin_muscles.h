@@ -12,9 +12,9 @@
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/people/spawn.h>
 #include "systems/bellies/belly_library.h"
 #include "systems/muscles/muscle_size.h"
+#include "systems/people/spawn.h"
 
 namespace mobil::inline v0_3 {
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include <mobil/components/fade.h>
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/method_finite.h"

@@ -6,17 +6,18 @@
 #include <utility>
 
 #include <mobil/anthropometry.h>
+#include <mobil/components/activation.h>
 #include <mobil/components/fade.h>
 #include <mobil/each.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/engine/interrupt.h>
 #include <mobil/forces.h>
-#include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
 #include "systems/bellies/leg_muscles_io.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -13,11 +13,11 @@
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/module.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/sleepers.h>
-#include <mobil/systems/people/spawn.h>
 #include "systems/bellies/belly_library.h"
 #include "systems/muscles/change_muscles.h"
+#include "systems/people/person_requests.h"
+#include "systems/people/spawn.h"
 
 namespace mobil::inline v0_3 {
 

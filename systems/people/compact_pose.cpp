@@ -11,6 +11,7 @@
 #include <mobil/components/gait.h>
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/access.h>
 #include <mobil/rows.h>
 #include "systems/gait/kinematics.h"

@@ -3,11 +3,11 @@
 
 #include <span>
 
+#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/module.h>
-#include <mobil/engine/status.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/people/person_requests.h>
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 

@@ -8,10 +8,10 @@
 #include <mobil/components/activation.h>
 #include <mobil/components/sleep.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person_requests.h>
 #include "systems/forces/forces.h"
 #include "systems/gait/body_motion.h"
 #include "systems/people/group_by_table.h"
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 namespace {

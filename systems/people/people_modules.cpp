@@ -11,6 +11,7 @@
 #include <mobil/components/gait.h>
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/forces.h>
 #include <mobil/systems/limits/limit_monitor.h>
 #include "engine/snapshot.h"

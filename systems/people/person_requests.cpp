@@ -1,4 +1,4 @@
-#include <mobil/systems/people/person_requests.h>
+#include "systems/people/person_requests.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +10,16 @@
 #include <mobil/components/avoidance.h>
 #include <mobil/components/fat.h>
 #include <mobil/components/footing.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/each.h>
 #include <mobil/forces.h>
 #include <mobil/rows.h>
 #include <mobil/systems/people/sleepers.h>
 #include "assets/gait/slope_pace.h"
 #include "systems/gait/gait.h"
-#include "systems/gait/step_limits.h"
 #include "systems/gait/kinematics.h"
+#include "systems/gait/step_limits.h"
+#include "systems/people/compact_pose.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/pose_measures.h"
 
@@ -297,6 +299,13 @@ Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
   world.set(person, joint_angles(pose));
   world.set(person, sole_points(world.get<BodySize>(person)->height_m, pose));
   return result_of("set_pose", world.set(person, pose));
+}
+
+std::optional<PersonState> person_state(const World& world, Entity person) {
+  if (!is_person(world, person)) return std::nullopt;
+  if (is_asleep(world, person)) return PersonState::asleep;
+  if (is_posed(world, person)) return PersonState::posed;
+  return is_compact(world, person) ? PersonState::compact : PersonState::full;
 }
 
 }  // namespace mobil::inline v0_3

@@ -8,9 +8,9 @@
 #include <mobil/components/avoidance.h>
 #include <mobil/each.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person_requests.h>
 #include "engine/state_hash.h"
 #include "systems/gait/asleep.h"
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 namespace {

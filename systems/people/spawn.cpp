@@ -1,4 +1,4 @@
-#include <mobil/systems/people/spawn.h>
+#include "systems/people/spawn.h"
 
 #include <fmt/format.h>
 
@@ -11,13 +11,14 @@
 #include <mobil/anthropometry.h>
 #include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/interrupt.h>
 #include <mobil/engine/world.h>
 #include <mobil/rows.h>
 #include <mobil/systems/limits/style_limits.h>
-#include <mobil/systems/people/person_requests.h>
 #include "systems/gait/gait.h"
 #include "systems/gait/kinematics.h"
+#include "systems/people/person_requests.h"
 #include "systems/people/pose_measures.h"
 
 namespace mobil::inline v0_3 {
@@ -154,14 +155,6 @@ Result<Entity> spawn_posed(World& world, const BodyRequest& request) {
 void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleLimitWork& work) {
   const auto before = asked_body(world, person);
   if (before && !same_walk(before->gait, gait)) keep_walk_limits(jobs, {&before->size, 1}, {&gait, 1}, work);
-}
-
-Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& asked) {
-  const auto made = make_body(body);
-  if (!made) return tl::unexpected(made.error());
-  auto gait = resolve_gait(*made, asked);
-  if (!gait) return tl::unexpected(gait.error());
-  return keep_walk_limits(body_size(body), *gait);
 }
 
 }  // namespace mobil::inline v0_3

@@ -9,15 +9,16 @@
 #include <mobil/components/footing.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/sleep.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/each.h>
 #include <mobil/engine/access.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/sleepers.h>
 #include "engine/snapshot.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/step_events.h"
 #include "systems/people/group_by_table.h"
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 namespace {

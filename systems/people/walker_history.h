@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 
 namespace mobil::inline v0_3 {
 

@@ -9,8 +9,8 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
-#include <mobil/systems/people/person_requests.h>
 #include "systems/gait/kinematics.h"
+#include "systems/people/person_requests.h"
 #include "systems/people/pose_measures.h"
 #include "systems/poses/pose_axes.h"
 

@@ -9,12 +9,13 @@
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/pose.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/each.h>
 #include <mobil/engine/access.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
 #include "systems/gait/root_place.h"
+#include "systems/people/person_requests.h"
 #include "systems/poses/walk_ahead.h"
 #include "systems/states/waking.h"
 

@@ -7,6 +7,7 @@
 #include <mobil/components/footing.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/pose.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/entity.h>
 #include <mobil/engine/error.h>
 

@@ -7,6 +7,7 @@
 #include <mobil/components/compact.h>
 #include <mobil/components/footing.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/leg_frames.h>
 #include <mobil/components/pose.h>
 #include <mobil/forces.h>
 #include <mobil/rows.h>

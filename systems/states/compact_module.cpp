@@ -6,9 +6,11 @@
 #include <mobil/components/body.h>
 #include <mobil/components/compact.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/leg_frames.h>
 #include <mobil/components/leg_muscles.h>
 #include <mobil/components/muscle.h>
 #include <mobil/components/pose.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/schedule.h>
 #include "engine/fetch_ahead.h"
 #include "engine/snapshot.h"

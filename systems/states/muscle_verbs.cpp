@@ -7,8 +7,8 @@
 
 #include <mobil/engine/interrupt.h>
 #include <mobil/muscle_table.h>
-#include <mobil/systems/people/person_requests.h>
 #include "systems/muscles/muscle_parts.h"
+#include "systems/people/person_requests.h"
 #include "systems/states/person_states.h"
 
 namespace mobil::inline v0_3 {

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <mobil/components/lod.h>
-#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/step_log.h>
 #include <mobil/systems/states/lod_state.h>
 #include "systems/people/compact_pose.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/group_by_table.h"
+#include "systems/people/person_requests.h"
 #include "systems/states/warm_muscles.h"
 
 namespace mobil::inline v0_3 {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include <mobil/engine/phase.h>
-#include <mobil/systems/people/person_state.h>
+#include <mobil/systems/people/people.h>
 #include "systems/states/compact.h"
 #include "systems/states/sleep.h"
 

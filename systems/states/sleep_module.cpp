@@ -5,10 +5,10 @@
 #include <mobil/anthropometry.h>
 #include <mobil/rows.h>
 #include <mobil/schedule.h>
-#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/sleepers.h>
 #include "engine/snapshot.h"
 #include "systems/gait/asleep.h"
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 namespace {

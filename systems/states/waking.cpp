@@ -13,10 +13,10 @@
 #include <mobil/engine/interrupt.h>
 #include <mobil/engine/scratch.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/kinematics.h"
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/world.h>
-#include <mobil/systems/people/person_requests.h>
 #include <mobil/systems/people/sleepers.h>
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 

@@ -8,6 +8,7 @@
 #include <mobil/components/footing.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/lanes.h>
+#include <mobil/components/step_plan.h>
 
 namespace mobil::inline v0_3 {
 

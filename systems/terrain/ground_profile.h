@@ -7,6 +7,7 @@
 #include <mobil/components/body.h>
 #include <mobil/components/footing.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include "systems/terrain/clearance.h"
 
 namespace mobil::inline v0_3 {

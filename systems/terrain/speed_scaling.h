@@ -8,8 +8,8 @@
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/limits/style_limits.h>
-#include <mobil/systems/people/person_requests.h>
 #include "assets/gait/slope_pace.h"
+#include "systems/people/person_requests.h"
 
 namespace mobil::inline v0_3 {
 

@@ -14,12 +14,12 @@
 #include <mobil/each.h>
 #include <mobil/engine/table_list.h>
 #include <mobil/rows.h>
-#include <mobil/systems/people/person_requests.h>
 #include "engine/exact_math.h"
 #include "systems/gait/step_events.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/group_by_table.h"
+#include "systems/people/person_requests.h"
 #include "systems/states/person_states.h"
 #include "systems/terrain/ground_profile.h"
 #include "systems/terrain/sole_fit.h"

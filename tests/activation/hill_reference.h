@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <mobil/components/activation.h>
+
 namespace mobil::test {
 
 struct HillMember {

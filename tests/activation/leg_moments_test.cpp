@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include <mobil/components/pose.h>
 #include <mobil/forces.h>
 #include <mobil/simulation.h>

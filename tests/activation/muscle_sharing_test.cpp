@@ -10,6 +10,7 @@
 #include <random>
 #include <string_view>
 
+#include <mobil/components/activation.h>
 #include <mobil/components/pose.h>
 #include <mobil/engine/world.h>
 #include <mobil/forces.h>

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <random>
 
+#include <mobil/components/activation.h>
 #include <mobil/rows.h>
 #include "tests/activation/hill_reference.h"
 

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include <mobil/components/avoidance.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/poses/roots.h>
 #include "engine/row_hash.h"
 #include "systems/avoidance/reservations.h"
 #include "systems/avoidance/trials.h"

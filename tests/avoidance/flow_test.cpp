@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <mobil/components/avoidance.h>
+#include <mobil/systems/poses/roots.h>
 #include "tests/avoidance/walkers.h"
 
 namespace mobil {

@@ -9,11 +9,12 @@
 
 #include <mobil/components/avoidance.h>
 #include <mobil/components/body.h>
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include <mobil/components/pose.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/poses/roots.h>
 #include "assets/body/joint_limits.h"
 #include "systems/gait/shoulders.h"
 #include "tests/avoidance/room.h"

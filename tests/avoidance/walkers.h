@@ -9,6 +9,7 @@
 
 #include <mobil/avoidance.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/poses/roots.h>
 #include "engine/row_hash.h"
 
 namespace mobil {

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include <mobil/simulation.h>
 #include "assets/body/joint_limits.h"
 #include "assets/body/segment_inertia.h"

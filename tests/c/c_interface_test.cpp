@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include <mobil/components/activation.h>
 #include <mobil/engine/world.h>
 #include <mobil/forces.h>
 #include <mobil/lod.h>

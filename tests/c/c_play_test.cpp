@@ -7,6 +7,8 @@
 #include <mobil/engine/world.h>
 #include <mobil/step_report.h>
 #include <mobil/systems/limits/limit_monitor.h>
+#include <mobil/systems/people/step_event.h>
+#include <mobil/systems/poses/roots.h>
 #include "tests/c/c_fixture.h"
 
 namespace mobil::c_play_test {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <mobil/engine/module.h>
+#include <mobil/engine/phase.h>
 #include <mobil/schedule.h>
 
 namespace mobil::phase_test {

@@ -16,6 +16,7 @@
 #include <mobil/assets/export/root_motion.h>
 #include <mobil/mujoco_writer.h>
 #include <mobil/pose_writer.h>
+#include <mobil/systems/poses/roots.h>
 #include "assets/export/model_muscles.h"
 #include "tests/files/formats_fixture.h"
 #include "tests/files/xml_elements.h"

@@ -7,6 +7,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/simulation/reseal.h"

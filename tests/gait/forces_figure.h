@@ -8,6 +8,7 @@
 #include <random>
 
 #include <mobil/anthropometry.h>
+#include <mobil/components/step_plan.h>
 #include "engine/eigen.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/body_motion.h"

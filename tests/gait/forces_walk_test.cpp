@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <mobil/assets/files/csv_table.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/simulation.h>
 #include "tests/files/reference_data.h"
 #include "tests/gait/forces_figure.h"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>

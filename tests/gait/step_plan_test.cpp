@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include <mobil/components/step_plan.h>
 #include "systems/gait/gait.h"
 #include "systems/gait/kinematics.h"
 #include "tests/gait/walkers.h"

@@ -11,6 +11,7 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/body_composition.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/geometry.h>
 #include "systems/gait/gait.h"
 #include "systems/gait/kinematics.h"

@@ -218,6 +218,22 @@ TEST(House, PublicHeadersIncludePublicOnes) {
   EXPECT_GT(public_headers().size(), 100U);
 }
 
+/// Every source of a host compiles simulation.h.
+TEST(House, SimulationIncludesFewHeaders) {
+  static const std::regex include("^#include <(mobil/[^>]+)>");
+  std::set<std::string> seen;
+  for (std::vector<std::string> left = {"mobil/simulation.h"}; !left.empty();) {
+    const std::string name = left.back();
+    left.pop_back();
+    for (const auto& line : lines(public_headers().at(name))) {
+      std::smatch match;
+      if (std::regex_search(line, match, include) && seen.insert(match[1]).second) left.push_back(match[1]);
+    }
+  }
+  EXPECT_TRUE(seen.contains("mobil/engine/entity.h"));  // behind others
+  EXPECT_LE(seen.size(), 15U);
+}
+
 /// Internal headers that programs outside the laboratory still include.
 const std::set<std::string> still_internal = {};
 

@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include <mobil/engine/world.h>
 #include <mobil/lod.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "assets/finite/finite_shape.h"
 #include "tests/interfaces.h"
 #include "tests/labels.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <mobil/lod.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "tests/interfaces.h"
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"

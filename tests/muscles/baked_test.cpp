@@ -10,6 +10,7 @@
 
 #include <mobil/muscle_library.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "engine/row_hash.h"
 #include "tests/refused.h"
 

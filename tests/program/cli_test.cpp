@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include "tests/labels.h"
 #include "tests/program/refusals.h"
 

@@ -13,7 +13,7 @@
 #include <set>
 
 #include <mobil/anthropometry.h>
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include <mobil/components/muscle.h>
 #include <mobil/muscle_table.h>
 #include "assets/gait/step_lookup.h"

@@ -13,6 +13,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>
+#include <mobil/systems/poses/roots.h>
 #include "tests/files/export_fixture.h"
 #include "tests/labels.h"
 #include "tests/program/program.h"

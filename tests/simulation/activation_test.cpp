@@ -6,6 +6,7 @@
 
 #include <mobil/components/activation.h>
 #include <mobil/muscle_table.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"

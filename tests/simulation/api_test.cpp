@@ -8,6 +8,7 @@
 #include <mobil/each.h>
 #include <mobil/host_parts.h>
 #include <mobil/lod.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "tests/labels.h"
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"

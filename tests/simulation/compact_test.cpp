@@ -16,6 +16,7 @@
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/labels.h"
 #include "tests/simulation/simulation_hash.h"

@@ -12,6 +12,7 @@
 #include <iostream>
 #include <vector>
 
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "tests/engine/engine_counting_memory.h"

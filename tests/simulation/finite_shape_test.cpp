@@ -6,6 +6,7 @@
 
 #include <mobil/components/activation.h>
 #include <mobil/engine/world.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "tests/labels.h"
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <mobil/engine/module.h>
+#include <mobil/engine/phase.h>
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include "tests/simulation/reseal.h"

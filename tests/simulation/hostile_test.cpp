@@ -12,6 +12,7 @@
 
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "engine/snapshot_bytes.h"
 #include "tests/labels.h"

@@ -13,6 +13,7 @@
 #include <mobil/retarget.h>
 #include <mobil/surfaces.h>
 #include <mobil/systems/muscles/person.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "tests/refused.h"
 #include "tests/simulation/leg_muscles.h"
 

@@ -12,6 +12,7 @@
 #include <mobil/simulation.h>
 #include <mobil/snapshot_file.h>
 #include <mobil/step_report.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "systems/muscles/muscle_parts.h"
 #include "tests/simulation/crowd_play.h"
 

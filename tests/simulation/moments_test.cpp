@@ -6,8 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include <mobil/components/activation.h>
 #include <mobil/forces.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "tests/simulation/people.h"
 
 namespace mobil::moments_test {

@@ -11,6 +11,7 @@
 #include <mobil/lod.h>
 #include <mobil/snapshot_file.h>
 #include <mobil/step_report.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include <mobil/terrain.h>
 #include "tests/interfaces.h"
 #include "tests/labels.h"

@@ -12,6 +12,7 @@
 
 #include <mobil/avoidance.h>
 #include <mobil/lod.h>
+#include <mobil/systems/poses/roots.h>
 #include <mobil/terrain.h>
 #include "tests/simulation/people.h"
 

@@ -7,6 +7,7 @@
 
 #include <mobil/engine/geometry.h>
 #include <mobil/forces.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include "tests/simulation/leg_muscles.h"
 
 namespace mobil::posed_forces_test {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <mobil/simulation.h>
+#include <mobil/systems/poses/roots.h>
 #include "tests/simulation/people.h"
 
 namespace mobil::roots_test {

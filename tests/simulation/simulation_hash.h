@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include "tests/simulation/people.h"

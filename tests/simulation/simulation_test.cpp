@@ -1,4 +1,5 @@
 // The facade: bodies and gaits of all kinds, effects that are added and removed without a trace, time, memory.
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>

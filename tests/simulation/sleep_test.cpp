@@ -14,6 +14,7 @@
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "demo/scene/crowd_people.h"
 #include "systems/gait/asleep.h"

@@ -10,6 +10,7 @@
 #include <mobil/engine/world.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include "engine/snapshot.h"
 #include "engine/snapshot_bytes.h"

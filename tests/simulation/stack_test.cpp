@@ -21,6 +21,7 @@
 #include <mobil/skin_writer.h>
 #include <mobil/surfaces.h>
 #include <mobil/systems/muscles/person.h>
+#include <mobil/systems/poses/roots.h>
 #include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 

@@ -11,10 +11,12 @@
 #include <tuple>
 #include <vector>
 
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/engine/world.h>
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/people/step_event.h>
 #include "systems/people/pose_measures.h"
 #include "tests/engine/wilful_pool.h"
 #include "tests/labels.h"

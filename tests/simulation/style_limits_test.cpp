@@ -15,12 +15,12 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/limits/style_limits.h>
 #include <mobil/systems/limits/walk_limits.h>
 #include "systems/gait/gait.h"
-#include <mobil/systems/limits/walk_limits.h>
 #include "tests/labels.h"
 #include "tests/simulation/walk_watch.h"
 

@@ -10,6 +10,7 @@
 #include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/systems/limits/style_limits.h>
 #include "assets/gait/slope_pace.h"
 #include "systems/gait/gait.h"

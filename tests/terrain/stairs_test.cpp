@@ -9,6 +9,7 @@
 
 #include <mobil/components/gait.h>
 #include <mobil/components/pose.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/forces.h>
 #include "tests/terrain/hike.h"
 #include "tests/terrain/measured_stairs.h"

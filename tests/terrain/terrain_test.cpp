@@ -11,9 +11,11 @@
 #include <limits>
 #include <vector>
 
+#include <mobil/components/step_plan.h>
 #include <mobil/forces.h>
 #include <mobil/lod.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/people/step_event.h>
 #include "engine/row_hash.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/interfaces.h"

@@ -15,6 +15,7 @@
 
 #include <mobil/simulation.h>
 #include <mobil/skin_writer.h>
+#include <mobil/systems/poses/roots.h>
 
 namespace {
 

@@ -9,6 +9,8 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/muscles/muscle_plan.h>
+#include <mobil/components/activation.h>
+#include <mobil/components/leg_frames.h>
 #include <mobil/engine/access.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/muscles/person.h>

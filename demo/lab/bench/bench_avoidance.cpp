@@ -11,6 +11,7 @@
 #include <mobil/avoidance.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/poses/roots.h>
 #include "demo/lab/bench/bench.h"
 #include "demo/measure/phase_time.h"
 #include "engine/row_hash.h"

@@ -9,6 +9,7 @@
 #include <span>
 
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/world.h>
 #include <mobil/pose_writer.h>
 #include <mobil/schedule.h>

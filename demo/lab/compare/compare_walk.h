@@ -6,7 +6,6 @@
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
-#include <mobil/components/gait_style.h>
 #include <mobil/components/pose.h>
 #include <mobil/components/segments.h>
 #include <mobil/forces.h>

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <mobil/components/activation.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/world.h>
 #include <mobil/lod.h>

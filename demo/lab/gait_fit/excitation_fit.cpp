@@ -12,6 +12,7 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/files/csv_table.h>
+#include <mobil/components/activation.h>
 #include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include "assets/muscles/excitation_curves.h"

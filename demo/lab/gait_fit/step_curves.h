@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include "demo/lab/gait_fit/step_model.h"
 
 namespace mobil {

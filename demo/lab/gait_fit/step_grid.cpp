@@ -5,7 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include "demo/lab/gait_fit/levenberg_marquardt.h"
 
 namespace mobil {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include <mobil/components/fade.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/lod.h>
 #include <mobil/step_report.h>

@@ -1,4 +1,6 @@
 #include "demo/lab/robustness/robustness_world.h"
+#include <mobil/components/leg_frames.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/world.h>
 #include <mobil/step_report.h>
 #include <mobil/systems/muscles/person.h>

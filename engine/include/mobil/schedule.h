@@ -49,6 +49,7 @@
 #include <mobil/engine/access.h>
 #include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
+#include <mobil/engine/module.h>
 #include <mobil/engine/packed.h>
 #include <mobil/engine/phase.h>
 #include <mobil/engine/scratch.h>

@@ -31,16 +31,15 @@
 #include <utility>
 #include <vector>
 
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
 #include <mobil/components/leg_muscles.h>
 #include <mobil/components/pose.h>
+#include <mobil/engine/clock.h>
+#include <mobil/engine/jobs.h>
 #include <mobil/engine/module.h>
 #include <mobil/systems/muscles/muscle_ref.h>
-#include <mobil/systems/people/person_requests.h>
-#include <mobil/systems/people/person_state.h>
-#include <mobil/systems/people/spawn.h>
-#include <mobil/systems/people/step_event.h>
-#include <mobil/systems/poses/roots.h>
-#include <mobil/systems/snapshot/restore_limits.h>
+#include <mobil/systems/people/people.h>
 
 namespace mobil::inline v0_3 {
 
@@ -67,15 +66,19 @@ struct SimulationOptions {
 /// it.
 enum class Arrival : std::uint8_t { moved, jumped };
 
-class Avoidance;      // mobil/avoidance.h
-class HostParts;      // mobil/host_parts.h
-struct Person;        // mobil/systems/muscles/person.h
-class Lod;            // mobil/lod.h
-class MuscleLibrary;  // mobil/muscle_library.h
-class Schedule;       // mobil/schedule.h
-struct StepReport;    // mobil/step_report.h
-class Terrain;        // mobil/terrain.h
-class World;          // mobil/engine/world.h
+class Avoidance;       // mobil/avoidance.h
+class HostParts;       // mobil/host_parts.h
+class Lod;             // mobil/lod.h
+class MuscleLibrary;   // mobil/muscle_library.h
+struct Person;         // mobil/systems/muscles/person.h
+struct RestoreLimits;  // mobil/systems/snapshot/restore_limits.h
+struct Root;           // mobil/systems/poses/roots.h
+class Schedule;        // mobil/schedule.h
+struct StepEvent;      // mobil/systems/people/step_event.h
+struct StepReport;     // mobil/step_report.h
+struct StyleChange;    // mobil/systems/limits/style_limits.h
+class Terrain;         // mobil/terrain.h
+class World;           // mobil/engine/world.h
 
 class Simulation {
  public:
@@ -144,7 +147,7 @@ class Simulation {
     return set_state(std::span(&person, 1), state, within_m);
   }
   /// Returns a person's state; nothing for a stale handle.
-  std::optional<PersonState> state(Entity person) const { return person_state(world(), person); }
+  std::optional<PersonState> state(Entity person) const;
 
   /// Reserves entity handles for this many more people. Their rows are allocated when they spawn.
   void reserve(std::size_t people);
@@ -256,7 +259,9 @@ class Simulation {
   /// people are the same as now. Bytes are never trusted: the call refuses truncated or altered ones, another format
   /// version, and a snapshot that exceeds memory or `limits`. The simulation is then unchanged, but keeps meshes made
   /// so far for the next attempt. Threads and reports are not state.
-  Result<void> restore(std::span<const std::byte> in, const RestoreLimits& limits = {});
+  Result<void> restore(std::span<const std::byte> in, const RestoreLimits& limits);
+  /// Restores a snapshot with the default limits.
+  Result<void> restore(std::span<const std::byte> in);
   /// Returns a hash of the whole state, independent of spawn order, row order and handles (engine/state_hash.h).
   std::uint64_t state_hash() const;
   /// Returns a sum of hashes over all people, without tick and globals. The sums of several simulations, each with a
@@ -312,5 +317,10 @@ class Simulation {
 
   std::unique_ptr<Core> core_;
 };
+
+/// Returns the corrections that Simulation::spawn, change_gait and set_gait make to a requested walk, in their order.
+/// They correct a walk that would violate, or nearly reach, a limit of joints or ground. Simulation::gait_request then
+/// returns the corrected walk. Errors: those of spawn.
+Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& gait);
 
 }  // namespace mobil::inline v0_3

@@ -12,6 +12,7 @@
 
 #include <mobil/engine/error.h>
 #include <mobil/simulation.h>
+#include <mobil/systems/snapshot/restore_limits.h>
 
 namespace mobil::inline v0_3 {
 

@@ -1,22 +1,13 @@
 #pragma once
 // Active muscles: excitation, activation, and the division of a line of action into fibres and tendon.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 
 #include <mobil/components/lanes.h>
 #include <mobil/components/leg_frames.h>
 
 namespace mobil::inline v0_3 {
-
-/// Source of a muscle's excitation. `none`: no activation, and the tendon does not stretch. `phase`: the phase of the
-/// walker's gait cycle (assets/muscles/excitation_curves.h), or standing tone for standing and posed people. `host`:
-/// Simulation::set_excitation. `moments`: the moments at the leg's joints (JointMoments), shared among its muscles at
-/// minimum cost.
-enum class ExcitationSource : std::uint8_t { none, phase, host, moments };
-inline constexpr std::array<std::string_view, 4> excitation_source_name = {"none", "phase", "host", "moments"};
 
 /// Range of excitations and activations, as fractions of the muscle's maximum.
 inline constexpr float min_activation = 0.01F, max_activation = 1;

@@ -1,13 +1,72 @@
 #pragma once
-// The walk of a person: the request, the solved step, and the walker's position in that step.
+// The walk of a person: the request, with one table of style parameters that programs and documents share; the solved
+// gait; and the walker's position.
 
+#include <array>
 #include <optional>
+#include <string_view>
 
-#include <mobil/components/gait_style.h>
 #include <mobil/components/lanes.h>
-#include <mobil/components/step_shape.h>
 
 namespace mobil::inline v0_3 {
+
+/// Returns a field's default for one row or for sixteen.
+template <class F>
+constexpr F in_every_lane(float value) {
+  if constexpr (std::is_same_v<F, Lanes<float>>) {
+    F lanes{};
+    for (auto& lane : lanes.lane) lane = value;
+    return lanes;
+  } else {
+    return F(value);
+  }
+}
+
+/// Units are in the names: _deg degrees; _h fractions of body height; _cycle fractions of the gait cycle of two steps.
+/// Values that depend on speed are given at a natural step (0.43 body heights) and scaled from there. `gait_parameters`
+/// has meaning, default and range of each.
+template <class F>
+struct GaitStyleOf {
+  F pelvis_rotation_deg = in_every_lane<F>(6.5F);
+  F pelvis_list_deg = in_every_lane<F>(4.0F);
+  F pelvis_shift_h = in_every_lane<F>(0.0125F);
+  F pelvis_tilt_deg = in_every_lane<F>(10.0F);
+  F pelvis_tilt_wave_deg = in_every_lane<F>(0.8F);
+  F step_width_h = in_every_lane<F>(0.055F);
+  F toe_out_deg = in_every_lane<F>(6.0F);
+  F step_asymmetry = in_every_lane<F>(0.0F);
+  F time_asymmetry = in_every_lane<F>(0.0F);
+  F double_support_scale = in_every_lane<F>(1.0F);
+  F strike_pitch_deg = in_every_lane<F>(22.0F);
+  F strike_knee_deg = in_every_lane<F>(4.5F);
+  F foot_flat_cycle = in_every_lane<F>(0.1066F);
+  F stance_knee_deg = in_every_lane<F>(4.1F);
+  F toe_off_knee_deg = in_every_lane<F>(33.35F);
+  F knee_release_cycle = in_every_lane<F>(0.443F);
+  F swing_knee_deg = in_every_lane<F>(47.0F);
+  F swing_ankle_deg = in_every_lane<F>(-0.8F);
+  F toe_clearance_m = in_every_lane<F>(0.012F);
+  F foot_pivot_h = in_every_lane<F>(0.0106F);
+  F mid_stance_height = in_every_lane<F>(0.9995F);
+  F hip_fall = in_every_lane<F>(0.3F);
+  F leg_stiffness_n_per_m = in_every_lane<F>(16000.0F);
+  F leg_damping = in_every_lane<F>(0.40F);
+  F roll_over = in_every_lane<F>(0.57F);
+  F forward_swing = in_every_lane<F>(0.0F);
+  F trunk_lean_deg = in_every_lane<F>(2.0F);
+  F trunk_stiffness = in_every_lane<F>(8.0F);
+  F shoulder_rotation = in_every_lane<F>(1.0F);
+  F arm_back_deg = in_every_lane<F>(18.0F);
+  F arm_forward_deg = in_every_lane<F>(16.0F);
+  F elbow_back_deg = in_every_lane<F>(10.0F);
+  F elbow_forward_deg = in_every_lane<F>(35.0F);
+  F arm_abduction_deg = in_every_lane<F>(6.0F);
+  F forearm_pronation_deg = in_every_lane<F>(65.0F);
+  F finger_flexion_deg = in_every_lane<F>(25.0F);
+};
+
+/// One person's style.
+using GaitStyle = GaitStyleOf<float>;
 
 /// A request for a walk. Any two of speed (m/s), step length (m) and step frequency (steps/s) determine the third. If
 /// only one is set, the others are those of people with that leg length (assets/gait). If none is set, the speed is 5
@@ -24,6 +83,63 @@ struct GaitChange {
   std::optional<GaitStyle> style{};
 };
 
+/// One parameter: name, unit ("1" if dimensionless), member, range, and meaning.
+struct GaitParameter {
+  std::string_view name, unit;
+  float GaitStyle::*value;
+  float low, high;
+  std::string_view meaning;
+};
+
+/// All parameters of a style, in the order of its fields. The command line, the C interface and snapshots use these
+/// names.
+inline constexpr std::array<GaitParameter, 36> gait_parameters = {{
+    {"pelvis_rotation_deg", "deg", &GaitStyle::pelvis_rotation_deg, 0, 15, "pelvis turn to each side (transverse)"},
+    {"pelvis_list_deg", "deg", &GaitStyle::pelvis_list_deg, 0, 10, "pelvis list to each side (frontal)"},
+    {"pelvis_shift_h", "height", &GaitStyle::pelvis_shift_h, 0, 0.03F, "pelvis shift toward the stance foot"},
+    {"pelvis_tilt_deg", "deg", &GaitStyle::pelvis_tilt_deg, -10, 20, "mean anterior tilt of the pelvis"},
+    {"pelvis_tilt_wave_deg", "deg", &GaitStyle::pelvis_tilt_wave_deg, 0, 5,
+     "rise and fall of that tilt, twice a cycle"},
+    {"step_width_h", "height", &GaitStyle::step_width_h, 0.02F, 0.15F, "distance between the lines of the two ankles"},
+    {"toe_out_deg", "deg", &GaitStyle::toe_out_deg, -15, 30, "feet turned outward"},
+    {"step_asymmetry", "1", &GaitStyle::step_asymmetry, -0.4F, 0.4F, "right step longer than the mean by this part"},
+    {"time_asymmetry", "1", &GaitStyle::time_asymmetry, -0.3F, 0.3F, "right step slower than the mean by this part"},
+    {"double_support_scale", "1", &GaitStyle::double_support_scale, 0.6F, 1.5F,
+     "double support, of what the cadence asks"},
+    {"strike_pitch_deg", "deg", &GaitStyle::strike_pitch_deg, 10, 30, "foot at heel strike, toes up"},
+    {"strike_knee_deg", "deg", &GaitStyle::strike_knee_deg, 2, 20, "knee flexion at heel strike"},
+    {"foot_flat_cycle", "cycle", &GaitStyle::foot_flat_cycle, 0.04F, 0.15F, "heel strike to foot flat"},
+    {"stance_knee_deg", "deg", &GaitStyle::stance_knee_deg, 4, 20, "least knee flexion before the heel rises"},
+    {"toe_off_knee_deg", "deg", &GaitStyle::toe_off_knee_deg, 20, 50, "knee flexion at toe-off"},
+    {"knee_release_cycle", "cycle", &GaitStyle::knee_release_cycle, 0.41F, 0.47F, "when the trailing knee yields"},
+    {"swing_knee_deg", "deg", &GaitStyle::swing_knee_deg, 30, 75,
+     "greatest knee flexion in swing, before the foot is lifted"},
+    {"swing_ankle_deg", "deg", &GaitStyle::swing_ankle_deg, -12, 10, "dorsiflexion in mid-swing"},
+    {"toe_clearance_m", "m", &GaitStyle::toe_clearance_m, 0, 0.06F, "height of the toe over the ground in mid-swing"},
+    {"foot_pivot_h", "height", &GaitStyle::foot_pivot_h, -0.01F, 0.03F,
+     "centre of pressure ahead of the ankle, mean, on one foot"},
+    {"mid_stance_height", "1", &GaitStyle::mid_stance_height, 0.90F, 1, "hip height in mid-stance, of standing"},
+    {"hip_fall", "1", &GaitStyle::hip_fall, 0.1F, 0.35F, "fall of the hips to double support, of straight legs'"},
+    {"leg_stiffness_n_per_m", "N/m", &GaitStyle::leg_stiffness_n_per_m, 8000, 60000, "leg spring at a height of 1.8 m"},
+    {"leg_damping", "1", &GaitStyle::leg_damping, 0.2F, 1,
+     "of the loaded knee, of critical: the more, the less it bends"},
+    {"roll_over", "1", &GaitStyle::roll_over, 0.4F, 0.7F,
+     "travel of the centre of pressure, of the hips', on one foot"},
+    {"forward_swing", "1", &GaitStyle::forward_swing, 0, 1, "share of the swing that torques at hip and knee make"},
+    {"trunk_lean_deg", "deg", &GaitStyle::trunk_lean_deg, -8, 12, "mean forward lean of the trunk"},
+    {"trunk_stiffness", "1", &GaitStyle::trunk_stiffness, 2, 20,
+     "of the trunk, of its toppling stiffness: against swaying"},
+    {"shoulder_rotation", "1", &GaitStyle::shoulder_rotation, 0, 2, "shoulders against the pelvis, times its rotation"},
+    {"arm_back_deg", "deg", &GaitStyle::arm_back_deg, 0, 50, "arm swing backward"},
+    {"arm_forward_deg", "deg", &GaitStyle::arm_forward_deg, 0, 60, "arm swing forward"},
+    {"elbow_back_deg", "deg", &GaitStyle::elbow_back_deg, 0, 100, "elbow flexion when the arm is back"},
+    {"elbow_forward_deg", "deg", &GaitStyle::elbow_forward_deg, 0, 120, "elbow flexion when the arm is forward"},
+    {"arm_abduction_deg", "deg", &GaitStyle::arm_abduction_deg, 0, 30, "arms held away from the trunk"},
+    {"forearm_pronation_deg", "deg", &GaitStyle::forearm_pronation_deg, 0, 90,
+     "forearms turned inward, palms to the thighs"},
+    {"finger_flexion_deg", "deg", &GaitStyle::finger_flexion_deg, 0, 90, "fingers bent"},
+}};
+
 /// A walk whose values agree and are in range, as `resolve_gait` returns it (mobil/systems/gait/resolve_gait.h). If all
 /// values except the style are zero, the walker stands.
 template <class F>
@@ -31,125 +147,11 @@ struct Gait {
   F speed_m_s, step_length_m, step_frequency_hz;  // averages over right and left steps
   /// One double support as a fraction of the cycle of two steps.
   F double_support_cycle;
-  F heading_rad;          // target heading
-  F left_m, ahead_m;      // step of a standing walker to the left and ahead
+  F heading_rad;           // target heading
+  F left_m, ahead_m;       // step of a standing walker to the left and ahead
   UInt32<F> displacement;  // counts requests of such steps; each is taken once
   UInt32<F> revision;      // counts requests for a gait
   GaitStyleOf<F> style;
-};
-
-/// Timing of the pelvis' rotation, list and tilt. φ is the phase of the step, 0 at heel strike of the stance leg and 1
-/// at the next strike. The numbers are the first harmonics of curves by Schwartz, Rozumalski & Trost 2008 (free speed).
-/// "That side" is the side of the stance leg; A is the amplitude:
-///   rotation (that side forward) = A cos π(φ − rotation);
-///   list (that side up) = A (first cos π(φ − first phase) + third cos 3π(φ − third phase));
-///   tilt (anterior) = mean + A cos 2π(φ − tilt).
-/// Rotation and list have odd harmonics only, which change sign when the stance side changes. All curves are therefore
-/// smooth through heel strike.
-namespace pelvis_phase {
-inline constexpr int rotation_1000 = 160, list_first_1000 = 272, list_third_1000 = 314, tilt_1000 = -166;
-inline constexpr float rotation = rotation_1000 / 1000.0F;
-inline constexpr float list_first = 0.70F, list_first_phase = list_first_1000 / 1000.0F;
-inline constexpr float list_third = 0.30F, list_third_phase = list_third_1000 / 1000.0F;
-inline constexpr float tilt = tilt_1000 / 1000.0F;
-}  // namespace pelvis_phase
-
-/// Duration of one double support, % of the cycle: `at_rest` − `per_cadence` · steps a minute of a body of 1.8 m. The
-/// law is from Bruderlin & Calvert. Its numbers are fitted to Schwartz (2008): 12, 10 and 8 % at slow, free and fast
-/// speed.
-namespace double_support_law {
-inline constexpr double at_rest = 23.6, per_cadence = 0.131, least = 6.0, most = 18.0;
-}
-
-/// Toes are flat until the foot is pitched by `from` (rad, heel up). The foot then rolls over the tips of the toes,
-/// which stay in place. With d = pitch − from, the toes are pitched by part · d³/(d² + within²).
-namespace toe_rocker {
-inline constexpr float from = 0.35F, within = 0.40F, part = 0.7F;
-}
-
-/// Step length, relative to body height, to which the values of a style refer.
-inline constexpr double natural_step_h = 0.43;
-
-/// Arm swing. For a step of natural length its amplitude is that of the style times by_speed · speed/√(g · leg), at
-/// most 1. An arm follows the direction of the opposite leg's line from hip to ankle. The range of that direction is
-/// −reach_back to 1, times half a step length over the leg length.
-namespace arm_swing {
-inline constexpr double by_speed = 1.5, reach_back = 1.15;
-}
-
-/// Fractions of the swing between which the toes straighten. At toe-off they are bent upward relative to the foot.
-namespace swing_toes {
-inline constexpr float from = 0.25F, to = 0.85F;
-}
-
-/// Posture parameters at a heel strike: amplitudes and angles that are blended from one strike to the next. Angles rad.
-template <class F>
-struct PostureParameters {
-  F pelvis_rotation, pelvis_list, pelvis_tilt, pelvis_tilt_wave;
-  F shoulder_rotation, leg_back, leg_forward;  // range of the hip-to-ankle line, which the opposite arm follows
-  F arm_back, arm_forward, elbow_back, elbow_forward, arm_abduction, forearm_pronation, finger_flexion;
-};
-
-/// State of a walker at a heel strike, the instant at which two steps meet. It is a function of body, gait, the speed
-/// before, and the remaining turn (systems/gait/step_plan.cpp), so it is known before either step is solved. Standing
-/// is a strike of length 0 and speed 0. m, s, rad.
-template <class F>
-struct HeelStrike {
-  F speed_m_s;                // of the gait in which the foot strikes; 0: standing
-  F length_m;                 // from the trailing foothold to the leading one
-  F pace_hz;                  // steps a second
-  F advance_m;                // advance of the hips in a step at that pace
-  F half_width_m, toe_out;    // of the leading foot
-  F double_support;           // that follows, as a fraction of the cycle
-  F own_style;                // share of the gait's style, 0 to 1; the rest is the usual style
-  F shape[step_shape::size];  // of a steady walk (mobil/components/step_shape.h), lengths in m
-  PostureParameters<F> posture;
-};
-
-/// Number of polynomials by which the hips' path is corrected.
-inline constexpr std::size_t other_way_count = 5;
-
-/// A polynomial of degree 5, with coefficients from the constant upward.
-template <class F>
-struct Quintic {
-  F coefficient[6];
-};
-
-/// One step of one walker, from the heel strike of its stance foot to the other's. Positions are relative to the stance
-/// foothold, the point of the ground under the ankle when the foot is flat. z is forward, y up, "out" away from the
-/// body's middle on the leg's own side. Angles rad, lengths m, times s from heel strike.
-///
-/// The phase p rises from 0 to 1 over the step; at each end its rate is the pace of that strike. The shapes of both
-/// strikes are blended. In double support the shape is that of `from`. After it, the share of `to` is e(p) = 10 q³ − 15
-/// q⁴ + 6 q⁵. The elapsed part of single support is q = (p − mixed_from)/(1 − mixed_from). In a step that starts at
-/// rest `mixed_from` is 0, so the shapes are blended over the whole step. All curves are twice continuously
-/// differentiable, also across steps.
-template <class F>
-struct StepPlan {
-  F duration_s, double_support_s;    // of the step; of its first part on both feet
-  F double_support, landing;         // phases of the other foot's toe-off and heel strike; both 0: stands
-  F step_length_m, length_before_m;  // to the next foothold, from the one before
-  F stride_part;                     // swing length relative to the steady walks of both strikes
-  F mixed_from;                      // phase at which blending of the shapes begins
-  F phase_rate_from, phase_rate_to;  // rate of the phase, per fraction of the step's time
-  F trailing_half_width_m, trailing_toe_out;
-  F slant_rad;                      // heading of a standing walker's step aside, relative to the body
-  UInt32<F> swaps;                  // 1: a standing walker's other foot becomes the stance foot at the start
-  UInt32<F> displacement, revision;  // of the gait for which it was solved
-  UInt32<F> settled;                 // 1: the next step mirrors this one while the gait is unchanged
-  UInt32<F> clamped;                 // 1: centre of pressure outside the soles by over 4 % of height
-  HeelStrike<F> from, to;
-  Quintic<F> even_m;  // forward path of the hips by p, without its periodic part
-  /// The swing foot from toe-off to heel strike, by the fraction of the swing: its pitch and its ankle's position
-  /// relative to the stance foothold, without the bumps of its shape.
-  Quintic<F> swing_pitch, swing_forward_m, swing_up_m, swing_out_m;
-  /// Correction of the swing ankle, added to those bumps if the swing is computed from joint torques (style:
-  /// forward_swing). Its terms are 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, with u the fraction of the
-  /// swing.
-  F swing_by_forward_m[other_way_count], swing_by_up_m[other_way_count];
-  /// Correction of the hips' path if the strikes differ: forward, and toward the stance foot. Its terms are
-  /// 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, with u the fraction of the step's time.
-  F ahead_m[other_way_count], aside_m[other_way_count];
 };
 
 /// Position of a walker. `time_s`: time since heel strike of the stance foot (0 right, 1 left). The walking line is the

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 
-#include <mobil/components/activation.h>
 #include <mobil/components/muscle.h>
 
 namespace mobil::inline v0_3 {

@@ -119,6 +119,13 @@ inline constexpr Method last_method = Method::finite;
 enum class Mass : std::uint8_t { lumped, consistent };
 inline constexpr std::array<std::string_view, 2> mass_name = {"lumped", "consistent"};
 
+/// Source of a muscle's excitation. `none`: no activation, and the tendon does not stretch. `phase`: the phase of the
+/// walker's gait cycle (assets/muscles/excitation_curves.h), or standing tone for standing and posed people. `host`:
+/// Simulation::set_excitation. `moments`: the moments at the leg's joints (JointMoments), shared among its muscles at
+/// minimum cost.
+enum class ExcitationSource : std::uint8_t { none, phase, host, moments };
+inline constexpr std::array<std::string_view, 4> excitation_source_name = {"none", "phase", "host", "moments"};
+
 /// The person that a muscle belongs to: entity index and generation, and the side of the body.
 template <class F>
 struct MuscleOwner {

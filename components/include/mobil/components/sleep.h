@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <mobil/components/gait_style.h>
+#include <mobil/components/gait.h>
 #include <mobil/components/lanes.h>
 
 namespace mobil::inline v0_3 {

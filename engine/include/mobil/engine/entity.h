@@ -8,8 +8,6 @@
 #include <memory_resource>
 #include <vector>
 
-#include <mobil/engine/status.h>
-
 namespace mobil::inline v0_3 {
 
 /// A handle: plain data that can be stored, copied and sent. The default one is null and never alive.

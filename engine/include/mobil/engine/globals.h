@@ -4,42 +4,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <memory_resource>
 #include <span>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
-#include <mobil/engine/archetype.h>
+#include <mobil/engine/module.h>
 
 namespace mobil::inline v0_3 {
 
-/// Declaration of a type of global. `first`: bytes of the initial value. `is_sound`: checks a value from a snapshot;
-/// null if every value is valid.
-struct GlobalPart {
-  std::uint64_t id = 0;
-  std::string_view name;
-  std::span<const std::byte> first;
-  bool (*is_sound)(const void* value) = nullptr;
-};
-
-/// Declares T, which must be trivially copyable, unpadded, at most 16-byte aligned; T{} is its first value.
-template <class T, bool (*sound)(const T&) = nullptr>
-GlobalPart global_part() {
-  static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 16);
-  static const T first{};
-  GlobalPart part{type_id<T>(), type_name<T>(), std::as_bytes(std::span(&first, 1))};
-  if constexpr (sound != nullptr) {
-    part.is_sound = [](const void* value) {
-      T copy;
-      std::memcpy(static_cast<void*>(&copy), value, sizeof(T));
-      return sound(copy);
-    };
-  }
-  return part;
-}
-
+/// The values of a world's globals.
 class Globals {
  public:
   explicit Globals(std::pmr::memory_resource* memory) : values_(memory) {}

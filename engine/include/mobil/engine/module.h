@@ -14,20 +14,23 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <memory_resource>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <mobil/engine/archetype.h>
 #include <mobil/engine/error.h>
-#include <mobil/engine/globals.h>
-#include <mobil/engine/phase.h>
 
 namespace mobil::inline v0_3 {
 
+struct Frame;    // mobil/engine/phase.h
 class Schedule;  // mobil/schedule.h
 class ScheduleBuilder;
 struct SavedWorld;  // engine/snapshot.h
@@ -44,6 +47,41 @@ template <class T>
 NamedResource named_resource(std::string name, std::shared_ptr<const T> resource) {
   return {std::move(name), component_id(Shared<T>{}), std::move(resource)};
 }
+
+/// Declaration of a type of global. `first`: bytes of the initial value. `is_sound`: checks a value from a snapshot;
+/// null if every value is valid.
+struct GlobalPart {
+  std::uint64_t id = 0;
+  std::string_view name;
+  std::span<const std::byte> first;
+  bool (*is_sound)(const void* value) = nullptr;
+};
+
+/// Declares T, which must be trivially copyable, unpadded, at most 16-byte aligned; T{} is its first value.
+template <class T, bool (*sound)(const T&) = nullptr>
+GlobalPart global_part() {
+  static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 16);
+  static const T first{};
+  GlobalPart part{type_id<T>(), type_name<T>(), std::as_bytes(std::span(&first, 1))};
+  if constexpr (sound != nullptr) {
+    part.is_sound = [](const void* value) {
+      T copy;
+      std::memcpy(static_cast<void*>(&copy), value, sizeof(T));
+      return sound(copy);
+    };
+  }
+  return part;
+}
+
+/// A phase of a module (Module::before, Module::after). If a `before` phase throws, the tick ends before its systems
+/// and does not count. The effects of earlier phases stay, and the next tick begins with the phase that threw. If an
+/// `after` phase throws, the tick counts, and later phases do not run in that tick. A phase that can run out of memory
+/// must allocate before it changes anything, or use a World::Transaction. A phase can call the simulation that runs it,
+/// except `tick` and `advance`.
+struct Phase {
+  std::string name;
+  std::function<void(const Frame& frame)> run;
+};
 
 struct Module {
   /// Name, unique in a simulation, by which snapshots identify the module.

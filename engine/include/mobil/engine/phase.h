@@ -9,10 +9,8 @@
 
 #include <concepts>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <memory_resource>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -68,16 +66,6 @@ struct Frame {
   const Tick& tick;
   Workspace& workspace;
   const Schedule& schedule;
-};
-
-/// A phase of a module (Module::before, Module::after). If a `before` phase throws, the tick ends before its systems
-/// and does not count. The effects of earlier phases stay, and the next tick begins with the phase that threw. If an
-/// `after` phase throws, the tick counts, and later phases do not run in that tick. A phase that can run out of memory
-/// must allocate before it changes anything, or use a World::Transaction. A phase can call the simulation that runs it,
-/// except `tick` and `advance`.
-struct Phase {
-  std::string name;
-  std::function<void(const Frame& frame)> run;
 };
 
 }  // namespace mobil::inline v0_3

@@ -12,7 +12,7 @@ namespace mobil::inline v0_3 {
 inline constexpr float fat_reach = 0.3F;
 
 /// Returns the displayed displacement of each region's fat, m, world frame: `beside_m`, which approaches `fat_reach` of
-/// the thickness for large amplitudes. `size` is the person's (body_size).
+/// the thickness for large amplitudes. `size` is the person's component.
 std::array<Vec3<float>, fat_regions> shown_fat(const BodySize<float>& size, const FatWobble<float>& fat);
 
 }  // namespace mobil::inline v0_3

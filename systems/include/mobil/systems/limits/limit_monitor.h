@@ -8,6 +8,7 @@
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
+#include <mobil/components/step_plan.h>
 #include <mobil/engine/access.h>
 #include <mobil/engine/entity.h>
 #include <mobil/engine/world.h>

@@ -9,9 +9,9 @@
 
 #include <mobil/components/lanes.h>
 #include <mobil/engine/entity.h>
+#include <mobil/engine/error.h>
 #include <mobil/engine/jobs.h>
 #include <mobil/engine/module.h>
-#include <mobil/engine/status.h>
 #include <mobil/engine/table_list.h>
 #include <mobil/engine/world.h>
 #include <mobil/systems/people/step_event.h>

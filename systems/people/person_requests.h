@@ -9,6 +9,7 @@
 #include <mobil/components/pose.h>
 #include <mobil/engine/entity.h>
 #include <mobil/engine/error.h>
+#include <mobil/systems/people/people.h>
 
 namespace mobil::inline v0_3 {
 
@@ -23,6 +24,8 @@ bool is_rotation(const Quat<float>& q);
 bool is_person(const World& world, Entity entity);
 /// Returns true for a person whose skeleton the host animates; false for a stale handle.
 bool is_posed(const World& world, Entity entity);
+/// Returns a person's state; nothing for a stale handle and for entities that are not people.
+std::optional<PersonState> person_state(const World& world, Entity person);
 /// Returns the request that a person's body was made from.
 BodyRequest body_request(const World& world, Entity person);
 /// Return the components of a body.
@@ -40,12 +43,6 @@ struct AskedBody {
 };
 /// Returns them for a walker, awake or asleep; nothing for a stale handle or a posed person.
 std::optional<AskedBody> asked_body(const World& world, Entity person);
-/// A change of gait and heading for one of many walkers. Unset fields keep their value.
-struct WalkChange {
-  Entity person;
-  std::optional<GaitChange> gait{};
-  std::optional<float> heading_rad{};
-};
 /// Returns the gait of a walker with a change. Errors: a stale handle, a posed person, a gait out of range.
 Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change);
 Result<Gait<float>> changed_gait(const AskedBody& now, const GaitChange& change);
@@ -63,11 +60,6 @@ Result<Gait<float>> turned_gait(const World& world, Entity person, float heading
 /// The motion begins within 0.25 s, or when the feet are side by side, and takes two steps of 0.3 to 0.5 s. Errors: a
 /// stale handle, a posed person, a walker with a requested speed above 0, a displacement out of range.
 Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m);
-/// New position of a person: point of the walking line next to the supporting foot, m, and heading (rad about +Y).
-struct PlaceRequest {
-  Entity person;
-  float x_m = 0, z_m = 0, heading_rad = 0;
-};
 /// A rigid motion on the ground, from one position and heading to another.
 struct Placing {
   float from_x_m, from_z_m, from_heading_rad, to_x_m, to_z_m, to_heading_rad;

@@ -1,14 +1,17 @@
 #pragma once
-// States of people, and the features that they can have.
+// People: their states and features, and requests for many of them.
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
+#include <mobil/components/body.h>
+#include <mobil/components/gait.h>
+#include <mobil/components/leg_muscles.h>
+#include <mobil/engine/archetype.h>
 #include <mobil/engine/entity.h>
 
 namespace mobil::inline v0_3 {
-
-class World;
 
 /// State of a person. `systems/states/README.md` has a table of the effect of each call on people of each state.
 enum class PersonState : std::uint8_t {
@@ -32,9 +35,6 @@ enum class PersonState : std::uint8_t {
   posed,
 };
 
-/// Returns a person's state; nothing for a stale handle and for entities that are not people.
-std::optional<PersonState> person_state(const World& world, Entity person);
-
 /// Optional features of people (Simulation::enable).
 enum class Feature : std::uint8_t {
   /// Heel strikes, toe-offs, stops and starts (Simulation::events). Compact people have events as well. Sleepers have
@@ -48,6 +48,31 @@ enum class Feature : std::uint8_t {
   /// every tick, because a repeated pose is a stop, and stay near the origin: at 64 m positions are 8 µm apart, which
   /// is 0.03 m/s². With individual limb lengths, masses stay where the height puts them.
   forces,
+};
+
+/// Request for one of many walkers: a position on the ground, m, and a heading (rad about +Y, 0 toward +Z, positive to
+/// the left).
+struct SpawnRequest {
+  BodyRequest body{};
+  GaitRequest gait{};
+  float x_m = 0, z_m = 0, heading_rad = 0;
+  std::optional<LegMuscles> muscles{};
+  /// Further parts of the person's row, initially zero: parts of the host, or `managed_parts()` for people whom level
+  /// of detail will manage, so that their rows need not move then. The caller owns the memory.
+  std::span<const ComponentId> parts{};
+};
+
+/// A change of gait and heading for one of many walkers. Unset fields keep their value.
+struct WalkChange {
+  Entity person;
+  std::optional<GaitChange> gait{};
+  std::optional<float> heading_rad{};
+};
+
+/// New position of a person: point of the walking line next to the supporting foot, m, and heading (rad about +Y).
+struct PlaceRequest {
+  Entity person;
+  float x_m = 0, z_m = 0, heading_rad = 0;
 };
 
 }  // namespace mobil::inline v0_3

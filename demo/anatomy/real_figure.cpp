@@ -20,8 +20,13 @@ Result<void> bind(const Person& person, const SurfaceChoice& choice, FittedMuscl
   const Passages passages =
       bind_muscle(muscle.surface, mesh->lattice, mesh->frame, muscle.attachments, mesh->min_passage_m);
   if (ligament) bind_beyond(ligament->surface, muscle.surface, mesh->lattice, mesh->frame, passages, ligament->ends);
-  drawn.muscles.push_back({*driver, std::move(muscle.surface)});
-  if (ligament) drawn.muscles.push_back({*driver, std::move(ligament->surface)});
+  const auto all_tendon = [](const MuscleSurface& surface) {
+    return std::vector<float>(surface.mesh.position.size(), 1.0F);
+  };
+  const bool tendon = members_of(muscle.muscle).size() > 1;  // a group's
+  drawn.muscles.push_back(
+      {*driver, muscle.muscle, muscle.surface, tendon ? all_tendon(muscle.surface) : std::vector<float>{}});
+  if (ligament) drawn.muscles.push_back({*driver, muscle.muscle, ligament->surface, all_tendon(ligament->surface)});
   return {};
 }
 

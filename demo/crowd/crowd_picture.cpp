@@ -116,6 +116,8 @@ std::vector<std::byte> pack_legs(const WalkRecording& legs) {
     bytes.put(muscle.colour);
     put_list(bytes, muscle.position_m.front());
     put_list(bytes, muscle.triangle);
+    put_list(bytes, muscle.tissue);
+    bytes.put(muscle.fibres);
   }
   return bytes.bytes();
 }
@@ -144,7 +146,10 @@ Result<WalkRecording> unpack_legs(std::span<const std::byte> packed) {
     reader.take(muscle.colour);
     take_list(reader, muscle.position_m.emplace_back());
     take_list(reader, muscle.triangle);
-    good = good && whole(muscle.position_m.front().size(), muscle.triangle);
+    take_list(reader, muscle.tissue);
+    reader.take(muscle.fibres);
+    const bool tissue = muscle.tissue.empty() || muscle.tissue.size() == muscle.position_m.front().size();
+    good = good && tissue && whole(muscle.position_m.front().size(), muscle.triangle);
   }
   if (!good || !reader.whole()) return fail("the bytes of a person's bones and muscles are inconsistent");
   return legs;

@@ -152,7 +152,8 @@ void add_muscles(const WalkRecording& recording, std::size_t frame, const Vec3<f
     scene.meshes.push_back({.position = muscle.position_m[frame],
                             .triangle = muscle.triangle,
                             .colour = display_colour(muscle.colour),
-                            .tint = muscle.tendon,
+                            .tissue = muscle.tissue,
+                            .fibres = muscle.fibres,
                             .wetness = 0.5F,
                             .placement = {&scene.placement.back(), 1}});
   }

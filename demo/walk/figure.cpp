@@ -9,11 +9,7 @@
 namespace mobil {
 namespace {
 
-constexpr Vec3<float> belly_colour{0.40F, 0.055F, 0.04F}, tendon_colour{0.62F, 0.53F, 0.42F};
-
-bool is_tendon(const std::string& name) {
-  return name.find("tendon") != std::string::npos || name.find("ligament") != std::string::npos;
-}
+constexpr Vec3<float> belly_colour{0.40F, 0.055F, 0.04F};
 
 /// Vertices of a body's surfaces, all at the origin if its muscles are gone.
 struct WrittenSurfaces {
@@ -54,8 +50,6 @@ Result<Figure> bound_figure(const Person& person, DrawnSurfaces drawn, const Sur
   auto muscles = bind_surfaces(person.body, drawn, choice);
   if (!muscles) return tl::unexpected(muscles.error());
   figure.muscles = std::move(*muscles);
-  for (const SurfacePart& part : figure.muscles.part)
-    figure.colours.push_back(is_tendon(part.name) ? tendon_colour : belly_colour);
   if (!contact) return figure;
   auto contacts = find_contacts(figure.muscles, person.body, person.leg_muscles);
   if (!contacts) return tl::unexpected(contacts.error());
@@ -75,15 +69,15 @@ WalkRecording begin_recording(const Figure& figure, double frame_s) {
   WalkRecording recording;
   recording.frame_s = frame_s;
   recording.bones = figure.bones;
-  for (std::size_t i = 0; i < figure.muscles.part.size(); ++i) {
-    const SurfacePart& part = figure.muscles.part[i];
+  for (const SurfacePart& part : figure.muscles.part) {
     if (!part.driver) continue;
     RecordedMuscle recorded;
     recorded.name = part.name;
     recorded.segment = part.segment;
-    recorded.colour = figure.colours[i];
-    const auto first = figure.muscles.tendon.begin() + part.first_vertex;
-    recorded.tendon.assign(first, first + part.vertices);
+    recorded.colour = belly_colour;
+    const auto first = figure.muscles.tissue.begin() + part.first_vertex;
+    recorded.tissue.assign(first, first + part.vertices);
+    recorded.fibres = part.fibres;
     for (std::uint32_t k = 0; k < part.indices; ++k)
       recorded.triangle.push_back(figure.muscles.index[part.first_index + k] - part.first_vertex);
     recording.muscles.push_back(std::move(recorded));

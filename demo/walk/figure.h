@@ -15,8 +15,7 @@ namespace mobil {
 
 struct Figure {
   std::vector<BoneSurface> bones;
-  BodySurfaces muscles;              // right and left; with contacts also bones, which are not drawn from here
-  std::vector<Vec3<float>> colours;  // linear; of each part
+  BodySurfaces muscles;  // right and left; with contacts also bones, which are not drawn from here
   std::optional<SurfaceContacts> contacts;
   std::vector<std::string> said;    // about the folder and its meshes, "FILE: …"
   std::vector<SurfaceMesh> skins;   // of right legs, if the folder has some (mobil/assets/surfaces/custom_skin.h)

@@ -31,9 +31,9 @@ Result<void> check(const DrawMesh& mesh) {
     return fail(fmt::format("a mesh to draw has {} normals for {} vertices; give one for each, or none",
                             mesh.normal.size(), mesh.position.size()));
   }
-  if (!mesh.tint.empty() && mesh.tint.size() != mesh.position.size()) {
-    return fail(fmt::format("a mesh to draw has {} tints for {} vertices; give one for each, or none", mesh.tint.size(),
-                            mesh.position.size()));
+  if (!mesh.tissue.empty() && mesh.tissue.size() != mesh.position.size()) {
+    return fail(fmt::format("a mesh to draw has the tissue of {} vertices, and {} vertices; give one for each, or none",
+                            mesh.tissue.size(), mesh.position.size()));
   }
   const auto highest = std::max_element(mesh.triangle.begin(), mesh.triangle.end());
   if (highest != mesh.triangle.end() && *highest >= mesh.position.size()) {
@@ -43,7 +43,7 @@ Result<void> check(const DrawMesh& mesh) {
   return {};
 }
 
-/// Appends the mesh's positions, normals and tints to `out`, for a wireframe positions and normals of each corner.
+/// Appends the mesh's positions, normals and tissue to `out`, for a wireframe positions and normals of each corner.
 void append(const DrawMesh& mesh, std::span<const Vec3<float>> normal, std::vector<Vec3<float>>& out,
             StoredMesh& stored) {
   const auto add = [&](const auto& values) {
@@ -57,11 +57,12 @@ void append(const DrawMesh& mesh, std::span<const Vec3<float>> normal, std::vect
   };
   stored.position_at = add(mesh.position);
   stored.normal_at = add(normal);
-  stored.tinted = !mesh.tint.empty() && !mesh.wireframe;
-  if (stored.tinted) {
-    stored.tint_at = out.size() * sizeof(Vec3<float>);
-    out.resize(out.size() + (mesh.tint.size() + sizeof(Vec3<float>) - 1) / sizeof(Vec3<float>));
-    std::memcpy(reinterpret_cast<std::byte*>(out.data()) + stored.tint_at, mesh.tint.data(), mesh.tint.size());
+  stored.has_tissue = !mesh.tissue.empty() && !mesh.wireframe;
+  if (stored.has_tissue) {
+    const std::size_t bytes = mesh.tissue.size_bytes();
+    stored.tissue_at = out.size() * sizeof(Vec3<float>);
+    out.resize(out.size() + (bytes + sizeof(Vec3<float>) - 1) / sizeof(Vec3<float>));
+    std::memcpy(reinterpret_cast<std::byte*>(out.data()) + stored.tissue_at, mesh.tissue.data(), bytes);
   }
   stored.count = static_cast<int>(mesh.triangle.size());
   for (const auto& p : mesh.position) stored.box.add(p);

@@ -15,9 +15,9 @@ namespace mobil::inline v0_3 {
 /// Location of a mesh: byte offsets into its buffers. Wireframes have three vertices per triangle and no indices.
 struct StoredMesh {
   unsigned vertex_buffer = 0, index_buffer = 0;
-  std::size_t position_at = 0, normal_at = 0, tint_at = 0, index_at = 0;
-  bool tinted = false;  // has tints, a byte each
-  int count = 0;        // indices, or vertices of a wireframe
+  std::size_t position_at = 0, normal_at = 0, tissue_at = 0, index_at = 0;
+  bool has_tissue = false;
+  int count = 0;  // indices, or vertices of a wireframe
   capture_math::Box box;
 };
 

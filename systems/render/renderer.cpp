@@ -172,11 +172,11 @@ void Renderer::Device::draw_mesh(const MeshDraw& draw, const ShaderProgram& prog
   glBindBuffer(GL_ARRAY_BUFFER, draw.mesh.vertex_buffer);
   attribute(at_position, 3, sizeof(Vec3<float>), draw.mesh.position_at, 0);
   attribute(at_normal, 3, sizeof(Vec3<float>), draw.mesh.normal_at, 0);
-  if (draw.mesh.tinted) {
-    attribute(at_tint, 1, 1, draw.mesh.tint_at, 0, GL_UNSIGNED_BYTE);
+  if (draw.mesh.has_tissue) {
+    attribute(at_tissue, 4, sizeof(Tissue), draw.mesh.tissue_at, 0, GL_UNSIGNED_BYTE);
   } else {
-    glDisableVertexAttribArray(at_tint);
-    glVertexAttrib1f(at_tint, 0);
+    glDisableVertexAttribArray(at_tissue);
+    glVertexAttrib4f(at_tissue, 0, 0, 0, 0);
   }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw.mesh.index_buffer);
   glBindBuffer(GL_ARRAY_BUFFER, placement_buffer);
@@ -184,8 +184,10 @@ void Renderer::Device::draw_mesh(const MeshDraw& draw, const ShaderProgram& prog
   if (program.outward >= 0) glUniform1f(program.outward, flip ? -1.0F : 1.0F);
   if (program.opacity >= 0) glUniform1f(program.opacity, draw.asked->opacity);
   if (program.albedo >= 0) set_albedo(program, draw.asked->colour, draw.asked->wetness);
-  const Colour tint = linear(draw.asked->tint_colour);
-  if (program.tint_albedo >= 0) glUniform3f(program.tint_albedo, tint.red, tint.green, tint.blue);
+  const Colour tendon = linear(draw.asked->tendon_colour);
+  if (program.tendon_albedo >= 0) glUniform3f(program.tendon_albedo, tendon.red, tendon.green, tendon.blue);
+  const FibreScale fibres = draw.mesh.has_tissue ? draw.asked->fibres : FibreScale{};
+  if (program.fibres >= 0) glUniform3f(program.fibres, fibres.length_m, 0.5F * fibres.girth_m, fibres.pennation_rad);
   std::size_t first = draw.first_placement;
   for (const bool mirrored : {false, true}) {
     const int copies = mirrored ? draw.mirrored : draw.upright;
@@ -226,7 +228,7 @@ void Renderer::Device::draw_meshes(bool depth_only) const {
   }
   glDisable(GL_CULL_FACE);
   for (unsigned location = 0; location < at_placement + 4; ++location) glDisableVertexAttribArray(location);
-  glDisableVertexAttribArray(at_tint);
+  glDisableVertexAttribArray(at_tissue);
 }
 
 void Renderer::Device::draw_marks(const Scene& scene, bool depth_only) const {

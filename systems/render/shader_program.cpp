@@ -59,7 +59,8 @@ Result<ShaderProgram> make_program(const char* name, const std::string& vertex_s
   const GLint shadow_map = glGetUniformLocation(program.id, "shadow_map");
   if (shadow_map >= 0) glUniform1i(shadow_map, 0);
   program.albedo = glGetUniformLocation(program.id, "albedo");
-  program.tint_albedo = glGetUniformLocation(program.id, "tint_albedo");
+  program.tendon_albedo = glGetUniformLocation(program.id, "tendon_albedo");
+  program.fibres = glGetUniformLocation(program.id, "fibres");
   program.outward = glGetUniformLocation(program.id, "outward");
   program.opacity = glGetUniformLocation(program.id, "opacity");
   program.width = glGetUniformLocation(program.id, "width");

@@ -10,7 +10,7 @@ namespace mobil::inline v0_3 {
 /// A program and the locations of its uniforms, -1 for those that it lacks.
 struct ShaderProgram {
   unsigned id = 0;
-  int albedo = -1, tint_albedo = -1, outward = -1, width = -1, radius = -1, opacity = -1;
+  int albedo = -1, tendon_albedo = -1, fibres = -1, outward = -1, width = -1, radius = -1, opacity = -1;
 };
 
 /// Compiles and links a program in the current context, and binds the block "Frame" to 0 and the shadow map to texture

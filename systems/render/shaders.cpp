@@ -60,6 +60,48 @@ vec3 shade(vec3 albedo, float wetness, vec3 n, vec3 p, float key) {
 }
 )";
 
+// Muscle, aponeurosis and tendon. Fibres are streaks of noise along them, in coarse and fine bundles, each of which
+// fades as it becomes thinner than a pixel. Tendons and aponeuroses begin between bundles.
+const char* const flesh = R"(
+uniform vec3 fibres;
+uniform vec3 tendon_albedo;
+float scatter(vec2 cell) {
+  vec3 q = fract(cell.xyx * 0.1031);
+  q += dot(q, q.yzx + 33.33);
+  return fract((q.x + q.y) * q.z);
+}
+float bundles(vec2 at, vec2 size, vec2 footprint) {
+  vec2 p = at / size, cell = floor(p), f = p - cell;
+  float seen = 1.0 - smoothstep(0.35, 0.9, max(footprint.x / size.x, footprint.y / size.y));
+  if (seen <= 0.0) return 0.0;
+  f = f * f * (3.0 - 2.0 * f);
+  vec2 low = vec2(scatter(cell), scatter(cell + vec2(0.0, 1.0)));
+  vec2 high = vec2(scatter(cell + vec2(1.0, 0.0)), scatter(cell + vec2(1.0, 1.0)));
+  vec2 across = mix(low, high, f.x);
+  return seen * (2.0 * mix(across.x, across.y, f.y) - 1.0);
+}
+// Returns the albedo, and the wetness.
+vec4 flesh(vec4 muscle, vec4 tissue) {
+  vec2 at = tissue.xy * fibres.xy;
+  float s = sin(fibres.z), c = cos(fibres.z);
+  at = vec2(c * at.x + s * at.y, c * at.y - s * at.x);
+  vec2 footprint = fwidth(at);
+  float coarse = 0.0, fine = 0.0;
+  if (fibres.x > 0.0) {
+    coarse = bundles(at, vec2(0.035, 0.0022), footprint);
+    fine = bundles(at, vec2(0.010, 0.0006), footprint);
+  }
+  float streak = 0.65 * coarse + 0.35 * fine;
+  float tendon = smoothstep(0.0, 1.0, tissue.z + coarse * tissue.z * (1.0 - tissue.z));
+  float sheet = clamp(tissue.w + 1.2 * streak * tissue.w * (1.0 - tissue.w), 0.0, 1.0);
+  vec3 red = muscle.rgb * (1.0 + 0.28 * streak);
+  vec3 ivory = tendon_albedo * (1.0 + 0.06 * streak);
+  float pearl = sheet * (1.0 - tendon);
+  float wet = muscle.w + 0.4 * pearl + 0.2 * streak * (1.0 - tendon);
+  return vec4(mix(red, ivory, max(tendon, 0.6 * sheet)), clamp(wet, 0.0, 1.0));
+}
+)";
+
 // Background: bright at the horizon, slightly darker above, below and towards the picture's edges.
 const char* const room = R"(
 vec3 room() {
@@ -87,14 +129,14 @@ std::string mesh_vertex_source() {
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in mat4x3 placement;
-layout(location = 9) in float tint;
+layout(location = 9) in vec4 tissue;
 uniform float outward;
 out vec3 world;
 out vec3 world_normal;
 out vec3 corner;
-out float tinted;
+out vec4 tissues;
 void main() {
-  tinted = tint;
+  tissues = tissue;
   mat3 m = mat3(placement[0], placement[1], placement[2]);
   world = m * position + placement[3];
   vec3 squared = vec3(dot(m[0], m[0]), dot(m[1], m[1]), dot(m[2], m[2]));
@@ -107,18 +149,18 @@ void main() {
 }
 
 std::string mesh_fragment_source() {
-  return joined({head, samples(4), shadow, shade, R"(
+  return joined({head, samples(4), shadow, shade, flesh, R"(
 uniform vec4 albedo;
-uniform vec3 tint_albedo;
 uniform float opacity;
 in vec3 world;
 in vec3 world_normal;
-in float tinted;
+in vec4 tissues;
 out vec4 colour;
 void main() {
   vec3 n = normalize(world_normal);
   float key = lit(world + n * (1.6 * light.w), 1.6, dot(n, light.xyz) > -0.12);
-  colour = vec4(shade(mix(albedo.rgb, tint_albedo, tinted), albedo.w, n, world, key), opacity);
+  vec4 own = flesh(albedo, tissues);
+  colour = vec4(shade(own.rgb, own.w, n, world, key), opacity);
 }
 )"});
 }

@@ -16,6 +16,7 @@
 #include "assets/surfaces/leg_bones.h"
 #include "assets/surfaces/muscle_lattice.h"
 #include "assets/surfaces/surface_mesh.h"
+#include "assets/surfaces/tissue.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -57,7 +58,7 @@ struct Binding {
 
   std::uint32_t add_part(std::string name, Segment segment, std::optional<Muscle> driver, Side side,
                          const SurfaceMesh& mesh, std::span<const TexturePlace> texture,
-                         std::span<const float> tendon = {});
+                         const MuscleTissue& tissue = {});
   Result<std::size_t> driver_of(Muscle muscle);
   Result<void> add(const BoneSurface& bone);
   Result<void> add(const DrivenSurface& muscle);
@@ -65,8 +66,8 @@ struct Binding {
 
 std::uint32_t Binding::add_part(std::string name, Segment segment, std::optional<Muscle> driver, Side side,
                                 const SurfaceMesh& mesh, std::span<const TexturePlace> texture,
-                                std::span<const float> tendon) {
-  SurfacePart part{std::move(name), segment, driver, side, made.vertices, 0, 0, 0};
+                                const MuscleTissue& tissue) {
+  SurfacePart part{std::move(name), segment, driver, side, made.vertices, 0, 0, 0, tissue.fibres};
   part.vertices = static_cast<std::uint32_t>(mesh.position.size());
   part.first_index = static_cast<std::uint32_t>(made.index.size());
   part.indices = static_cast<std::uint32_t>(mesh.triangle.size());
@@ -74,9 +75,9 @@ std::uint32_t Binding::add_part(std::string name, Segment segment, std::optional
   if (driver && side == Side::left) turn_over(triangle);
   for (const std::uint32_t v : triangle) made.index.push_back(made.vertices + v);
   if (choice.textured) made.texture.insert(made.texture.end(), texture.begin(), texture.end());
-  for (std::uint32_t v = 0; v < part.vertices; ++v)
-    made.tendon.push_back(v < tendon.size() ? static_cast<std::uint8_t>(std::lround(255 * tendon[v])) : 0);
+  made.tissue.insert(made.tissue.end(), tissue.vertex.begin(), tissue.vertex.end());
   made.vertices += part.vertices;
+  made.tissue.resize(made.vertices);
   made.part.push_back(std::move(part));
   return static_cast<std::uint32_t>(made.part.size() - 1);
 }
@@ -111,22 +112,21 @@ Result<void> Binding::add(const BoneSurface& bone) {
 Result<void> Binding::add(const DrivenSurface& muscle) {
   const auto driver = driver_of(muscle.driver);
   if (!driver) return tl::unexpected(driver.error());
-  Texture texture;
-  if (choice.textured) {
-    const auto axes = geometry::columns(muscle.surface.rest_rotation);
-    texture = texture_of(muscle.surface.mesh, texture_places(muscle.surface.mesh.position, axes[2], axes[1]));
-  }
+  const auto axes = geometry::columns(muscle.surface.rest_rotation);
+  const SurfaceMesh& mesh = muscle.surface.mesh;
+  const std::vector<TexturePlace> places = texture_places(mesh.position, axes[2], axes[1]);
+  const Texture texture = choice.textured ? texture_of(mesh, places) : Texture{};
   auto packed = pack_surface(muscle.surface, body, made.driver[*driver].nodes, texture.along);
   if (!packed) return tl::unexpected(packed.error());
   made.max_places = std::max(made.max_places, packed->places());
-  const SurfaceMesh& mesh = muscle.surface.mesh;
+  const MuscleTissue tissue = muscle_tissue(body, muscle.muscle, mesh, places, muscle.tendon);
   const std::string name = mesh.name.ends_with("_right") ? mesh.name.substr(0, mesh.name.size() - 6) : mesh.name;
   BodySurfaces::Piece piece{std::move(*packed), *driver, {}};
   for (const Side side : {Side::right, Side::left}) {
     if (!choice.sides[side]) continue;
     const Segment segment = on_side(on_shank(muscle.driver) ? Segment::shank_right : Segment::thigh_right, side);
     piece.part[side] = add_part(name + (side == Side::right ? "_right" : "_left"), segment, muscle.driver, side, mesh,
-                                texture.place, muscle.tendon);
+                                texture.place, tissue);
   }
   made.piece.push_back(std::move(piece));
   return {};
@@ -173,7 +173,7 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
       if (!mesh) return tl::unexpected(mesh.error());
       bind_muscle(muscle.surface, mesh->lattice, mesh->frame, muscle.attachments, mesh->min_passage_m);
     }
-    drawn.muscles.push_back({*driver, std::move(muscle.surface), std::move(muscle.tendon)});
+    drawn.muscles.push_back({*driver, muscle.muscle, std::move(muscle.surface), std::move(muscle.tendon)});
   }
   return drawn;
 }

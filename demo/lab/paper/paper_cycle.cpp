@@ -166,8 +166,13 @@ WalkRecording part_of(const Actor& actor) {
     const bool drawn = actor.muscles == Actor::Muscles::both ||
                        (actor.muscles == Actor::Muscles::right && !muscle.name.ends_with("_left"));
     if (drawn) {
-      part.muscles.push_back(
-          {muscle.name, muscle.segment, muscle.colour, muscle.triangle, {muscle.position_m[actor.frame]}});
+      part.muscles.push_back({muscle.name,
+                              muscle.segment,
+                              muscle.colour,
+                              muscle.triangle,
+                              {muscle.position_m[actor.frame]},
+                              muscle.tissue,
+                              muscle.fibres});
     }
   }
   return part;

@@ -1,6 +1,7 @@
 #pragma once
 // A drawable surface, generated or read from a file, and the bindings of its vertices to the body.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,6 +24,23 @@ struct BoneSurface {
   SurfaceMesh mesh;
 };
 
+/// Tissue of a vertex; each byte is 0 to 255 for 0 to 1. `along` and `around` are texture coordinates (TexturePlace,
+/// folded). `tendon` is 0 in a belly and 1 in a tendon. `aponeurosis` is 1 where the sheet in which a tendon continues
+/// covers the belly. Bones have zeros.
+struct Tissue {
+  std::uint8_t along = 0, around = 0, tendon = 0, aponeurosis = 0;
+  bool operator==(const Tissue&) const = default;
+};
+/// Returns the share of a tendon's colour in a vertex's colour, 0 to 1; the rest is the muscle's.
+inline float tendon_colour_share(const Tissue& tissue) {
+  return std::max(static_cast<float>(tissue.tendon), 0.6F * static_cast<float>(tissue.aponeurosis)) / 255;
+}
+
+/// Mean length and girth of a muscle's surface, m, and the angle between its fibres and the direction along it, rad.
+struct FibreScale {
+  float length_m = 0, girth_m = 0, pennation_rad = 0;
+};
+
 /// One vertex of a muscle surface. It has eight nodes of its lattice with trilinear weights (sum 1), and shares for the
 /// lattice, and for the bones of origin and insertion as attached and as held (sum 1). A vertex that is held has no
 /// share of the lattice.
@@ -41,8 +59,8 @@ struct MuscleSurface {
   Segment origin = Segment::pelvis, insertion = Segment::shank_right;
   std::vector<VertexBinding> binding;
   std::vector<Vec3<float>> rest_in_lattice;  // the vertex in the muscle's rest frame, m
-  Vec3<float> origin_m{}, insertion_m{};  // attachment points
-  Quat<float> rest_rotation{0, 0, 0, 1};  // of the muscle's frame
+  Vec3<float> origin_m{}, insertion_m{};     // attachment points
+  Quat<float> rest_rotation{0, 0, 0, 1};     // of the muscle's frame
   float origin_turn = 0, insertion_turn = 0;
   std::vector<float> origin_held, insertion_held;  // held share of each vertex; empty: none
 };

@@ -52,9 +52,9 @@ Result<RestMesh> rest_mesh(const Body& body, Muscle muscle, const Cells& cells);
 
 /// A right-side surface bound (mobil/assets/surfaces/surface_binding.h) to the mesh of the muscle that drives it.
 struct DrivenSurface {
-  Muscle driver{};
+  Muscle driver{}, muscle{};  // `muscle` is the surface's own, or the group of a tendon
   MuscleSurface surface;
-  std::vector<float> tendon = {};  // of each vertex, 0 in the belly to 1 in the tendon; empty: unknown
+  std::vector<float> tendon = {};  // of each vertex, 0 in the belly to 1 in the tendon; empty: where it is thin
 };
 
 /// Surfaces of a body before they are bound: generated, or read from files.
@@ -74,6 +74,7 @@ struct SurfacePart {
   Side side = Side::right;       // right for bones in the middle
   std::uint32_t first_vertex = 0, vertices = 0;
   std::uint32_t first_index = 0, indices = 0;
+  FibreScale fibres{};  // of a muscle
 };
 
 /// Bound surfaces: bones in the order of their list, then muscles, each right and left. Vertices keep the order of
@@ -82,7 +83,7 @@ struct BodySurfaces {
   std::vector<SurfacePart> part;
   std::vector<std::uint32_t> index;   // three per triangle, into all vertices of the body, wound outwards
   std::vector<TexturePlace> texture;  // by vertex, folded; empty if not textured
-  std::vector<std::uint8_t> tendon;   // by vertex, 0 in a belly or bone to 255 in a tendon
+  std::vector<Tissue> tissue;         // by vertex
   std::uint32_t vertices = 0;
 
   // The rest is for SurfaceWriter.

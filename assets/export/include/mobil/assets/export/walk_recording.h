@@ -23,7 +23,8 @@ struct RecordedMuscle {
   Vec3<float> colour{0.45F, 0.08F, 0.07F};           // linear red, green, blue, 0–1
   std::vector<std::uint32_t> triangle;               // three indices each, wound outwards in the world
   std::vector<std::vector<Vec3<float>>> position_m;  // [frame][vertex], in the world (a left muscle as it stands there)
-  std::vector<std::uint8_t> tendon = {};             // of each vertex, 0 belly to 255 tendon; can be empty
+  std::vector<Tissue> tissue = {};                   // of each vertex; empty: `colour` alone
+  FibreScale fibres = {};                            // of the tissue
 };
 
 /// A surface whose vertices follow several segments, in the place of the standing body (m).

@@ -5,6 +5,7 @@
 #include <span>
 
 #include <mobil/components/lanes.h>
+#include <mobil/components/surface.h>
 #include <mobil/systems/render/camera.h>
 
 namespace mobil::inline v0_3 {
@@ -33,8 +34,9 @@ struct DrawMesh {
   std::span<const std::uint32_t> triangle{};  // three indices each, counter-clockwise seen from outside
   std::span<const Vec3<float>> normal{};      // of each position; empty: the mean of its triangles' normals
   Colour colour = muscle_red;
-  std::span<const std::uint8_t> tint{};  // of each position: share of tint_colour, 0 to 255; empty: none
-  Colour tint_colour = tendon_ivory;
+  std::span<const Tissue> tissue{};        // of each position; empty: `colour` alone
+  FibreScale fibres{};                     // of the tissue's pattern; length 0: none
+  Colour tendon_colour = tendon_ivory;     // of the tissue's tendons and aponeuroses
   float wetness = 0;                       // 0 dry as bone, 1 wet as living muscle
   float opacity = 1;                       // below 1 other objects behind it are visible, but not its own back
   bool wireframe = false;                  // the triangles' edges only, front and back

@@ -28,7 +28,7 @@ enum Attribute : unsigned {
   at_line_from = 6,
   at_line_to = 7,
   at_centre = 8,
-  at_tint = 9
+  at_tissue = 9
 };
 
 inline constexpr int line_vertices = 12;   // of the strip of one segment

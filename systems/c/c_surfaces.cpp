@@ -1,6 +1,10 @@
 // Bones and muscles as triangles in the host's buffers.
 
 #include "systems/c/c_surfaces.h"
+
+#include <cstring>
+#include <span>
+
 #include <mobil/systems/muscles/person.h>
 
 namespace {
@@ -94,6 +98,14 @@ int mobil_texture_places(const mobil_surfaces* surfaces, float* out, size_t room
     *out++ = place.along;
     *out++ = place.around;
   }
+  return MOBIL_OK;
+}
+
+int mobil_surface_tissue(const mobil_surfaces* surfaces, unsigned char* out, size_t room) {
+  if (surfaces == nullptr || out == nullptr) return MOBIL_REFUSED;
+  const auto tissue = std::as_bytes(std::span(surfaces->bound.tissue));
+  if (room < tissue.size()) return MOBIL_ROOM;
+  std::memcpy(out, tissue.data(), tissue.size());
   return MOBIL_OK;
 }
 

@@ -220,6 +220,8 @@ export declare class Surfaces {
   readonly buffer: number;
   readonly vertices: number;
   readonly indices: Uint32Array;
+  /** Four bytes a vertex: along and around the surface, tendon, aponeurosis, 0 to 255 for 0 to 1. */
+  readonly tissue: Uint8Array;
   /** `muscle` is negative for bones. */
   readonly parts: Returned<c.mobil_part>[];
   /** Returns position and normal of each vertex, six floats. */

@@ -17,6 +17,10 @@ export class Surfaces {
       world.must(library.x.mobil_indices(this.at, index, indices));
       /** Three per triangle. */
       this.indices = library.u32.slice(index >> 2, (index >> 2) + indices);
+      const tissue = take(4 * this.vertices);
+      world.must(library.x.mobil_surface_tissue(this.at, tissue, 4 * this.vertices));
+      /** Four bytes a vertex: along and around the surface, tendon, aponeurosis, 0 to 255 for 0 to 1. */
+      this.tissue = library.u8.slice(tissue, tissue + 4 * this.vertices);
       /** {name, segment, muscle, side, first_vertex, vertices, first_index, indices}; `muscle` is negative for bones. */
       this.parts = [];
       const part = take(structs.mobil_part.size);

@@ -190,6 +190,23 @@ TEST(CHost, SurfacesAreWoundOutwardsInTheHostsAxes) {
     EXPECT_GT(with_tangents, vertices * 9 / 10);
     std::vector<float> texture(2 * vertices);
     EXPECT_EQ(mobil_texture_places(surfaces, texture.data(), texture.size()), MOBIL_OK);
+    std::vector<unsigned char> tissue(4 * vertices + 1, 7);
+    EXPECT_EQ(mobil_surface_tissue(surfaces, tissue.data(), 4 * vertices - 1), MOBIL_ROOM);
+    EXPECT_EQ(mobil_surface_tissue(nullptr, tissue.data(), tissue.size()), MOBIL_REFUSED);
+    ASSERT_EQ(mobil_surface_tissue(surfaces, tissue.data(), tissue.size()), MOBIL_OK);
+    EXPECT_EQ(tissue.back(), 7);
+    for (int p = 0; mobil_surface_part(surfaces, p, &part) == MOBIL_OK; ++p) {
+      const bool all_tendon = std::string(part.name).find("ligament") != std::string::npos;
+      for (unsigned int v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
+        if (part.muscle < 0) {
+          EXPECT_EQ(tissue[4 * v] + tissue[4 * v + 1] + tissue[4 * v + 2] + tissue[4 * v + 3], 0) << part.name;
+        } else {
+          EXPECT_NEAR(tissue[4 * v] / 255.0, texture[2 * v], 0.003) << part.name;
+          EXPECT_NEAR(tissue[4 * v + 1] / 255.0, texture[2 * v + 1], 0.003) << part.name;
+          EXPECT_TRUE(!all_tendon || tissue[4 * v + 2] == 255) << part.name;
+        }
+      }
+    }
     mobil_drop_surfaces(surfaces);
   }
 }

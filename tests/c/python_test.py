@@ -423,6 +423,12 @@ class Worlds(unittest.TestCase):
         self.assertAlmostEqual(float(vertices[..., 1].max()), 1.67, delta=0.06)
         self.assertLess(surfaces.triangles.max(), surfaces.vertex_count)
         self.assertIn("soleus_left", [part.name for part in surfaces.parts])
+        self.assertEqual(surfaces.tissue.shape, (surfaces.vertex_count, 4))
+        for part in surfaces.parts:
+            tendon = surfaces.tissue[part.vertices, 2]
+            self.assertEqual(tendon.max(), 0 if part.muscle is None else 255, part.name)
+            if part.name == "soleus_left":
+                self.assertEqual(tendon.min(), 0)
         np.testing.assert_allclose(np.linalg.norm(vertices[..., 3:], axis=-1), 1, atol=1e-3)
 
     def test_skin_is_as_tall_as_the_person_and_sorted_by_parts(self):

@@ -89,6 +89,8 @@ test('surfaces are dropped once', () => {
   const surfaces = world.surfaces(people, { bones: 1, muscles: 0 });
   world.tick();
   assert.ok(surfaces.write(people).length > 0);
+  assert.equal(surfaces.tissue.length, 4 * surfaces.vertices);
+  assert.ok(surfaces.tissue.every((byte) => byte === 0));  // bones
   surfaces.drop();
   surfaces.drop();
   assert.throws(() => surfaces.write(people), refused(/were dropped/));

@@ -67,6 +67,13 @@ class Surfaces(Owner):
             fail(code, "the triangles cannot be read")
         self.triangles = self.triangles.reshape(-1, 3)
         self.vertex_count: int = lib.mobil_vertex_count(self._surfaces)
+        self.tissue: npt.NDArray[np.uint8] = np.empty((self.vertex_count, 4), np.uint8)
+        """(vertices, 4), 0 to 255 for 0 to 1: along and around the surface, tendon, aponeurosis. Bones have zeros."""
+        code = lib.mobil_surface_tissue(
+            self._surfaces, ffi.from_buffer("unsigned char[]", self.tissue), self.tissue.size
+        )
+        if code != 0:
+            fail(code, "the tissue cannot be read")
         self.parts = tuple(self._parts())
         self._contacts: Any = None
         if switch(contact, "contact"):

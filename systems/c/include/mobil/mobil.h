@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 /* Version of this header. The library's version, mobil_interface(), must be equal or greater. */
-#define MOBIL_INTERFACE 5
+#define MOBIL_INTERFACE 6
 MOBIL_API int mobil_interface(void);               /* the library's MOBIL_INTERFACE */
 MOBIL_API const char* mobil_library_version(void); /* "0.3.0" */
 

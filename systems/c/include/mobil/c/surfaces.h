@@ -36,6 +36,10 @@ MOBIL_API int mobil_indices(const mobil_surfaces* surfaces, unsigned int* out, s
 /* Writes texture coordinates of textured surfaces: two floats a vertex, 0 to 1, along and around. `room` counts
  * floats. */
 MOBIL_API int mobil_texture_places(const mobil_surfaces* surfaces, float* out, size_t room);
+/* Writes four bytes a vertex, 0 to 255 for 0 to 1: texture coordinates along and around, tendon (0 belly, 1 tendon) and
+ * aponeurosis (1: the sheet in which a tendon continues covers the belly). Bones have zeros. `room` counts bytes. Since
+ * interface 6. */
+MOBIL_API int mobil_surface_tissue(const mobil_surfaces* surfaces, unsigned char* out, size_t room);
 /* Writes bone or muscle `part` of the surfaces, from 0. */
 MOBIL_API int mobil_surface_part(const mobil_surfaces* surfaces, int part,
                                  mobil_part* out); /* MOBIL_MISSING after the last */

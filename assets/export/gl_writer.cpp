@@ -38,13 +38,23 @@ void put_size(std::string& bytes, std::size_t value) {
   put_number(bytes, static_cast<std::uint32_t>(value));
 }
 
+/// Returns the mean of the vertices' colours, because a part has one.
+Vec3<float> mean_colour(const RecordedMuscle& muscle) {
+  const std::vector<Vec3<float>> colours = tissue_colours(muscle);
+  if (colours.empty()) return muscle.colour;
+  Vec3<float> sum{0, 0, 0};
+  for (const Vec3<float>& c : colours) sum = {sum.x + c.x, sum.y + c.y, sum.z + c.z};
+  const float share = 1 / static_cast<float>(colours.size());
+  return {share * sum.x, share * sum.y, share * sum.z};
+}
+
 std::vector<GlPart> gl_parts(const WalkRecording& recording) {
   std::vector<GlPart> parts;
   for (const auto& bone : recording.bones) {
     parts.push_back({&bone.mesh.name, ivory_colour, bone.mesh.position.size(), &bone.mesh.triangle});
   }
   for (const auto& muscle : recording.muscles) {
-    parts.push_back({&muscle.name, muscle.colour, muscle.position_m.front().size(), &muscle.triangle});
+    parts.push_back({&muscle.name, mean_colour(muscle), muscle.position_m.front().size(), &muscle.triangle});
   }
   return parts;
 }

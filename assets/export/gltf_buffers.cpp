@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <limits>
@@ -19,7 +20,7 @@ enum Array : int {
   vertex_array,
   texture_array,
   tangent_array,
-  skin_array,
+  byte_array,
   index_array,
   key_array,
   bind_array,
@@ -46,6 +47,15 @@ int add_accessor(GltfDraft& draft, Array array, std::size_t offset, std::size_t 
   return static_cast<int>(draft.model.accessors.size()) - 1;
 }
 
+/// Adds four bytes a vertex.
+int add_bytes(GltfDraft& draft, std::span<const std::byte> value, bool normalised) {
+  const std::size_t offset = append(draft.bytes, value.data(), value.size());
+  const int accessor = add_accessor(draft, byte_array, offset, value.size() / 4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                                    TINYGLTF_TYPE_VEC4);
+  draft.model.accessors.back().normalized = normalised;
+  return accessor;
+}
+
 void set_bounds(tinygltf::Accessor& accessor, const float* value, std::size_t width) {
   for (std::size_t c = 0; c < width; ++c) {
     float low = value[c], high = value[c];
@@ -66,7 +76,7 @@ Result<void> check_size(std::size_t bytes) {
 /// Joins the arrays.
 Result<void> pack_buffers(GltfDraft& draft) {
   const std::array<std::vector<unsigned char>*, array_count> arrays = {&draft.vertices, &draft.texture, &draft.tangents,
-                                                                       &draft.skin,     &draft.indices, &draft.keys,
+                                                                       &draft.bytes,    &draft.indices, &draft.keys,
                                                                        &draft.binds,    &draft.sparse};
   constexpr std::array<int, array_count> target = {TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ARRAY_BUFFER,
@@ -161,6 +171,17 @@ int add_tangents(GltfDraft& draft, const std::vector<std::array<float, 4>>& tang
   return add_accessor(draft, tangent_array, offset, tangent.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4);
 }
 
+int add_tissue(GltfDraft& draft, std::span<const Tissue> tissue) {
+  return add_bytes(draft, std::as_bytes(tissue), true);
+}
+
+int add_colours(GltfDraft& draft, std::span<const Vec3<float>> colour) {
+  std::vector<std::uint8_t> bytes;
+  const auto byte = [](float share) { return static_cast<std::uint8_t>(std::lround(255 * share)); };
+  for (const Vec3<float>& c : colour) bytes.insert(bytes.end(), {byte(c.x), byte(c.y), byte(c.z), 255});
+  return add_bytes(draft, std::as_bytes(std::span(bytes)), true);
+}
+
 std::array<float, 4> byte_weights(const std::array<float, 4>& weight) {
   const auto heaviest = static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin());
   std::array<float, 4> rounded{};
@@ -185,14 +206,8 @@ SkinAccessors add_joints(GltfDraft& draft, const std::vector<std::array<std::uin
       joints[4 * v + k] = weights[4 * v + k] == 0 ? std::uint8_t{0} : joint[v][k];
     }
   }
-  const auto add = [&](const std::vector<std::uint8_t>& value) {
-    const std::size_t offset = append(draft.skin, value.data(), value.size());
-    return add_accessor(draft, skin_array, offset, joint.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-                        TINYGLTF_TYPE_VEC4);
-  };
-  const SkinAccessors added{add(joints), add(weights)};
-  draft.model.accessors.back().normalized = true;
-  return added;
+  return {add_bytes(draft, std::as_bytes(std::span(joints)), false),
+          add_bytes(draft, std::as_bytes(std::span(weights)), true)};
 }
 
 int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, std::size_t vertex_count) {

@@ -6,20 +6,22 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <mobil/assets/surfaces/texture_places.h>
+#include <mobil/components/surface.h>
 #include <mobil/engine/error.h>
 #include "engine/eigen.h"
 
 namespace mobil::inline v0_3 {
 
 /// A model whose accessors' `bufferView` is one of the arrays until glb_bytes has run. A view of vertices has one
-/// stride, so texture places (8 bytes) and joints (4) have separate arrays.
+/// stride, so texture places (8 bytes) and `bytes` (4: joints, weights, tissue, colours) have separate arrays.
 struct GltfDraft {
   tinygltf::Model model;
-  std::vector<unsigned char> vertices, texture, tangents, skin, indices, keys, binds, sparse;
+  std::vector<unsigned char> vertices, texture, tangents, bytes, indices, keys, binds, sparse;
 };
 
 /// Each adds one accessor and returns its number. Vertices are VEC3 floats; `with_bounds` writes min and max, which
@@ -31,6 +33,10 @@ int add_displacements(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool wit
 int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, std::size_t vertex_count);
 /// Adds VEC2 floats: along and around, or in an atlas right and down.
 int add_texture_places(GltfDraft& draft, const std::vector<TexturePlace>& place);
+/// Adds VEC4 unsigned bytes, normalised.
+int add_tissue(GltfDraft& draft, std::span<const Tissue> tissue);
+/// Adds VEC4 unsigned bytes, normalised: linear colours and full opacity.
+int add_colours(GltfDraft& draft, std::span<const Vec3<float>> colour);
 /// Adds VEC4 floats.
 int add_tangents(GltfDraft& draft, const std::vector<std::array<float, 4>>& tangent);
 /// Returns weights as a GLB has them, multiples of 1/255 that add up to 1.

@@ -313,9 +313,14 @@ void add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const MuscleShap
   fidelity = {prefix + muscle.name, number_of(surface.target.size()), surface.max_error_m, surface.rms_error_m};
 
   tinygltf::Mesh mesh;
-  auto shape = standing_muscle(draft, surface, muscle.segment, rest[index(muscle.segment)], shapes.triangle,
-                               person.z_back);
-  shape.material = material(scene, "muscle", muscle.colour, 0.5);
+  auto shape =
+      standing_muscle(draft, surface, muscle.segment, rest[index(muscle.segment)], shapes.triangle, person.z_back);
+  const bool coloured = !muscle.tissue.empty();  // by vertex, which multiplies the material's
+  if (coloured) {
+    shape.attributes["_TISSUE"] = add_tissue(draft, muscle.tissue);
+    shape.attributes["COLOR_0"] = add_colours(draft, tissue_colours(muscle));
+  }
+  shape.material = material(scene, "muscle", coloured ? Vec3<float>{1, 1, 1} : muscle.colour, 0.5);
   for (const auto& target : surface.target) {
     auto& attributes = shape.targets.emplace_back();
     attributes["POSITION"] = add_vertices(draft, target.position, true);

@@ -13,6 +13,18 @@ const RecordedFacts* facts_of(const Recorded& recorded) {
 
 }  // namespace
 
+std::vector<Vec3<float>> tissue_colours(const RecordedMuscle& muscle) {
+  constexpr Vec3<float> tendon_colour{0.62F, 0.53F, 0.42F};
+  std::vector<Vec3<float>> colours;
+  for (const Tissue& tissue : muscle.tissue) {
+    const float share = tendon_colour_share(tissue);
+    const auto mixed = [share](float own, float tendon) { return (1 - share) * own + share * tendon; };
+    colours.push_back({mixed(muscle.colour.x, tendon_colour.x), mixed(muscle.colour.y, tendon_colour.y),
+                       mixed(muscle.colour.z, tendon_colour.z)});
+  }
+  return colours;
+}
+
 std::size_t SeenFigure::cloths() const {
   std::size_t count = 0;
   for (std::size_t i = 0; i < surfaces.size(); ++i) count = std::max(count, cloth_of(i) + 1);

@@ -13,6 +13,9 @@ namespace mobil::inline v0_3 {
 /// Linear red, green, blue, 0–1.
 inline constexpr Vec3<float> ivory_colour{0.80F, 0.74F, 0.60F};
 
+/// Returns the colours of a muscle's vertices: its own, tendons and aponeuroses lighter; nothing without tissue.
+std::vector<Vec3<float>> tissue_colours(const RecordedMuscle& muscle);
+
 struct SeenFigure {
   std::span<const BoneSurface> surfaces;
   std::span<const std::size_t> cloth;  // as in RecordedFigure

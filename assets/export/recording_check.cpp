@@ -66,6 +66,10 @@ Result<void> check_muscle(const RecordedMuscle& muscle, std::size_t frame_count)
   }
   if (auto ok = check_colour(fmt::format("muscle '{}'", muscle.name), muscle.colour); !ok) return ok;
   const std::size_t vertex_count = muscle.position_m.front().size();
+  if (!muscle.tissue.empty() && muscle.tissue.size() != vertex_count) {
+    return fail(fmt::format("muscle '{}': tissue of {} vertices, and {} vertices; give one for each, or none",
+                            muscle.name, muscle.tissue.size(), vertex_count));
+  }
   for (std::size_t f = 0; f < frame_count; ++f) {
     if (muscle.position_m[f].size() != vertex_count) {
       return fail(fmt::format("muscle '{}': {} vertices in frame {}, {} in the first; they must not change",

@@ -85,6 +85,12 @@ std::string usd_texture(std::span<const TexturePlace> places, bool atlas = false
     out += fmt::format("({:.4f}, {:.4f})", place.along, atlas ? 1 - place.around : place.around);
   });
 }
+std::string usd_tissue(std::span<const Tissue> tissue) {
+  return usd_array(tissue, [](std::string& out, const Tissue& t) {
+    out += fmt::format("({:.3f}, {:.3f}, {:.3f}, {:.3f})", t.along / 255.0, t.around / 255.0, t.tendon / 255.0,
+                       t.aponeurosis / 255.0);
+  });
+}
 std::string usd_colour(const Vec3<float>& c) {
   return fmt::format("[({:.4f}, {:.4f}, {:.4f})]", c.x, c.y, c.z);
 }
@@ -210,7 +216,13 @@ void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::str
   add_samples(usd, "float3[] extent", frames, [&](std::size_t f) { return usd_extent(muscle.position_m[f]); });
   usd.line("texCoord2f[] primvars:st = " + usd_texture(recorded_texture(muscle.position_m.front(), z_back)) +
            " (interpolation = \"vertex\")");
-  usd.line("color3f[] primvars:displayColor = " + usd_colour(muscle.colour));
+  if (muscle.tissue.empty()) {
+    usd.line("color3f[] primvars:displayColor = " + usd_colour(muscle.colour));
+  } else {
+    usd.line("color3f[] primvars:displayColor = " + usd_points(tissue_colours(muscle)) +
+             " (interpolation = \"vertex\")");
+    usd.line("float4[] primvars:tissue = " + usd_tissue(muscle.tissue) + " (interpolation = \"vertex\")");
+  }
   usd.close();
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,7 @@ struct MovingScene {
   UniqueNames names{};
   std::size_t frames = 0;
   std::array<std::string, segment_count> segment{};  // names of their Transforms
-  std::vector<std::array<std::string, 3>> moved{};  // interpolator, node, its field
+  std::vector<std::array<std::string, 3>> moved{};   // interpolator, node, its field
   struct Interpolator {
     std::string type, name, values;
   };
@@ -58,18 +59,23 @@ struct MovingScene {
   }
 };
 
-/// Importers name objects after the Shape. `name` is that of the coordinates, if they move.
-void add_shape(MovingScene& scene, const std::string& shape, const Vec3<float>& colour,
-               const std::vector<Vec3<float>>& position, const std::vector<std::uint32_t>& triangle,
-               const std::string& name) {
-  SceneText& text = scene.text;
+std::string shown_colour(const Vec3<float>& colour) {
   const auto shown = [](float linear) {  // these formats' colours are those of screens
     return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
   };
+  return fmt::format("{:.4f} {:.4f} {:.4f}", shown(colour.x), shown(colour.y), shown(colour.z));
+}
+
+/// Importers name objects after the Shape. `name` is that of the coordinates, if they move. `colours` are the
+/// vertices', or none.
+void add_shape(MovingScene& scene, const std::string& shape, const Vec3<float>& colour,
+               std::span<const Vec3<float>> colours, const std::vector<Vec3<float>>& position,
+               const std::vector<std::uint32_t>& triangle, const std::string& name) {
+  SceneText& text = scene.text;
   text.open("Shape", scene.names.take(identifier(shape + "_surface")));
   text.open("Appearance", {}, "appearance");
   text.open("Material", {}, "material");
-  text.field("diffuseColor", fmt::format("{:.4f} {:.4f} {:.4f}", shown(colour.x), shown(colour.y), shown(colour.z)));
+  text.field("diffuseColor", shown_colour(colour));
   text.close();
   text.close();
   text.open("IndexedFaceSet", {}, "geometry");
@@ -79,6 +85,13 @@ void add_shape(MovingScene& scene, const std::string& shape, const Vec3<float>& 
     corners += fmt::format("{} {} {} -1 ", triangle[i], triangle[i + 1], triangle[i + 2]);
   }
   text.fields("coordIndex", corners);
+  if (!colours.empty()) {
+    std::string values;
+    for (const Vec3<float>& c : colours) values += shown_colour(c) + " ";
+    text.open("Color", {}, "color");
+    text.fields("color", values);
+    text.close();
+  }
   text.open("Coordinate", name, "coord");
   text.fields("point", points_text(position));
   text.close();
@@ -107,7 +120,7 @@ void add_segment(MovingScene& scene, const WalkRecording& recording, const Skele
   }
   for (const auto& bone : recording.bones) {
     if (index(bone.segment) == s)
-      add_shape(scene, bone.mesh.name, ivory_colour, bone.mesh.position, bone.mesh.triangle, {});
+      add_shape(scene, bone.mesh.name, ivory_colour, {}, bone.mesh.position, bone.mesh.triangle, {});
   }
   for (std::size_t child = s + 1; child < segment_count; ++child) {
     if (index(segment_parent[child]) == s) add_segment(scene, recording, skeleton, child);
@@ -153,7 +166,8 @@ std::string x3d_text(const WalkRecording& recording, SceneNotation notation) {
     const std::string& name = muscle_names[m];
     scene.text.open("Transform", name);
     const std::string coordinates = scene.names.take(name + "_coordinates");
-    add_shape(scene, muscle.name, muscle.colour, muscle.position_m.front(), muscle.triangle, coordinates);
+    add_shape(scene, muscle.name, muscle.colour, tissue_colours(muscle), muscle.position_m.front(), muscle.triangle,
+              coordinates);
     scene.text.close();
     if (scene.frames == 1) continue;
     std::string values;

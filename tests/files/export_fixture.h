@@ -136,6 +136,14 @@ inline RecordedMuscle muscle(const std::string& name, Segment segment, const std
   return made;
 }
 
+/// Gives a muscle tissue of all values.
+inline void put_tissue(RecordedMuscle& muscle) {
+  const std::size_t vertices = muscle.position_m.front().size();
+  const auto byte = [](std::size_t i) { return static_cast<std::uint8_t>(i % 256); };
+  for (std::size_t v = 0; v < vertices; ++v)
+    muscle.tissue.push_back({byte(255 * v / (vertices - 1)), byte(7 * v), byte(13 * v), byte(29 * v)});
+}
+
 inline WalkRecording small_walk() {
   WalkRecording walk;
   walk.frames = swinging(45);

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -289,6 +291,49 @@ TEST(Export, MusclesRoundTripWithinTheReportedError) {
   }
 }
 
+/// Returns the accessor's bytes, four a vertex.
+std::vector<std::array<std::uint8_t, 4>> bytes_of(const Viewer& viewer, int accessor) {
+  const auto& from = viewer.model.accessors[static_cast<std::size_t>(accessor)];
+  EXPECT_EQ(from.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE);
+  EXPECT_EQ(from.type, TINYGLTF_TYPE_VEC4);
+  EXPECT_TRUE(from.normalized);
+  const auto& view = viewer.model.bufferViews[static_cast<std::size_t>(from.bufferView)];
+  const auto& data = viewer.model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  std::vector<std::array<std::uint8_t, 4>> bytes(from.count);
+  std::memcpy(bytes.data(), data.data() + view.byteOffset + from.byteOffset, 4 * from.count);
+  return bytes;
+}
+
+TEST(Export, TissueRoundTripsAndColoursTendons) {
+  auto walk = small_walk();
+  put_tissue(walk.muscles[0]);
+  const Viewer viewer = viewed(walk);
+  for (const RecordedMuscle& muscle : walk.muscles) {
+    const auto& node = viewer.model.nodes[viewer.node.at(muscle.name)];
+    const auto& shape = viewer.model.meshes[static_cast<std::size_t>(node.mesh)].primitives[0];
+    const auto& base = viewer.model.materials[static_cast<std::size_t>(shape.material)].pbrMetallicRoughness;
+    if (muscle.tissue.empty()) {
+      EXPECT_EQ(shape.attributes.count("_TISSUE") + shape.attributes.count("COLOR_0"), 0U);
+      EXPECT_NEAR(base.baseColorFactor[0], static_cast<double>(muscle.colour.x), 1e-6);
+      continue;
+    }
+    EXPECT_EQ(base.baseColorFactor, (std::vector<double>{1, 1, 1, 1}));
+    const auto tissue = bytes_of(viewer, shape.attributes.at("_TISSUE"));
+    const auto colour = bytes_of(viewer, shape.attributes.at("COLOR_0"));
+    ASSERT_EQ(tissue.size(), muscle.tissue.size());
+    ASSERT_EQ(colour.size(), muscle.tissue.size());
+    for (std::size_t v = 0; v < tissue.size(); ++v) {
+      const Tissue& own = muscle.tissue[v];
+      ASSERT_EQ(tissue[v], (std::array{own.along, own.around, own.tendon, own.aponeurosis})) << v;
+      const double share = std::max(own.tendon / 255.0, 0.6 * own.aponeurosis / 255.0);
+      constexpr double ivory_green = 0.53;
+      const auto green = static_cast<double>(muscle.colour.y);
+      EXPECT_NEAR(colour[v][1] / 255.0, green + share * (ivory_green - green), 0.5 / 255 + 1e-6) << v;
+      EXPECT_EQ(colour[v][3], 255);
+    }
+  }
+}
+
 TEST(Export, WeightsOfEachTargetReachZeroAndOneAndNotBeyond) {
   const auto walk = small_walk();
   const Viewer viewer = viewed(walk);  // Blender limits weights to 0 to 1, or to the first one if that is less
@@ -399,6 +444,7 @@ TEST(Export, FailureIsOneLineAndLeavesFilesUnchanged) {
   spoilt([](auto& w) { w.muscles[1].position_m[7].pop_back(); }, "vertices");
   spoilt([](auto& w) { w.muscles[1].position_m[7][5].x = INFINITY; }, "frame 7");
   spoilt([](auto& w) { w.muscles[1].colour.x = 255; }, "colour");
+  spoilt([](auto& w) { w.muscles[1].tissue.resize(3); }, "tissue of 3 vertices");
 }
 
 TEST(Export, KhronosValidatorFindsNoErrorAndNoWarning) {
@@ -406,6 +452,7 @@ TEST(Export, KhronosValidatorFindsNoErrorAndNoWarning) {
   const Folder folder;
   std::map<std::string, WalkRecording> walks;
   walks["whole"] = small_walk();
+  put_tissue(walks["whole"].muscles[0]);
   walks["stick_figure"].frames = swinging(10);
   walks["still"] = walks["whole"];
   walks["still"].frames.resize(1);

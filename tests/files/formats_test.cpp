@@ -109,6 +109,7 @@ WalkRecording oddly_named_walk() {
   auto walk = small_walk();
   walk.name = "1st walker's";
   walk.muscles[2].name = "rigid";
+  put_tissue(walk.muscles[0]);
   return walk;
 }
 

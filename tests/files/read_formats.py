@@ -155,6 +155,11 @@ def usd_muscle(path, frame, name):
     for prim in read_usda(path).all():
         if prim.kind == 'Mesh' and prim.name == name:
             assert len(numbers(prim.value['normals'][frame])) == len(numbers(prim.value['points'][frame]))
+            vertices = len(numbers(prim.value['points'][frame])) // 3
+            if 'primvars:tissue' in prim.value:
+                assert len(numbers(prim.value['primvars:tissue'])) == 4 * vertices
+                assert len(numbers(prim.value['primvars:displayColor'])) == 3 * vertices
+                assert all(0 <= share <= 1 for share in numbers(prim.value['primvars:tissue']))
             yield from threes(numbers(prim.value['points'][frame]))
 
 

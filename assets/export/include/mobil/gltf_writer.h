@@ -43,7 +43,8 @@ struct ExportReport {
 /// segment's frame, with weights from 0 to 1. A skin with drawn places (SkinnedSurface::drawn_m) also has targets, so
 /// that bones and muscles stay inside it; vertices of bones that would come through are moved below it. Nodes of these
 /// meshes are siblings of the root, as glTF requires. TEXCOORD_0 is along and around each bone or muscle (folded,
-/// texture_places.h), for skins in their atlas, with TANGENT. Names are unique. Output is byte-identical for the same
+/// texture_places.h), for skins in their atlas, with TANGENT. Muscles with tissue have it as _TISSUE (VEC4 of normalised
+/// bytes: along, around, tendon, aponeurosis) and as colours (COLOR_0), and a white material. Names are unique. Output is byte-identical for the same
 /// recording. Fails without frames, on a value that is not finite, an inconsistent surface or a file that cannot be
 /// written. Format: Khronos glTF 2.0 specification.
 Result<ExportReport> write_glb(const std::filesystem::path& path, const WalkRecording& recording,

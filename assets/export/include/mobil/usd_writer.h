@@ -19,6 +19,7 @@ namespace mobil::inline v0_3 {
 /// With roots the person's prim moves by them, and joints and muscles are relative to it. A skin with drawn places
 /// (SkinnedSurface::drawn_m) has blend shapes, as the morph targets of a GLB.
 /// Meshes have primvars:st (along and around, folded, texture_places.h; of skins in their atlas) and displayColor.
+/// Muscles with tissue have primvars:tissue (along, around, tendon, aponeurosis, 0 to 1) and a displayColor by vertex.
 /// Joints are placed within 10 µm, muscles' vertices within 5 µm. Muscles are text of about 45 bytes a vertex and
 /// frame. Fails as check_recording, or on a file that cannot be written. Format: OpenUSD (usda text; UsdGeom, UsdSkel
 /// schemas).

@@ -100,14 +100,16 @@ constexpr bool has_architecture(const MemberMuscle& m) {
   return m.fibre_m > 0 && m.belly_m > 0 && m.pennation_deg >= 0 && m.pennation_deg < 90 && (modelled || not_modelled);
 }
 
-/// True if the muscle is on, or cut back to, deep muscles only. Surfaces are made in this order.
+/// True if the muscle is on deep muscles only, and is cut back to a deep muscle or one before it. Surfaces are made in
+/// this order.
 constexpr bool lies_on_a_member(const MemberMuscle& m) {
-  const auto is_deep = [](std::string_view name) {
-    return name.empty() || std::any_of(std::begin(members), std::end(members), [name](const MemberMuscle& beneath) {
-             return beneath.name == name && beneath.lies_on.empty() && beneath.cut_back_to.empty();
+  const auto is_there = [&m](std::string_view name, bool can_be_earlier) {
+    return name.empty() || std::any_of(std::begin(members), std::end(members), [&](const MemberMuscle& beneath) {
+             const bool is_deep = beneath.lies_on.empty() && beneath.cut_back_to.empty();
+             return beneath.name == name && (is_deep || (can_be_earlier && beneath.group < m.group));
            });
   };
-  return is_deep(m.lies_on) && is_deep(m.cut_back_to);
+  return is_there(m.lies_on, false) && is_there(m.cut_back_to, true);
 }
 
 static_assert(all_members([](const MemberMuscle& m) { return !m.name.empty() && members_named(m.name) == 1; }),
@@ -119,7 +121,7 @@ static_assert(all_members(has_path), "a path runs down the leg between fixed poi
 static_assert(all_members([](const MemberMuscle& m) { return m.limb_share > 0; }), "every muscle has a volume");
 static_assert(all_members(has_shape), "every muscle has sections, from its upper end down, or is a further line");
 static_assert(all_members(has_architecture), "every muscle has fibres, and all three figures of the model or none");
-static_assert(all_members(lies_on_a_member), "a muscle lies on another of the table, which lies on none");
+static_assert(all_members(lies_on_a_member), "a muscle lies on another of the table, which is drawn before it");
 
 /// Returns the lines for which `belongs` is true, which must stand together.
 template <class Rule>

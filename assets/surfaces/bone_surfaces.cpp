@@ -1,6 +1,5 @@
 #include "assets/surfaces/bone_surfaces.h"
 
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -54,26 +53,34 @@ std::vector<BoneSurface> drawn_bones(const Proportions& p) {
   return all;
 }
 
-bool are_equal(const Proportions& a, const Proportions& b) {
-  constexpr double enough_mm = 0.01;
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    if (length(a.joint[s] - b.joint[s]) > enough_mm || length(a.tip[s] - b.tip[s]) > enough_mm) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
-SharedBones shared_bones(const Body& body) {
-  static const Proportions usual = bones::proportions(*make_body({}));
-  static const auto usual_bones = std::make_shared<const std::vector<BoneSurface>>(drawn_bones(usual));
-  const Proportions own = bones::proportions(body);
-  return are_equal(own, usual) ? usual_bones : std::make_shared<const std::vector<BoneSurface>>(drawn_bones(own));
+const std::vector<BoneSurface>& usual_bones() {
+  static const std::vector<BoneSurface> bones = drawn_bones(bones::proportions(*make_body({})));
+  return bones;
+}
+
+double bone_stretch(const Body& body, Segment segment) {
+  static const Body usual = *make_body({});
+  const auto of = [&](float LimbLengths<float>::*limb) {
+    const auto share = [&](const Body& b) { return static_cast<double>(limb_lengths(b).*limb / b.request.height_m); };
+    return share(body) / share(usual);
+  };
+  using enum Segment;
+  if (segment == thigh_right || segment == thigh_left) return of(&LimbLengths<float>::thigh_m);
+  if (segment == shank_right || segment == shank_left) return of(&LimbLengths<float>::shank_m);
+  if (segment == upper_arm_right || segment == upper_arm_left) return of(&LimbLengths<float>::upper_arm_m);
+  if (segment == forearm_right || segment == forearm_left) return of(&LimbLengths<float>::forearm_m);
+  return 1;
 }
 
 std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
-  std::vector<BoneSurface> all = *shared_bones(body);
-  for (BoneSurface& bone : all) scale(bone.mesh, static_cast<double>(body.request.height_m) / reference_height_mm);
+  std::vector<BoneSurface> all = usual_bones();
+  for (BoneSurface& bone : all) {
+    scale(bone.mesh, static_cast<double>(body.request.height_m) / reference_height_mm);
+    const auto stretch = static_cast<float>(bone_stretch(body, bone.segment));
+    for (auto& p : bone.mesh.position) p.y *= stretch;
+  }
   return all;
 }
 

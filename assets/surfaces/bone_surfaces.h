@@ -1,7 +1,6 @@
 #pragma once
 // A skeleton made of lofted tubes and ellipsoids, from a body's lengths alone.
 
-#include <memory>
 #include <vector>
 
 #include <mobil/components/body.h>
@@ -17,8 +16,10 @@ namespace mobil::inline v0_3 {
 /// take a second at first use.
 std::vector<BoneSurface> make_bone_surfaces(const Body& body);
 
-/// The same in mm of a man of reference_height_mm. Bodies with usual proportions share one object.
-using SharedBones = std::shared_ptr<const std::vector<BoneSurface>>;
-SharedBones shared_bones(const Body& body);
+/// Returns the surfaces of a body in usual proportions, in mm of a man of reference_height_mm. The first call takes a
+/// second.
+const std::vector<BoneSurface>& usual_bones();
+/// Returns the factor on a segment's length along its axis, relative to usual proportions.
+double bone_stretch(const Body& body, Segment segment);
 
 }  // namespace mobil::inline v0_3

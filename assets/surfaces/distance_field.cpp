@@ -145,7 +145,7 @@ class PartSampler {
       for (int z = near.first[2]; z < near.first[2] + near.count[2]; ++z) {
         for (int y = near.first[1]; y < near.first[1] + near.count[1]; ++y) {
           const Vec p = place(0, y, z);
-          // The same two points give an edge the same sign in both of its triangles.
+          // An edge has one sign in both of its triangles: its points are always in one order.
           const auto side = [&](const Vec& a, const Vec& b) {
             const bool in_order = a.y < b.y || (a.y == b.y && (a.z < b.z || (a.z == b.z && a.x < b.x)));
             const Vec &u = in_order ? a : b, &v = in_order ? b : a;

@@ -25,8 +25,8 @@ struct DistanceField {
   }
 };
 
-/// Returns the distance to the union of a mesh's closed parts, which can overlap. Where the distances to two parts
-/// differ by less than `rounding`, their common surface is rounded (smooth_union in form_shapes.h). Requires closed
+/// Returns the distance to the union of a mesh's closed parts, which can overlap. Their common surface is rounded where
+/// the distances to two parts differ by less than `rounding` (smooth_union in form_shapes.h). Requires closed
 /// parts wound outwards, and a band of at least two cells. More than the band inside, distances are sums of steps
 /// between samples, up to 8 % too long.
 DistanceField distance_field(const SurfaceMesh& mesh, double cell, double band, double rounding = 0);

@@ -20,31 +20,33 @@ constexpr std::array<Segment, 7> leg_segments = {Segment::pelvis,        Segment
 
 }  // namespace
 
-LegBones::Shapes LegBones::shapes_of(const std::vector<BoneSurface>& bones) {
+const LegBones::Shapes& LegBones::shapes() {
   constexpr double cell_mm = 3, band_mm = 15;
-  Shapes shapes;
-  for (const Segment segment : leg_segments) {
-    const SurfaceMesh& mesh = bones[index(segment)].mesh;
-    shapes.push_back({mesh, distance_field(mesh, cell_mm, band_mm)});
-  }
-  return shapes;
+  static const Shapes all = [] {
+    Shapes shapes;
+    for (const Segment segment : leg_segments) {
+      const SurfaceMesh& mesh = usual_bones()[index(segment)].mesh;
+      shapes.push_back({mesh, distance_field(mesh, cell_mm, band_mm)});
+    }
+    return shapes;
+  }();
+  return all;
 }
 
 LegBones::LegBones(const Body& body) : m_per_mm_(static_cast<double>(body.request.height_m) / reference_height_mm) {
-  const SharedBones bones = shared_bones(body);
-  static const SharedBones usual = shared_bones(*make_body({}));
-  static const auto usual_shapes = std::make_shared<const Shapes>(shapes_of(*usual));
-  shapes_ = bones == usual ? usual_shapes : std::make_shared<const Shapes>(shapes_of(*bones));
   const Pose<float> standing = standing_pose(body);
-  for (const Vec3<float>& at : standing.position_m) joint_m_.push_back(to_double(at));
+  for (std::size_t s = 0; s < segment_count; ++s)
+    place_.push_back({to_double(standing.position_m[s]), bone_stretch(body, static_cast<Segment>(s))});
 }
 
-const LegBones::Shape& LegBones::shape(Segment segment) const {
-  return (*shapes_)[static_cast<std::size_t>(std::ranges::find(leg_segments, segment) - leg_segments.begin())];
+const LegBones::Shape& LegBones::shape(Segment segment) {
+  return shapes()[static_cast<std::size_t>(std::ranges::find(leg_segments, segment) - leg_segments.begin())];
 }
 
 Vec LegBones::in_shape(Segment segment, const Vec& at) const {
-  return (1 / m_per_mm_) * (at - joint_m_[index(segment)]);
+  const Place& own = place_[index(segment)];
+  const Vec from = (1 / m_per_mm_) * (at - own.joint_m);
+  return {from.x, from.y / own.stretch, from.z};
 }
 
 double LegBones::distance(Segment segment, const Vec& at) const {
@@ -58,7 +60,9 @@ Vec LegBones::outward(Segment segment, const Vec& at) const {
 }
 
 Vec LegBones::nearest(Segment segment, const Vec& to) const {
-  return joint_m_[index(segment)] + m_per_mm_ * nearest_point(shape(segment).mesh, in_shape(segment, to));
+  const Place& own = place_[index(segment)];
+  const Vec at = nearest_point(shape(segment).mesh, in_shape(segment, to));
+  return own.joint_m + m_per_mm_ * Vec{at.x, own.stretch * at.y, at.z};
 }
 
 bool LegBones::can_touch(Segment segment, const Vec& centre, double radius) const {

@@ -2,7 +2,6 @@
 // The drawn bones at which the leg's muscles end, in a body's anatomical position: distances and nearest points.
 
 #include <array>
-#include <memory>
 #include <vector>
 
 #include <mobil/components/body.h>
@@ -30,8 +29,10 @@ class LegBones {
   bool can_touch(Segment segment, const Vec3<double>& centre, double radius) const;
   /// Returns the distances from a segment's bones, mm in a man of reference_height_mm, in the segment's frame. The
   /// segment is one of these bones', L3 or the toes.
-  const DistanceField& field(Segment segment) const { return shape(segment).field; }
+  static const DistanceField& field(Segment segment) { return shape(segment).field; }
   double m_per_mm() const { return m_per_mm_; }
+  /// Returns the factor on a segment's length along its axis, relative to usual proportions.
+  double stretch(Segment segment) const { return place_[index(segment)].stretch; }
 
  private:
   struct Shape {
@@ -39,12 +40,15 @@ class LegBones {
     DistanceField field;
   };
   using Shapes = std::vector<Shape>;
-  static Shapes shapes_of(const std::vector<BoneSurface>& bones);
+  static const Shapes& shapes();
   Vec3<double> in_shape(Segment segment, const Vec3<double>& at) const;
-  const Shape& shape(Segment segment) const;
+  static const Shape& shape(Segment segment);
 
-  std::shared_ptr<const Shapes> shapes_;
-  std::vector<Vec3<double>> joint_m_;  // of every segment
+  struct Place {
+    Vec3<double> joint_m;
+    double stretch;
+  };
+  std::vector<Place> place_;  // of every segment
   double m_per_mm_;
 };
 

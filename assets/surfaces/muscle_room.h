@@ -15,7 +15,7 @@ namespace mobil::inline v0_3 {
 /// Returns the mean of a ring's vertices.
 Vec3<double> ring_middle(std::span<const Vec3<float>> ring);
 
-/// The skin of a right leg and hip without its arm, for a body that stands at x = z = 0.
+/// Skin of a right leg and hip without the arm, the body standing at x = z = 0.
 class SkinRoom {
  public:
   SkinRoom(const Body& body, const LegFrame& leg);

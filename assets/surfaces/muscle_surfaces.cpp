@@ -29,7 +29,8 @@ namespace {
 using namespace geometry;
 
 constexpr TubeLayout layout{36, 18, 2};
-constexpr double cover_m = 0.002, bone_gap_m = 0.0012;  // of a muscle from the skin and from bones
+constexpr double cover_m = 0.002, sheet_cover_m = 0.0004,
+                 bone_gap_m = 0.0012;  // of a muscle from the skin and from bones
 
 /// Kneecap of the measured man: level of its upper edge, and its centre in mm from the knee's.
 constexpr double measured_patella_top = 0.992, measured_patella_lateral = 12, measured_patella_anterior = 40;
@@ -87,7 +88,7 @@ Point bone_centre(const std::array<Bone, 3>& bones, double level) {
   return {e.lateral, e.anterior};
 }
 
-/// What muscles are cut back to.
+/// Skin and bones that muscles are cut back to.
 struct Surroundings {
   SkinRoom skin;
   LegBones bones;
@@ -173,10 +174,11 @@ void smooth_along(SurfaceMesh& mesh, std::size_t first, std::size_t last) {
   }
 }
 
-/// Builds a muscle's mesh. `beneath` has the sections of the muscle under it, if any. A muscle alone is cut back only
+/// Builds a muscle's mesh. `beneath` has the sections of the muscle under it, if any. One of another group is
+/// covered whole, also by a tendon. A muscle alone is cut back only
 /// to the measured bones.
 SurfaceMesh build(const Fitting& f, const MuscleShape& shape, std::span<const LegSection> sections,
-                  std::span<const LegSection> beneath) {
+                  std::span<const LegSection> beneath, bool over_other_group = false) {
   std::vector<TubeStation> stations;
   for (const auto& s : sections) stations.push_back(leg_station(f.leg, shape.planes, s));
   SurfaceMesh mesh = loft(stations, {.reference = shape.planes.anterior,
@@ -198,14 +200,16 @@ SurfaceMesh build(const Fitting& f, const MuscleShape& shape, std::span<const Le
   for (auto& p : mesh.position) p.x = std::min(p.x, 0.0F);  // both glutei meet in the middle
   if (ends_on_bone(shape, TubeEnd::origin)) spread_end(bones, shape.origin, TubeEnd::origin, layout, mesh);
   if (ends_on_bone(shape, TubeEnd::insertion)) spread_end(bones, shape.insertion, TubeEnd::insertion, layout, mesh);
+  const bool is_sheet = !beneath.empty() && over_other_group;  // the iliotibial tract
   const std::size_t first = ends_on_bone(shape, TubeEnd::origin) ? layout.cap + 1 : 0,
                     last = layout.all_rings() - (ends_on_bone(shape, TubeEnd::insertion) ? layout.cap + 1 : 0);
   for (std::size_t r = first; r < last; ++r) {
-    keep_in(skin, cover_m, ring(r));
+    keep_in(skin, is_sheet ? sheet_cover_m : cover_m, ring(r));
     if (shape.planes.horizontal && !beneath.empty()) {
       // Tendons are not cut: they continue to the end of the muscle beneath.
       const double level = leg_level(f.leg, static_cast<double>(ring(r)[0].y));
-      const auto thick = static_cast<float>(smoothstep(0.3, 0.7, relative_area(sections, sections, level)));
+      const auto thick =
+          is_sheet ? 1.0F : static_cast<float>(smoothstep(0.3, 0.7, relative_area(sections, sections, level)));
       const std::vector<Vec3<float>> uncut(ring(r).begin(), ring(r).end());
       keep_off(f.leg, beneath, ring(r));
       for (std::size_t i = 0; i < uncut.size(); ++i) ring(r)[i] = uncut[i] + thick * (ring(r)[i] - uncut[i]);
@@ -318,6 +322,10 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
     const std::size_t n = room == MuscleRoom::together ? shapes[m].cut_back_to : no_muscle;
     return n == no_muscle ? std::vector<LegSection>{} : sections_of(n, girth[n]);
   };
+  const auto is_over_other_group = [&](std::size_t m) {
+    const std::size_t n = shapes[m].cut_back_to;
+    return n != no_muscle && shapes[n].group != shapes[m].group;
+  };
   const auto is_drawn = [&](std::size_t m) {
     return driving_muscle(simulated, shapes[m].group, shapes[m].muscle).has_value();
   };
@@ -336,7 +344,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
       const auto filling = [&](double low, double high) {
         for (int i = 0; i < 14; ++i) {
           const double middle = 0.5 * (low + high);
-          const SurfaceMesh mesh = build(f, shapes[m], sections_of(m, middle), under);
+          const SurfaceMesh mesh = build(f, shapes[m], sections_of(m, middle), under, is_over_other_group(m));
           (enclosed_volume(mesh) < shapes[m].volume_m3 ? low : high) = middle;
         }
         return 0.5 * (low + high);
@@ -351,7 +359,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
     if (!is_drawn(m)) continue;
     const auto sections = sections_of(m, girth[m]);
     GroupSurface s{shapes[m].group, shapes[m].muscle, {}, {}, {}, false};
-    s.surface.mesh = build(f, shapes[m], sections, beneath(m));
+    s.surface.mesh = build(f, shapes[m], sections, beneath(m), is_over_other_group(m));
     s.surface.mesh.name = std::string(shapes[m].name) + "_right";
     s.surface.origin = shapes[m].origin;
     s.surface.insertion = shapes[m].insertion;

@@ -20,9 +20,10 @@ struct FieldInWorld {
   Quat<float> back;
 
   FieldInWorld(const LegBones& bones, Segment segment, const PosedBone& bone, Side side)
-      : field(bones.field(segment)), pose(bone.pose), back(conjugate(bone.pose.rotation)) {
+      : field(LegBones::field(segment)), pose(bone.pose), back(conjugate(bone.pose.rotation)) {
     const float per_m = static_cast<float>(1 / (bones.m_per_mm() * field.cell)) / bone.lengths;
-    scale = {side == Side::left ? -per_m : per_m, per_m / bone.stretch, per_m};
+    scale = {side == Side::left ? -per_m : per_m, per_m / (bone.stretch * static_cast<float>(bones.stretch(segment))),
+             per_m};
     corner = to_float((1 / field.cell) * field.corner);
   }
   Point in_cells(const Point& p) const {
@@ -67,13 +68,15 @@ Depth depth_at(const DistanceField& field, const Point& c) {
 /// Moves a place out of a bone, along the slope of its field. Returns true if it was inside.
 bool move_out(const FieldInWorld& bone, float* p) {
   constexpr float gap_mm = 0.3F, over_mm = 0.05F;
-  constexpr int most_steps = 6;
+  constexpr int most_steps = 8;
+  const auto cell_mm = static_cast<float>(bone.field.cell);
+  const float least_steep = 0.5F * cell_mm * cell_mm;  // the middle of a bone is flat
   Point cells = bone.in_cells({p[0], p[1], p[2]});
   bool moved = false;
   for (int step = 0; step < most_steps && bone.contains(cells); ++step) {
     const Depth here = depth_at(bone.field, cells);
-    const float steep = dot(here.slope, here.slope);
-    if (here.distance >= gap_mm || steep < 1e-6F) break;
+    if (here.distance >= gap_mm) break;
+    const float steep = std::max(dot(here.slope, here.slope), least_steep);
     cells = cells + ((gap_mm + over_mm - here.distance) / steep) * here.slope;
     moved = true;
   }
@@ -98,7 +101,7 @@ void keep_clear(const LegBones& bones, const std::array<PosedBone, LegBones::har
   }
   const Point middle = 0.5F * (low + high);
   const float radius_m = 0.5F * length(high - low);
-  // What one bone pushes into another is moved again.
+  // Places that one bone pushes into another move again.
   bool moved = true;
   for (int pass = 0; pass < 6 && moved; ++pass) {
     moved = false;

@@ -197,7 +197,7 @@ Vec normal(const SurfaceMesh& mesh, const Positions& p, std::size_t t) {
   return cross(to_double(p[mesh.triangle[t + 1]]) - a, to_double(p[mesh.triangle[t + 2]]) - a);
 }
 
-/// Returns true for a triangle away from the ends that bones hold, which is neither sliver nor speck: its height is at
+/// Returns true for a triangle that is neither sliver nor speck, away from the ends that bones hold. Its height is at
 /// least a fifth of its longest side, which is at least half a millimetre.
 bool well_shaped(const MuscleSurface& surface, std::size_t t) {
   const SurfaceMesh& mesh = surface.mesh;

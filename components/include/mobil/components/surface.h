@@ -33,7 +33,7 @@ struct Tissue {
 };
 /// Returns the share of a tendon's colour in a vertex's colour, 0 to 1; the rest is the muscle's.
 inline float tendon_colour_share(const Tissue& tissue) {
-  return std::max(static_cast<float>(tissue.tendon), 0.6F * static_cast<float>(tissue.aponeurosis)) / 255;
+  return (std::max)(static_cast<float>(tissue.tendon), 0.6F * static_cast<float>(tissue.aponeurosis)) / 255;
 }
 
 /// Mean length and girth of a muscle's surface, m, and the angle between its fibres and the direction along it, rad.

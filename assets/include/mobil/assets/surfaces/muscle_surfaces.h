@@ -28,15 +28,16 @@ struct GroupSurface {
 /// follows the largest simulated member of its group. Returns nothing if none is simulated.
 std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, Muscle muscle);
 
-/// Room of drawn muscles. `alone` grows each by itself, away from the bone. `together` cuts it back to the muscle
-/// beneath and to the skin of mean people's legs (mobil/assets/body/leg_profile.h), growing it to its volume.
+/// Room of drawn muscles. `alone` grows each by itself, away from the bone, and cuts it back to the measured femur,
+/// tibia and fibula. `together` spreads its ends on the drawn bones, and cuts it back to these, to the muscle beneath and
+/// to the skin of mean people (mobil/assets/body/leg_profile.h), growing it to its volume.
 enum class MuscleRoom : std::uint8_t { alone, together };
 
 /// Returns the single muscles that `simulated` ones drive, in the order of member_muscles(), then the calcaneal tendon
 /// and the patellar ligament. They are of the right side in world axes, the body standing in the anatomical position at
 /// x = z = 0, m; closed, wound outwards, not yet bound. Each follows its measured path (muscle_table.h) on this body's
-/// bones. Its girth encloses the muscle's volume, growing away from the bone, and it is cut back where it would enter
-/// the femur or the tibia.
+/// bones. Its girth encloses the muscle's volume, growing away from the bone. Shapes of unusual limb lengths take a
+/// second, others a tenth after the first call.
 std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet& simulated = usual_muscles(),
                                                MuscleRoom room = MuscleRoom::together);
 

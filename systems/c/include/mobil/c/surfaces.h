@@ -24,7 +24,7 @@ typedef struct mobil_part {
   unsigned int first_vertex, vertices, first_index, indices;
 } mobil_part;
 
-/* Binds surfaces to a person's body, in some tens of milliseconds, for people of similar build. They stay valid without
+/* Binds surfaces to a person's body, in some tenths of a second, for people of similar build. They stay valid without
  * the person. */
 MOBIL_API int mobil_bind_surfaces(mobil_sim* sim, mobil_id like, const mobil_surface_choice* choice,
                                   mobil_surfaces** out);

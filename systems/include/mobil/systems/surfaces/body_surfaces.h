@@ -59,8 +59,8 @@ struct DrivenSurface {
 
 /// Surfaces of a body before they are bound: generated, or read from files.
 struct DrawnSurfaces {
-  std::vector<BoneSurface> bones;      // both sides
-  std::vector<DrivenSurface> muscles;  // right side
+  std::vector<BoneSurface> bones;                      // both sides
+  std::vector<DrivenSurface> muscles;                  // right side
   std::shared_ptr<const LegBones> clear_of = nullptr;  // bones that muscles do not enter; null: they can
 };
 /// Generates surfaces from published dimensions. Errors: those of rest_mesh, a `detail` outside 0.05 to 1.
@@ -121,9 +121,10 @@ struct SurfaceFit {
 /// each build.
 SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body);
 
-/// Binds surfaces to a body; the second function generates them first. Both steps take some tens of milliseconds, two
-/// thirds of it generation. A crowd can share the result (fit_surfaces). Errors: refused cells; a surface that is not
-/// bound to its driver's mesh, has more than 32,768 places (packed_surface.h), or has vertex indices out of range.
+/// Binds surfaces to a body; the second function generates them first. Both steps take some tenths of a second, most
+/// of it generation, and the first call a second more: it shapes the bones. A crowd can share the result
+/// (fit_surfaces). Errors: refused cells; a surface that is not bound to its driver's mesh, has more than 32,768 places
+/// (packed_surface.h), or has vertex indices out of range.
 Result<BodySurfaces> bind_surfaces(const Body& body, const DrawnSurfaces& drawn, const SurfaceChoice& choice);
 Result<BodySurfaces> bind_surfaces(const Body& body, const SurfaceChoice& choice = {});
 

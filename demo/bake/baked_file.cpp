@@ -16,6 +16,7 @@
 #include <mobil/skin_writer.h>
 #include "demo/measure/measure.h"
 #include "demo/program/commands.h"
+#include "demo/program/muscle_options.h"
 #include "demo/program/progress.h"
 #include "demo/program/units.h"
 
@@ -32,7 +33,7 @@ std::filesystem::path kept_file() {
 }
 
 struct BakeText {
-  std::string out, muscles = "groups", threads = "0";
+  std::string out, muscles = "usual", threads = "0";
   bool inertia = false, skins = false;
 };
 
@@ -55,17 +56,20 @@ Result<void> bake_skins(const std::filesystem::path& file) {
 Result<void> bake(const BakeText& text) {
   const auto threads = parse_count(text.threads, 0, 256);
   if (!threads) return fail(fmt::format("--threads {}: give a whole number from 0 to 256", text.threads));
+  const auto muscles = read_muscles(text.muscles);
+  if (!muscles) return tl::unexpected(muscles.error());
   const std::filesystem::path file = text.out.empty() ? text.skins ? "mobil.skins" : "mobil.baked" : text.out;
   if (auto place = check_result_place("--out", file); !place) return place;
   if (text.skins) return bake_skins(file);
   const double start_s = wall_now_s();
   Simulation simulation({.threads = static_cast<int>(*threads)});
   LodOptions options;
+  options.leg_muscles.muscles = *muscles;
   options.leg_muscles.inertia = text.inertia;
   Lod lod = simulation.lod();
   if (auto done = lod.set_options(options); !done) return done;
   LodScene all;
-  all.muscles = text.muscles == "members" ? muscles_of_groups(usual_muscles()) : usual_muscles();
+  all.muscles = *muscles;
   all.camera = Viewpoint{};  // a person who approaches it needs every method
   if (auto done = lod.set_scene(all); !done) return done;
   const auto progress = [](std::size_t done, std::size_t of) { show_progress("baking", done, of); };
@@ -147,16 +151,17 @@ Subcommand bake_command() {
       "\n--skins writes skins of usual builds, for BodySkins::load and mobil_load_skins. A program's first\n"
       "skin then takes milliseconds instead of two seconds.\n"
       "\nExamples: mobil bake\n"
+      "          mobil bake --muscles groups\n"
       "          mobil bake --inertia --out game/assets/mobil.baked\n"
       "          mobil bake --skins --out game/assets/mobil.skins\n"
       "          mobil crowd --people 5000 --baked mobil.baked";
-  add_options(
-      command,
-      {{"--out", &text->out, "FILE to write; default mobil.baked, or mobil.skins"},
-       {"--skins", &text->skins, "Bake skins instead of muscles, see below"},
-       {.name = "--muscles", .target = &text->muscles, .help = "Muscles to prepare", .choices = {"groups", "members"}},
-       {"--inertia", &text->inertia, "Prepare for gravity and the acceleration of the muscles' frames"},
-       {"--threads", &text->threads, "Number of threads, 1 to 256; 0: one per processor"}});
+  add_options(command,
+              {{"--out", &text->out, "FILE to write; default mobil.baked, or mobil.skins"},
+               {"--skins", &text->skins, "Bake skins instead of muscles, see below"},
+               {"--muscles", &text->muscles,
+                "Muscles to prepare: usual (four groups), groups (twelve), all, or names like hamstrings,soleus"},
+               {"--inertia", &text->inertia, "Prepare for gravity and the acceleration of the muscles' frames"},
+               {"--threads", &text->threads, "Number of threads, 1 to 256; 0: one per processor"}});
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("bake", bake(*text)); };
   return command;

@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include <mobil/mpi_transport.h>
+#include <mobil/muscle_table.h>
 #include "demo/crowd/crowd_picture.h"
+#include "demo/program/muscle_options.h"
 #include "demo/program/nearest_name.h"
 #include "demo/program/units.h"
 
@@ -57,10 +59,10 @@ Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options, Op
   if (text.root_motion && text.in_place) return fail("--root-motion and --in-place exclude each other; remove one");
   if (text.exports.empty()) {
     if (text.root_motion || text.in_place || options.z_back)
-      return fail(fmt::format("{}: is for exports; add --export FILE.glb, or remove it",
-                              text.in_place      ? "--in-place"
-                              : text.root_motion ? "--root-motion"
-                                                 : "--axes"));
+      return fail(fmt::format("{}: is for exports; add --export FILE.glb, or remove it", text.in_place ? "--in-place"
+                                                                                         : text.root_motion
+                                                                                             ? "--root-motion"
+                                                                                             : "--axes"));
     return {};
   }
   options.exports.assign(text.exports.begin(), text.exports.end());
@@ -111,6 +113,7 @@ std::string about_run(const CrowdOptions& options) {
   for (const NamedEffect& effect : effects)
     if (crowd.effects.*effect.on) of_effects += (of_effects.empty() ? "" : ",") + std::string(effect.name);
   about += " --effects " + (of_effects.empty() ? "none" : of_effects);
+  if (crowd.muscles != usual_muscles()) about += " --muscles " + muscle_list(crowd.muscles);
   return crowd.all_seen ? about + " --all-seen" : about;
 }
 
@@ -202,6 +205,8 @@ std::vector<Option> crowd_options(CrowdText& text) {
        {"--burst", &text.burst, "Number of people replaced in a single tick of each second", of_people},
        {"--effects", &text.effects,
         "LIST of muscles, forces, inertia, line-motion, activation, avoidance; or none: only walk", of_muscles},
+       {"--muscles", &text.muscles,
+        "Muscles of both legs: usual (four groups), groups (twelve), all, or names like hamstrings,soleus", of_muscles},
        {"--tolerance", &text.tolerance, "Maximum error of control points, in mm: 0.01mm to 1m", of_muscles},
        {"--near", &text.near, "Number of nearest people that are observed (half of a small crowd)", of_muscles},
        {"--near-tolerance", &text.near_tolerance, "Maximum error of their control points, 0.01mm to 1m", of_muscles},
@@ -249,6 +254,7 @@ Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
   crowd.churn_per_s = quantity("--churn", text.churn, "", Quantity::rate, 0, 100'000);
   crowd.burst = read(read_count("--burst", text.burst, 0, crowd.people));
   crowd.effects = read(read_effects(text.effects));
+  crowd.muscles = read(read_muscles(text.muscles));
   crowd.tolerance_m = quantity("--tolerance", text.tolerance, "mm", Quantity::length, 1e-5, 1);
   crowd.near_tolerance_m = quantity("--near-tolerance", text.near_tolerance, "mm", Quantity::length, 1e-5, 1);
   crowd.near = read(read_count("--near", text.near, 0, max_crowd));

@@ -30,7 +30,8 @@ struct CrowdOptions {
 struct CrowdText {
   std::string command = "crowd";
   std::string people = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
-  std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0", baked;
+  std::string budget, effects = "muscles", muscles = "usual", churn = "0", burst = "0", seed = "1", report, capture,
+                      frames = "0", baked;
   std::string alive, in_view = "10000", export_seconds = "2";
   std::string axes = usual_axes;
   std::string shards, save, save_every = "10", resume, silence = "60", balance_every = "0";

@@ -86,6 +86,7 @@ Json options_json(const CrowdOptions& options) {
         std::pair("activation", crowd.effects.activation), std::pair("avoidance", crowd.effects.avoidance)}) {
     if (on) json["effects"].push_back(name);
   }
+  json["muscles"] = muscle_list(crowd.muscles);
   json["churn_per_s"] = crowd.churn_per_s;
   json["burst"] = crowd.burst;
   json["all_seen"] = crowd.all_seen;

@@ -36,13 +36,15 @@ CrowdScene::CrowdScene(const CrowdRequest& request) : request_(request) {
 /// Returns the method that most muscle groups of distant people need; all people start with it.
 LegMuscles CrowdScene::first_muscles() const {
   LegMuscles choice;
+  choice.muscles = request_.muscles;
   choice.inertia = request_.effects.inertia;
   choice.line_motion = request_.effects.line_motion;
   if (request_.effects.activation) choice.activation = ExcitationSource::phase;
   const LodTable lod_table(accuracy_table());
   const float limit_m = static_cast<float>(request_.tolerance_m) / LodOptions{}.margin;
   std::array<std::size_t, level_count> wanted{};
-  for (std::uint32_t m = 0; m < usual_muscle_count; ++m) {
+  for (std::uint32_t m = 0; m < muscle_count; ++m) {
+    if (!choice.muscles[m]) continue;
     const LevelCase of = {m, LodTable::speed_step(1.35F, 1.72F), choice.inertia, request_.all_seen,
                           request_.effects.activation};
     ++wanted[lod_table.cheapest(of, limit_m)];
@@ -73,7 +75,8 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make_empty(const CrowdRequest& r
   }
   if (request.effects.muscles) {
     LodOptions& options = scene->choosing_.emplace();
-    options.switches = 8;  // near people change every second; this spreads the switches over it
+    // Near people change every second. The muscles of two people in a tick spread the switches over it.
+    options.switches = static_cast<std::uint32_t>(2 * std::max<std::size_t>(request.muscles.count(), 1));
     // Needs change at most once a second, so checking some hundreds of people per tick is enough.
     options.stagger = static_cast<std::uint32_t>(std::clamp<std::size_t>(request.people / request.shards / 500, 8, 60));
     options.leg_muscles = scene->muscles_;
@@ -81,6 +84,7 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make_empty(const CrowdRequest& r
     Lod lod = scene->simulation_->lod();
     if (auto done = lod.set_options(options); !done) return tl::unexpected(done.error());
     LodScene needs;
+    needs.muscles = request.muscles;
     needs.tolerance_m = static_cast<float>(request.tolerance_m);
     needs.looked_at = request.all_seen;
     needs.compact_unseen = true;

@@ -32,6 +32,7 @@ struct CrowdRequest {
   double tolerance_m = 0.005, near_tolerance_m = 0.001;
   std::optional<double> budget_s{};  // per tick, for all deformation
   CrowdEffects effects{};
+  MuscleSet muscles{(1U << usual_muscle_count) - 1};
   double churn_per_s = 0;
   std::size_t burst = 0;  // people replaced in one tick of each second
   bool all_seen = false;

@@ -16,6 +16,7 @@
 #include <mobil/opensim_writer.h>
 #include <mobil/usd_writer.h>
 #include <mobil/x3d_writer.h>
+#include "demo/program/muscle_options.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"
 
@@ -33,27 +34,6 @@ constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "
 constexpr std::string_view walk_activations[] = {"none", "phase", "moments"};
 constexpr ExcitationSource walk_sources[] = {ExcitationSource::none, ExcitationSource::phase,
                                              ExcitationSource::moments};
-
-/// Reads "usual", "groups", "single" (or "all", the same) and names of the table, separated by commas.
-Result<MuscleSet> read_muscles(const std::string& text) {
-  MuscleSet set;
-  for (const std::string& name : split(text, ',')) {
-    if (name == "usual") {
-      set |= usual_muscles();
-    } else if (name == "groups") {
-      set |= muscle_groups();
-    } else if (name == "single" || name == "all" || name == "members") {
-      set |= muscle_members();
-    } else if (const auto muscle = find_muscle(name)) {
-      set.set(static_cast<std::size_t>(*muscle));
-    } else {
-      std::string known;
-      for (const MuscleRow& row : muscles()) known += fmt::format(", {}", row.name);
-      return fail(fmt::format("--muscles '{}': '{}' is not one of usual, groups, all{}", text, name, known));
-    }
-  }
-  return set;
-}
 
 /// Reads the direction of the camera, degrees.
 Result<double> read_camera(const std::string& text, bool on_legs) {

@@ -14,7 +14,7 @@ namespace mobil::active_accuracy_test {
 namespace {
 
 AccuracyPlan other_bodies() {
-  AccuracyPlan plan = active_plans().front();
+  AccuracyPlan plan = active_plans(usual_muscles()).front();
   plan.bodies.clear();
   BodyRequest body;
   body.height_m = 1.70F;

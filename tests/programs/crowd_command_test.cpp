@@ -50,6 +50,7 @@ TEST(CrowdCommand, RefusesValuesOutOfRangeInOneLine) {
                   {"--effects wings", {"'wings'", "muscles, forces, inertia, line-motion, activation"}},
                   {"--effects inertia", {"add muscles"}},
                   {"--effects ''", {"--effects", "empty"}},
+                  {"--muscles wings", {"--muscles 'wings'", "usual, groups, all"}},
                   {"--report missing/crowd.json", {"--report", "no folder missing"}},
                   {"--capture crowd.jpg", {"--capture", ".png"}},
                   {"--frames 3", {"--frames", "--capture"}},
@@ -61,6 +62,7 @@ TEST(CrowdCommand, RefusesValuesOutOfRangeInOneLine) {
                   {"--people 1000 --in-view 300", {"--in-view 300", "quarter"}},
                   {"--churn 3", {"there is no option --churn"}}},
                  folder.path);
+  expect_refused("bake", {{"--muscles soleus,wings", {"--muscles", "'wings'", "usual, groups, all"}}}, folder.path);
 }
 
 TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
@@ -114,6 +116,17 @@ TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
   EXPECT_EQ(muscles, 40U * 8U);
   if (heap_is_counted()) {
     EXPECT_EQ(report["steady_allocations"], 0);
+  }
+}
+
+TEST(CrowdCommand, PeopleHaveTheChosenMuscles) {
+  for (const auto& [names, count] : {std::pair("groups", 12U), std::pair("soleus,iliopsoas", 2U)}) {
+    const Json report =
+        report_of("--people 10 --seconds 0.5 --muscles " + std::string(names) + " --tolerance 1m --near 0");
+    std::size_t muscles = 0;
+    for (const auto& [method, those] : report["muscles_by_method"].items()) muscles += those.get<std::size_t>();
+    EXPECT_EQ(muscles, 10U * 2 * count) << names;
+    EXPECT_NE(report["options"]["muscles"].get<std::string>().find("iliopsoas"), std::string::npos) << names;
   }
 }
 

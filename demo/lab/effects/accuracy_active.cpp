@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "assets/finite/shape_tables.h"
 #include "demo/program/commands.h"
 #include "demo/program/console.h"
+#include "demo/program/muscle_options.h"
 #include "demo/program/must.h"
 #include "demo/program/progress.h"
 #include "systems/bellies/belly_library.h"
@@ -232,22 +234,30 @@ std::array<TrackErrors, 2> compare(const std::array<const MuscleTrack*, 2>& trac
   return errors;
 }
 
-/// Prints the rows of systems/accuracy/accuracy_table.cpp, and its costs.
-void print_accuracy() {
+struct AccuracyText {
+  std::string muscles;
+};
+
+/// Prints rows of systems/accuracy/accuracy_table.cpp. Without names of muscles prints all rows, and the costs.
+void print_accuracy(const AccuracyText& text) {
+  const MuscleSet chosen = text.muscles.empty() ? muscle_groups() | muscle_members() : must(read_muscles(text.muscles));
   std::string rows, costs;
   for (const bool inertia : {false, true}) {
-    AccuracyPlan plan = accuracy_plan();
+    AccuracyPlan plan = accuracy_plan(chosen & muscle_groups());
+    if (plan.muscles.empty()) break;
     plan.progress = [&](double part) { show_part(inertia ? "errors with inertia" : "errors without inertia", part); };
     const auto errors = measure_errors(plan, inertia);
     rows += accuracy_source(errors);
   }
-  for (AccuracyPlan plan : active_plans()) {
+  for (AccuracyPlan plan : active_plans(chosen)) {
+    if (plan.muscles.empty()) continue;
     plan.progress = [](double part) { show_part("errors of muscles that pull", part); };
     const auto errors = measure_active_errors(plan);
     rows += accuracy_source(errors);
   }
   for (const bool active : {false, true}) {
     for (const bool inertia : {false, true}) {
+      if (!text.muscles.empty()) continue;
       show("costs");
       const auto cost = measure_costs(1024, inertia, active);
       costs += cost_source(cost);
@@ -265,14 +275,12 @@ void follow_tick(const FiniteBelly& belly, double tick_s, double foundation_hz, 
     must(follow(belly, tick_s, foundation_hz, from, to, 1.0 / steps * s, 1.0 / steps, scratch, motion));
 }
 
-std::array<AccuracyPlan, 2> active_plans() {
-  AccuracyPlan groups = accuracy_plan(), members = groups;
+std::array<AccuracyPlan, 2> active_plans(const MuscleSet& muscles) {
+  AccuracyPlan groups = accuracy_plan(muscles & muscle_groups()), members = accuracy_plan(muscles & ~muscle_groups());
   groups.bodies = {groups.bodies.front(), groups.bodies.back()};
   groups.seconds = 2;
   members.bodies.resize(1);
   members.seconds = 1;
-  members.muscles.clear();
-  for (std::size_t m = usual_muscle_count; m < muscles().size(); ++m) members.muscles.push_back(static_cast<Muscle>(m));
   return {groups, members};
 }
 
@@ -323,12 +331,16 @@ std::vector<AccuracyRow> measure_active_errors(const AccuracyPlan& plan) {
 }
 
 Subcommand fit_accuracy_command() {
+  auto text = std::make_shared<AccuracyText>();
   Subcommand command{.name = "fit-accuracy"};
   command.footer =
       "For those who change the library: prints rows and costs as systems/accuracy/accuracy_table.cpp has them. "
       "Minutes.\n"
-      "Example: mobil fit-accuracy > accuracy.txt";
-  command.run = [] { return exit_status_of("fit-accuracy", attempt(print_accuracy)); };
+      "Examples: mobil fit-accuracy > accuracy.txt\n"
+      "          mobil fit-accuracy --muscles iliopsoas,deep_calf > accuracy.txt";
+  add_options(command, {{"--muscles", &text->muscles,
+                         "Print only rows of these muscles, and no costs: usual, groups, all, or names"}});
+  command.run = [text] { return exit_status_of("fit-accuracy", attempt([&] { print_accuracy(*text); })); };
   return command;
 }
 

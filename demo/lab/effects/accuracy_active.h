@@ -18,9 +18,10 @@ struct WalkLoad {
 void follow_tick(const FiniteBelly& belly, double tick_s, double foundation_hz, const WalkLoad& from,
                  const WalkLoad& to, int steps, FiniteScratch& scratch, FiniteMotion& motion);
 
-/// Returns plans like accuracy_plan, for a shorter time, because a muscle's walk takes half a minute of a core. Groups
-/// walk in two bodies. Members walk in one, because those of the calf err by up to 1.6 times as much as their group.
-std::array<AccuracyPlan, 2> active_plans();
+/// Returns plans like accuracy_plan for groups and other muscles, for a shorter time, because a muscle's walk takes
+/// half a minute of a core. Groups walk in two bodies. Members walk in one, because those of the calf err by up to 1.6
+/// times as much as their group.
+std::array<AccuracyPlan, 2> active_plans(const MuscleSet& muscles);
 
 /// Returns rows without inertia and with, of the right leg. The reference is the static shape of nonlinear tissue, from
 /// which the tables are made, and the effect of inertia on it with 4×4×16 elements.

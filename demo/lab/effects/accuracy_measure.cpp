@@ -148,9 +148,10 @@ float percentile(std::vector<float>& values, double part) {
   return values[static_cast<std::size_t>(at)];
 }
 
-AccuracyPlan accuracy_plan() {
+AccuracyPlan accuracy_plan(const MuscleSet& muscles) {
   AccuracyPlan plan;
-  for (std::size_t g = 0; g < usual_muscle_count; ++g) plan.muscles.push_back(static_cast<Muscle>(g));
+  for (std::size_t m = 0; m < muscle_count; ++m)
+    if (muscles[m]) plan.muscles.push_back(static_cast<Muscle>(m));
   const auto add = [&](float height_m, float mass_kg, Constitution constitution) {
     BodyRequest body;
     body.height_m = height_m;

@@ -65,8 +65,8 @@ struct AccuracyPlan {
   double settle_s = 3, seconds = 6;
   std::function<void(double)> progress = [](double) {};  // parts done
 };
-/// Returns four groups in light, middling and heavy bodies, small and tall.
-AccuracyPlan accuracy_plan();
+/// Returns a plan for these muscles in light, middling and heavy bodies, small and tall.
+AccuracyPlan accuracy_plan(const MuscleSet& muscles);
 
 /// Returns rows with or without inertia: the worst body's 99.9th percentile, scaled to the reference body's height.
 std::vector<AccuracyRow> measure_errors(const AccuracyPlan& plan, bool inertia);

@@ -137,6 +137,7 @@ TEST(LodTable, UnmeasuredMuscleHasItsGroupsFigures) {
       EXPECT_GT(lod_table.error_m({m, 14, true, true}, r), 0);
       const bool own =
           accuracy_table().find(static_cast<Muscle>(m), SpeedClass::free, true)->muscle == static_cast<Muscle>(m);
+      EXPECT_TRUE(own || !is_muscle_group(static_cast<Muscle>(m))) << muscle_name(static_cast<Muscle>(m));
       if (!own) {
         EXPECT_EQ(lod_table.error_m({m, 14, true, true}, r), lod_table.error_m({group, 14, true, true}, r));
       }
@@ -154,7 +155,7 @@ TEST(LodTable, ActiveMusclesHaveTheirOwnFigures) {
       EXPECT_NE(lod_table.error_m(of, r), lod_table.error_m({m, 14, true, true}, r));
       const LodLevel& level = active_levels[r];
       if (level.finite_shape && level.moving) {
-        EXPECT_LT(lod_table.volume_off(of, r), 0.012F) << level.name;
+        EXPECT_LT(lod_table.volume_off(of, r), 0.013F) << level.name;
       } else if (!level.finite_shape) {
         EXPECT_GT(lod_table.volume_off(of, r), 0.02F) << level.name;
       }

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <mobil/lod.h>
 #include <mobil/muscle_library.h>
+#include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include <mobil/systems/snapshot/restore_limits.h>
 #include "engine/row_hash.h"
@@ -85,6 +87,36 @@ TEST(Baked, LoadingAddsOnlyMissingData) {
   ASSERT_TRUE(simulation.muscle_library().load(bytes));
   EXPECT_EQ(simulation.muscle_library().bake(), both);
   EXPECT_EQ(both.size(), bytes.size()) << "of what both have there is one";
+}
+
+/// Sets a scene of one muscle within 5 mm.
+void set_scene_of(Simulation& simulation, Muscle muscle) {
+  LodScene scene{.tolerance_m = 0.005F};
+  scene.muscles = MuscleSet().set(static_cast<std::size_t>(muscle));
+  ASSERT_TRUE(simulation.lod().set_scene(scene));
+}
+
+/// Loads the bytes, lets level of detail choose a method for a person's iliopsoas, and returns all baked data.
+std::vector<std::byte> bytes_after_use(const std::vector<std::byte>& bytes) {
+  Simulation simulation;
+  EXPECT_TRUE(simulation.muscle_library().load(bytes));
+  set_scene_of(simulation, Muscle::iliopsoas);
+  const auto person = simulation.spawn({.height_m = 1.78F, .mass_kg = 76});
+  EXPECT_TRUE(person);
+  EXPECT_TRUE(simulation.lod().manage(*person));
+  simulation.tick(10);
+  EXPECT_NE(simulation.lod().why(*person, Muscle::iliopsoas)->method.method, Method::none);
+  return simulation.muscle_library().bake();
+}
+
+TEST(Baked, PreparedMusclesOfASceneNeedNothingMore) {
+  for (const Muscle muscle : {Muscle::iliopsoas, Muscle::peroneals}) {
+    Simulation simulation;
+    set_scene_of(simulation, muscle);
+    ASSERT_TRUE(simulation.lod().prepare());
+    const auto baked = simulation.muscle_library().bake();
+    EXPECT_EQ(bytes_after_use(baked) == baked, muscle == Muscle::iliopsoas) << muscle_name(muscle);
+  }
 }
 
 TEST(Baked, SnapshotUsesLoadedData) {

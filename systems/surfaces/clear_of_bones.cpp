@@ -1,44 +1,136 @@
 #include "systems/surfaces/clear_of_bones.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE __BASE_FILE__
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "systems/surfaces/weights8-inl.h"
+
+#ifndef MOBIL_BONE_GRID
+#define MOBIL_BONE_GRID
+namespace mobil::inline v0_3 {
+namespace {
+
+/// A bone's samples in the world. `to_box` moves points to cells from where the bone begins, `margin` cells inside the
+/// grid. Points next to a sample of `close` and more (mm) are outside the bone.
+struct BoneGrid {
+  AffineMap to_box;
+  Vec3<float> box;  // size of the bone, cells
+  float margin, close;
+  const float* sample;
+  std::int32_t count_x, count_y;
+};
+
+}  // namespace
+}  // namespace mobil::inline v0_3
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::inline v0_3::HWY_NAMESPACE {
+namespace {
+
+/// Writes a bit for each place, eight to a byte: 1 if it can be within the bone, by the sample next to it.
+void find_near(const BoneGrid& bone, const float* places, std::size_t blocks, std::uint8_t* bits) {
+  const EightTag tag;
+  const hn::RebindToSigned<EightTag> whole;
+  const auto zero = hn::Zero(tag), margin = hn::Set(tag, bone.margin), close = hn::Set(tag, bone.close);
+  const auto across = hn::Set(whole, bone.count_x), along = hn::Set(whole, bone.count_x * bone.count_y);
+  for (std::size_t b = 0; b < blocks; ++b, places += 4 * block_vertices) {
+    EightVec p;
+    for (std::size_t i = 0; i < eight_parts; ++i) {
+      Rows rows;
+      for (std::size_t v = 0; v < 4; ++v) {
+        const float* first = places + 4 * (4 * i + v);
+        rows.row[v] = load_vertices(tag, first, first + 16);
+      }
+      const Rows words = transposed(rows);
+      p.x.part[i] = words.row[0];
+      p.y.part[i] = words.row[1];
+      p.z.part[i] = words.row[2];
+    }
+    const EightVec c = apply<true>(bone.to_box, p);
+    std::uint8_t found = 0;
+    for (std::size_t i = 0; i < eight_parts; ++i) {
+      const auto is_in = [&](const WideEight& v, float high) HWY_ATTR {
+        return hn::And(hn::Gt(v.part[i], zero), hn::Lt(v.part[i], hn::Set(tag, high)));
+      };
+      const auto in_box = hn::And(hn::And(is_in(c.x, bone.box.x), is_in(c.y, bone.box.y)), is_in(c.z, bone.box.z));
+      if (hn::AllFalse(tag, in_box)) continue;
+      const auto cell = [&](const WideEight& v) HWY_ATTR {
+        return hn::ConvertTo(whole, hn::IfThenElseZero(in_box, hn::Add(v.part[i], margin)));
+      };
+      const auto sample = hn::Add(hn::Add(cell(c.x), hn::Mul(across, cell(c.y))), hn::Mul(along, cell(c.z)));
+      const auto near = hn::And(in_box, hn::Lt(hn::GatherIndex(tag, bone.sample, sample), close));
+      std::uint8_t own[8] = {};
+      hn::StoreMaskBits(tag, near, own);
+      found = static_cast<std::uint8_t>(found | (own[0] << (4 * i)));
+    }
+    bits[b] = found;
+  }
+}
+
+}  // namespace
+}  // namespace mobil::inline v0_3::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <span>
+#include <cstdint>
 
 #include <mobil/engine/geometry.h>
+#include <mobil/systems/surfaces/vertex_rings.h>
 
 namespace mobil::inline v0_3 {
 namespace {
 
 using namespace geometry;
 using Point = Vec3<float>;
+constexpr float gap_mm = 0.3F;  // of places from bones
+HWY_EXPORT(find_near);
 
 /// A bone's field for points in the world: cells = rotation⁻¹ (p − position) · scale − corner.
 struct FieldInWorld {
   const DistanceField& field;
   RigidPose pose;
   Point scale, corner;  // cells per m along the bone's axes, cells
-  Quat<float> back;
+  BoneGrid grid{};
 
   FieldInWorld(const LegBones& bones, Segment segment, const PosedBone& bone, Side side)
-      : field(LegBones::field(segment)), pose(bone.pose), back(conjugate(bone.pose.rotation)) {
+      : field(LegBones::field(segment)), pose(bone.pose) {
     const float per_m = static_cast<float>(1 / (bones.m_per_mm() * field.cell)) / bone.lengths;
     scale = {side == Side::left ? -per_m : per_m, per_m / (bone.stretch * static_cast<float>(bones.stretch(segment))),
              per_m};
     corner = to_float((1 / field.cell) * field.corner);
+    const std::array<Point, 3> axis = columns(pose.rotation);
+    const std::array<float, 3> size = {scale.x, scale.y, scale.z}, first = {corner.x, corner.y, corner.z};
+    grid.margin = static_cast<float>(field.band / field.cell);
+    for (std::size_t r = 0; r < 3; ++r) {
+      const Point row = size[r] * axis[r];
+      grid.to_box.column[0][r] = row.x;
+      grid.to_box.column[1][r] = row.y;
+      grid.to_box.column[2][r] = row.z;
+      grid.to_box.column[3][r] = -dot(row, pose.position_m) - first[r] - grid.margin;
+    }
+    const auto within = [&](int samples) { return static_cast<float>(samples) - 2 * grid.margin; };
+    grid.box = {within(field.count[0]), within(field.count[1]), within(field.count[2])};
+    grid.close = gap_mm + static_cast<float>(1.74 * field.cell);  // the diagonal of a cell
+    grid.sample = field.value.data();
+    grid.count_x = field.count[0];
+    grid.count_y = field.count[1];
   }
-  Point in_cells(const Point& p) const {
-    const Point q = rotated(back, p - pose.position_m);
-    return {scale.x * q.x - corner.x, scale.y * q.y - corner.y, scale.z * q.z - corner.z};
+  Point in_cells(const float* p) const {
+    const auto& m = grid.to_box.column;
+    const auto row = [&](std::size_t r) {
+      return m[0][r] * p[0] + m[1][r] * p[1] + m[2][r] * p[2] + m[3][r] + grid.margin;
+    };
+    return {row(0), row(1), row(2)};
   }
   Point in_world(const Point& cells) const {
     const Point q{(cells.x + corner.x) / scale.x, (cells.y + corner.y) / scale.y, (cells.z + corner.z) / scale.z};
     return pose.position_m + rotated(pose.rotation, q);
-  }
-  bool can_touch(const Point& middle, float radius_m) const {
-    const Point at = in_cells(middle);
-    const float reach = radius_m * std::max(scale.y, scale.z);
-    const auto is_near = [&](float v, int cells) { return v > -reach && v < static_cast<float>(cells) + reach; };
-    return is_near(at.x, field.count[0]) && is_near(at.y, field.count[1]) && is_near(at.z, field.count[2]);
   }
   bool contains(const Point& c) const {
     const auto is_in = [](float v, int count) { return v >= 0 && v < static_cast<float>(count - 1); };
@@ -67,11 +159,11 @@ Depth depth_at(const DistanceField& field, const Point& c) {
 
 /// Moves a place out of a bone, along the slope of its field. Returns true if it was inside.
 bool move_out(const FieldInWorld& bone, float* p) {
-  constexpr float gap_mm = 0.3F, over_mm = 0.05F;
+  constexpr float over_mm = 0.05F;
   constexpr int most_steps = 8;
   const auto cell_mm = static_cast<float>(bone.field.cell);
   const float least_steep = 0.5F * cell_mm * cell_mm;  // the middle of a bone is flat
-  Point cells = bone.in_cells({p[0], p[1], p[2]});
+  Point cells = bone.in_cells(p);
   bool moved = false;
   for (int step = 0; step < most_steps && bone.contains(cells); ++step) {
     const Depth here = depth_at(bone.field, cells);
@@ -92,25 +184,30 @@ bool move_out(const FieldInWorld& bone, float* p) {
 
 void keep_clear(const LegBones& bones, const std::array<PosedBone, LegBones::hard.size()>& posed, Side side,
                 float* places, std::size_t count) {
-  if (count == 0) return;
-  Point low{places[0], places[1], places[2]}, high = low;
-  for (std::size_t i = 1; i < count; ++i) {
-    const float* p = places + 4 * i;
-    low = {std::min(low.x, p[0]), std::min(low.y, p[1]), std::min(low.z, p[2])};
-    high = {std::max(high.x, p[0]), std::max(high.y, p[1]), std::max(high.z, p[2])};
-  }
-  const Point middle = 0.5F * (low + high);
-  const float radius_m = 0.5F * length(high - low);
-  // Places that one bone pushes into another move again.
-  bool moved = true;
-  for (int pass = 0; pass < 6 && moved; ++pass) {
-    moved = false;
+  using Bits = std::array<std::uint8_t, max_places / block_vertices>;
+  Bits bits, moved;
+  const std::size_t blocks = count / block_vertices;
+  std::fill_n(moved.begin(), blocks, std::uint8_t{0xFF});
+  bool any = true;
+  for (int pass = 0; pass < 6 && any; ++pass) {
+    // Places that one bone pushes into another move again.
+    const Bits looked_at = moved;
+    std::fill_n(moved.begin(), blocks, std::uint8_t{0});
+    any = false;
     for (std::size_t b = 0; b < posed.size(); ++b) {
       const FieldInWorld own(bones, LegBones::hard[b], posed[b], side);
-      if (!own.can_touch(middle, radius_m)) continue;
-      for (std::size_t i = 0; i < count; ++i) moved = move_out(own, places + 4 * i) || moved;
+      HWY_DYNAMIC_DISPATCH(find_near)(own.grid, places, blocks, bits.data());
+      for (std::size_t block = 0; block < blocks; ++block) {
+        for (unsigned left = bits[block] & looked_at[block]; left != 0; left &= left - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+          if (!move_out(own, places + 4 * (block_vertices * block + lane))) continue;
+          moved[block] = static_cast<std::uint8_t>(moved[block] | (1U << lane));
+          any = true;
+        }
+      }
     }
   }
 }
 
 }  // namespace mobil::inline v0_3
+#endif

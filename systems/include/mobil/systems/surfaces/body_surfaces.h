@@ -37,7 +37,7 @@ struct SurfaceChoice {
   /// True for texture coordinates, and for tangents if requested.
   bool textured = false;
   /// Moves muscle vertices that would be within the drawn bones of the pose onto their surface (generated surfaces of
-  /// the pelvis and the legs). Costs as much again as writing the muscles without it.
+  /// the pelvis and the legs). Takes twice as long as writing the muscles without it, in addition.
   bool clear_of_bones = true;
 };
 

@@ -61,6 +61,7 @@ struct Shown {
     drawn.simulated = choice.muscles;
     drawn.cells = choice.cells;
     drawn.detail = 0.3;
+    drawn.clear_of_bones = false;  // which would move some vertices to the other side of a bone
     surfaces = *bind_surfaces(*make_body(somebody), drawn);
   }
   std::vector<Vec3<float>> vertices(Entity person) const {

@@ -22,9 +22,6 @@ Proportions proportions(const Body& body) {
     const std::size_t parent = index(segment_parent[s]);
     p.world[s] = s == parent ? p.joint[s] : p.world[parent] + p.joint[s];
   }
-  // The chest is drawn at the measured man's height, whatever the length of the legs.
-  const auto usual_m = static_cast<float>(fraction::hip_height * static_cast<double>(body.request.height_m));
-  for (Vec& at : p.world) at.y -= mm * static_cast<double>(body.hip_height_m - usual_m);
   p.leg = leg_frame(body);
   p.leg.hip = {0, 0, 0};
   p.leg.thigh_length *= mm;

@@ -62,16 +62,10 @@ const std::vector<BoneSurface>& usual_bones() {
 
 double bone_stretch(const Body& body, Segment segment) {
   static const Body usual = *make_body({});
-  const auto of = [&](float LimbLengths<float>::*limb) {
-    const auto share = [&](const Body& b) { return static_cast<double>(limb_lengths(b).*limb / b.request.height_m); };
-    return share(body) / share(usual);
+  const auto share = [&](const Body& b) {
+    return static_cast<double>(value_of(limb_lengths(b), segment, b.request.height_m) / b.request.height_m);
   };
-  using enum Segment;
-  if (segment == thigh_right || segment == thigh_left) return of(&LimbLengths<float>::thigh_m);
-  if (segment == shank_right || segment == shank_left) return of(&LimbLengths<float>::shank_m);
-  if (segment == upper_arm_right || segment == upper_arm_left) return of(&LimbLengths<float>::upper_arm_m);
-  if (segment == forearm_right || segment == forearm_left) return of(&LimbLengths<float>::forearm_m);
-  return 1;
+  return share(body) / share(usual);
 }
 
 std::vector<BoneSurface> make_bone_surfaces(const Body& body) {

@@ -19,6 +19,15 @@ std::vector<BoneSurface> make_bone_surfaces(const Body& body);
 /// Returns the surfaces of a body in usual proportions, in mm of a man of reference_height_mm. The first call takes a
 /// second.
 const std::vector<BoneSurface>& usual_bones();
+/// Returns the value of the limb that a segment is, or `otherwise` for the other segments.
+constexpr float value_of(const LimbLengths<float>& limbs, Segment segment, float otherwise) {
+  using enum Segment;
+  if (segment == thigh_right || segment == thigh_left) return limbs.thigh_m;
+  if (segment == shank_right || segment == shank_left) return limbs.shank_m;
+  if (segment == upper_arm_right || segment == upper_arm_left) return limbs.upper_arm_m;
+  if (segment == forearm_right || segment == forearm_left) return limbs.forearm_m;
+  return otherwise;
+}
 /// Returns the factor on a segment's length along its axis, relative to usual proportions.
 double bone_stretch(const Body& body, Segment segment);
 

@@ -39,7 +39,7 @@ void spread_end(const LegBones& bones, Segment bone, TubeEnd end, const TubeLayo
   const Vec foot = bones.nearest(bone, centre);
   Vec out = bones.outward(bone, foot);
   if (length(out) == 0) out = normalised(centre - foot);
-  const Vec beyond = normalised(orthogonal(centre - next, out));
+  const Vec beyond = orthogonal(centre - next, out);
   std::vector<Vec> shift;
   double radius = 0;
   for (const auto& p : ring(0)) {

@@ -22,6 +22,7 @@
 #include "assets/surfaces/muscle_room.h"
 #include "assets/surfaces/muscle_shapes.h"
 #include "assets/surfaces/surface_mesh.h"
+#include "assets/surfaces/tissue.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -174,11 +175,16 @@ void smooth_along(SurfaceMesh& mesh, std::size_t first, std::size_t last) {
   }
 }
 
-/// Builds a muscle's mesh. `beneath` has the sections of the muscle under it, if any. One of another group is
-/// covered whole, also by a tendon. A muscle alone is cut back only
-/// to the measured bones.
+/// The sections of the muscle under another one, if any. One of another group is covered whole, also by a tendon: by
+/// the iliotibial tract.
+struct Beneath {
+  std::vector<LegSection> sections = {};
+  bool of_other_group = false;
+};
+
+/// Builds a muscle's mesh. A muscle alone is cut back only to the measured bones.
 SurfaceMesh build(const Fitting& f, const MuscleShape& shape, std::span<const LegSection> sections,
-                  std::span<const LegSection> beneath, bool over_other_group = false) {
+                  const Beneath& beneath) {
   std::vector<TubeStation> stations;
   for (const auto& s : sections) stations.push_back(leg_station(f.leg, shape.planes, s));
   SurfaceMesh mesh = loft(stations, {.reference = shape.planes.anterior,
@@ -200,18 +206,18 @@ SurfaceMesh build(const Fitting& f, const MuscleShape& shape, std::span<const Le
   for (auto& p : mesh.position) p.x = std::min(p.x, 0.0F);  // both glutei meet in the middle
   if (ends_on_bone(shape, TubeEnd::origin)) spread_end(bones, shape.origin, TubeEnd::origin, layout, mesh);
   if (ends_on_bone(shape, TubeEnd::insertion)) spread_end(bones, shape.insertion, TubeEnd::insertion, layout, mesh);
-  const bool is_sheet = !beneath.empty() && over_other_group;  // the iliotibial tract
   const std::size_t first = ends_on_bone(shape, TubeEnd::origin) ? layout.cap + 1 : 0,
                     last = layout.all_rings() - (ends_on_bone(shape, TubeEnd::insertion) ? layout.cap + 1 : 0);
   for (std::size_t r = first; r < last; ++r) {
-    keep_in(skin, is_sheet ? sheet_cover_m : cover_m, ring(r));
-    if (shape.planes.horizontal && !beneath.empty()) {
+    keep_in(skin, beneath.of_other_group ? sheet_cover_m : cover_m, ring(r));
+    if (shape.planes.horizontal && !beneath.sections.empty()) {
       // Tendons are not cut: they continue to the end of the muscle beneath.
       const double level = leg_level(f.leg, static_cast<double>(ring(r)[0].y));
-      const auto thick =
-          is_sheet ? 1.0F : static_cast<float>(smoothstep(0.3, 0.7, relative_area(sections, sections, level)));
+      const auto thick = beneath.of_other_group
+                             ? 1.0F
+                             : static_cast<float>(smoothstep(0.3, 0.7, relative_area(sections, sections, level)));
       const std::vector<Vec3<float>> uncut(ring(r).begin(), ring(r).end());
-      keep_off(f.leg, beneath, ring(r));
+      keep_off(f.leg, beneath.sections, ring(r));
       for (std::size_t i = 0; i < uncut.size(); ++i) ring(r)[i] = uncut[i] + thick * (ring(r)[i] - uncut[i]);
     }
   }
@@ -227,7 +233,7 @@ std::vector<float> tendon_shares(const LegFrame& leg, const MuscleShape& shape,
   std::vector<float> share;
   for (const auto& p : mesh.position) {
     const double level = section_level(leg, shape.planes, to_double(p));
-    share.push_back(static_cast<float>(1 - smoothstep(0.10, 0.32, relative_area(measured, fitted_sections, level))));
+    share.push_back(static_cast<float>(tendon_share(relative_area(measured, fitted_sections, level))));
   }
   return share;
 }
@@ -319,12 +325,8 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
     return n == no_muscle ? fitted(f, shapes[m], g, nullptr, 1) : fitted(f, shapes[m], g, &shapes[n], girth[n]);
   };
   const auto beneath = [&](std::size_t m) {
-    const std::size_t n = room == MuscleRoom::together ? shapes[m].cut_back_to : no_muscle;
-    return n == no_muscle ? std::vector<LegSection>{} : sections_of(n, girth[n]);
-  };
-  const auto is_over_other_group = [&](std::size_t m) {
-    const std::size_t n = shapes[m].cut_back_to;
-    return n != no_muscle && shapes[n].group != shapes[m].group;
+    const std::size_t n = around ? shapes[m].cut_back_to : no_muscle;
+    return n == no_muscle ? Beneath{} : Beneath{sections_of(n, girth[n]), shapes[n].group != shapes[m].group};
   };
   const auto is_drawn = [&](std::size_t m) {
     return driving_muscle(simulated, shapes[m].group, shapes[m].muscle).has_value();
@@ -340,11 +342,11 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
   for (const bool covering : {false, true}) {
     for (std::size_t m = 0; m < shapes.size(); ++m) {
       if (!needed[m] || shapes[m].volume_m3 == 0 || (shapes[m].cut_back_to != no_muscle) != covering) continue;
-      const std::vector<LegSection> under = beneath(m);
+      const Beneath under = beneath(m);
       const auto filling = [&](double low, double high) {
         for (int i = 0; i < 14; ++i) {
           const double middle = 0.5 * (low + high);
-          const SurfaceMesh mesh = build(f, shapes[m], sections_of(m, middle), under, is_over_other_group(m));
+          const SurfaceMesh mesh = build(f, shapes[m], sections_of(m, middle), under);
           (enclosed_volume(mesh) < shapes[m].volume_m3 ? low : high) = middle;
         }
         return 0.5 * (low + high);
@@ -355,11 +357,12 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
     }
   }
   std::vector<GroupSurface> all;
+  std::optional<Vec3<float>> tendon_end;  // of the calcaneal tendon, in which several muscles end
   for (std::size_t m = 0; m < shapes.size(); ++m) {
     if (!is_drawn(m)) continue;
     const auto sections = sections_of(m, girth[m]);
     GroupSurface s{shapes[m].group, shapes[m].muscle, {}, {}, {}, false};
-    s.surface.mesh = build(f, shapes[m], sections, beneath(m), is_over_other_group(m));
+    s.surface.mesh = build(f, shapes[m], sections, beneath(m));
     s.surface.mesh.name = std::string(shapes[m].name) + "_right";
     s.surface.origin = shapes[m].origin;
     s.surface.insertion = shapes[m].insertion;
@@ -370,9 +373,9 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
       s.surface.origin_held = held_shares(TubeEnd::origin, layout, s.surface.mesh.position.size());
     if (around && ends_on_bone(shapes[m], TubeEnd::insertion))
       s.surface.insertion_held = held_shares(TubeEnd::insertion, layout, s.surface.mesh.position.size());
-    if (shapes[m].ends_in != no_muscle) {
-      const MuscleShape& last = shapes[shapes[m].ends_in];
-      s.attachments.insertion_m = build(f, last, sections_of(shapes[m].ends_in, 1), {}).position.back();
+    if (const std::size_t n = shapes[m].ends_in; n != no_muscle) {
+      if (!tendon_end) tendon_end = build(f, shapes[n], sections_of(n, 1), {}).position.back();
+      s.attachments.insertion_m = *tendon_end;
     }
     all.push_back(std::move(s));
   }

@@ -143,9 +143,8 @@ void hold(const MuscleSurface& surface, std::size_t v, VertexBinding& b) {
   if (rest == 1) return;
   (b.origin_held > 0 ? b.origin : b.insertion) += b.lattice;
   b.lattice = 0;
-  const float sum = b.origin + b.insertion;
-  b.origin *= rest / sum;
-  b.insertion *= rest / sum;
+  b.origin *= rest;
+  b.insertion *= rest;
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TissueLine tissue_line(std::span<const Vec3<float>> position, std::span<const Te
   const double thickest = *std::ranges::max_element(line.radius);
   for (std::size_t i = 0; i < tissue_stations; ++i) {
     const double relative = line.radius[i] / std::max(thickest, 1e-9);
-    line.tendon[i] = 1 - smoothstep(0.10, 0.32, relative * relative);
+    line.tendon[i] = tendon_share(relative * relative);
   }
   return line;
 }
@@ -158,6 +158,10 @@ std::uint8_t byte(double share) {
 }
 
 }  // namespace
+
+double tendon_share(double relative_area) {
+  return 1 - smoothstep(0.10, 0.32, relative_area);
+}
 
 MuscleTissue muscle_tissue(const Body& body, Muscle muscle, const SurfaceMesh& mesh,
                            std::span<const TexturePlace> place, std::span<const float> tendon) {

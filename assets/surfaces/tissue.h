@@ -11,6 +11,9 @@
 
 namespace mobil::inline v0_3 {
 
+/// Returns the share of tendon, 0 to 1, where a muscle's section has that part of the area of its largest.
+double tendon_share(double relative_area);
+
 struct MuscleTissue {
   std::vector<Tissue> vertex;
   FibreScale fibres;

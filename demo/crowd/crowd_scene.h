@@ -16,6 +16,7 @@
 #include <mobil/avoidance.h>
 #include <mobil/engine/error.h>
 #include <mobil/lod.h>
+#include <mobil/muscle_table.h>
 #include <mobil/simulation.h>
 #include "demo/scene/crowd_people.h"
 
@@ -32,7 +33,7 @@ struct CrowdRequest {
   double tolerance_m = 0.005, near_tolerance_m = 0.001;
   std::optional<double> budget_s{};  // per tick, for all deformation
   CrowdEffects effects{};
-  MuscleSet muscles{(1U << usual_muscle_count) - 1};
+  MuscleSet muscles = usual_muscles();
   double churn_per_s = 0;
   std::size_t burst = 0;  // people replaced in one tick of each second
   bool all_seen = false;

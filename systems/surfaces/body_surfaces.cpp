@@ -36,19 +36,18 @@ Texture texture_of(const SurfaceMesh& mesh, std::vector<TexturePlace> place) {
   return {std::move(place), std::move(along)};
 }
 
-/// Returns the values of the nearest vertices of the finer mesh.
-std::vector<float> carried_over(const SurfaceMesh& fine, std::span<const float> value, const SurfaceMesh& coarse) {
-  std::vector<float> carried;
-  if (value.empty()) return carried;
+/// Returns the vertex of the finer mesh that is nearest to each of the coarser one.
+std::vector<std::size_t> nearest_vertices(const SurfaceMesh& fine, const SurfaceMesh& coarse) {
+  std::vector<std::size_t> nearest;
   for (const Vec3<float>& at : coarse.position) {
     const auto away = [&](const Vec3<float>& p) {
       const float x = p.x - at.x, y = p.y - at.y, z = p.z - at.z;
       return x * x + y * y + z * z;
     };
-    const auto nearest = std::ranges::min_element(fine.position, {}, away);
-    carried.push_back(value[static_cast<std::size_t>(nearest - fine.position.begin())]);
+    const auto found = std::ranges::min_element(fine.position, {}, away);
+    nearest.push_back(static_cast<std::size_t>(found - fine.position.begin()));
   }
-  return carried;
+  return nearest;
 }
 
 struct Binding {
@@ -163,8 +162,12 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
     const SurfaceMesh fine = std::exchange(muscle.surface.mesh, {});
     muscle.surface.mesh = coarser(fine, choice.detail);
     if (choice.detail < 1) {
-      for (auto* values : {&muscle.tendon, &muscle.surface.origin_held, &muscle.surface.insertion_held})
-        *values = carried_over(fine, *values, muscle.surface.mesh);
+      const std::vector<std::size_t> nearest = nearest_vertices(fine, muscle.surface.mesh);
+      for (auto* values : {&muscle.tendon, &muscle.surface.origin_held, &muscle.surface.insertion_held}) {
+        const std::vector<float> was = std::exchange(*values, {});
+        if (was.empty()) continue;
+        for (const std::size_t v : nearest) values->push_back(was[v]);
+      }
     }
     if (muscle.ligament) {
       bind_ligament(muscle.surface, muscle.attachments.origin_m, muscle.attachments.insertion_m);

@@ -184,18 +184,19 @@ bool move_out(const FieldInWorld& bone, float* p) {
 
 void keep_clear(const LegBones& bones, const std::array<PosedBone, LegBones::hard.size()>& posed, Side side,
                 float* places, std::size_t count) {
-  using Bits = std::array<std::uint8_t, max_places / block_vertices>;
-  Bits bits, moved;
+  const auto field = [&](std::size_t b) { return FieldInWorld(bones, LegBones::hard[b], posed[b], side); };
+  static_assert(LegBones::hard.size() == 5);
+  const std::array<FieldInWorld, 5> fields = {field(0), field(1), field(2), field(3), field(4)};
+  std::array<std::uint8_t, max_places / block_vertices> bits, moved, looked_at;
   const std::size_t blocks = count / block_vertices;
   std::fill_n(moved.begin(), blocks, std::uint8_t{0xFF});
   bool any = true;
   for (int pass = 0; pass < 6 && any; ++pass) {
     // Places that one bone pushes into another move again.
-    const Bits looked_at = moved;
+    std::copy_n(moved.begin(), blocks, looked_at.begin());
     std::fill_n(moved.begin(), blocks, std::uint8_t{0});
     any = false;
-    for (std::size_t b = 0; b < posed.size(); ++b) {
-      const FieldInWorld own(bones, LegBones::hard[b], posed[b], side);
+    for (const FieldInWorld& own : fields) {
       HWY_DYNAMIC_DISPATCH(find_near)(own.grid, places, blocks, bits.data());
       for (std::size_t block = 0; block < blocks; ++block) {
         for (unsigned left = bits[block] & looked_at[block]; left != 0; left &= left - 1) {

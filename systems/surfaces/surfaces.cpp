@@ -14,6 +14,7 @@
 #include <mobil/rows.h>
 #include <mobil/systems/surfaces/nodal_view.h>
 #include <mobil/systems/surfaces/write_vertices.h>
+#include "assets/surfaces/bone_surfaces.h"
 #include "systems/lines/elongations.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/pose_history.h"
@@ -50,12 +51,7 @@ RigidPose segment_pose(const Row& pose, Segment segment) {
 
 /// Returns the scale of a bone along itself, relative to its body's other bones.
 float stretch(const SurfaceFit& fit, Segment segment) {
-  using enum Segment;
-  if (segment == thigh_right || segment == thigh_left) return fit.limbs.thigh_m;
-  if (segment == shank_right || segment == shank_left) return fit.limbs.shank_m;
-  if (segment == upper_arm_right || segment == upper_arm_left) return fit.limbs.upper_arm_m;
-  if (segment == forearm_right || segment == forearm_left) return fit.limbs.forearm_m;
-  return 1;
+  return value_of(fit.limbs, segment, 1.0F);
 }
 
 /// Writes displacements of a belly at rest that is drawn out evenly.

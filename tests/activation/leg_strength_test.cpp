@@ -104,7 +104,7 @@ TEST(LegStrength, IsThatOfPeople) {
 }
 
 /// Johnson & Hoffman, Isometric hip-rotator torque production at varying degrees of hip flexion, J. Sport Rehabil. 19,
-/// 2010: inward strength is greatest at 90° and least at 10°. Lindsay et al., J. Orthop. Sports Phys. Ther. 16, 1992:
+/// 2010: inward strength is greatest at 90° and least at 10°. Lindsay et al., J. Orthop. Sports Phys. Therapy 16, 1992:
 /// seated, it exceeds outward strength. People's outward strength hardly changes with flexion; the lines' falls.
 TEST(LegStrength, HipRotatesInwardMoreStronglyWhenFlexed) {
   const double extended = strength_nm(rotation(1, 10, 0)), bent = strength_nm(rotation(1, 40, 0)),

@@ -81,7 +81,8 @@ void lengthen(const LongBone& bone, Body& body) {
 }  // namespace
 
 Result<void> check_body(const BodyRequest& request) {
-  std::string wrong = out_of_range("height", request.height_m, " m", 1.2F, 2.2F);
+  std::string wrong = out_of_range("age", request.age_y, " years", 6.0F, 95.0F);
+  if (wrong.empty()) wrong = out_of_range("height", request.height_m, " m", 1.2F, 2.2F);
   if (wrong.empty()) wrong = out_of_range("mass", request.mass_kg, " kg", 30.0F, 200.0F);
   if (wrong.empty()) wrong = out_of_range("endomorphy", request.biotype.endo, "", 0.1F, 12.0F);
   if (wrong.empty()) wrong = out_of_range("mesomorphy", request.biotype.meso, "", 0.1F, 12.0F);
@@ -99,6 +100,7 @@ Result<Body> make_body(const BodyRequest& request) {
   if (auto ok = check_body(request); !ok) return tl::unexpected(ok.error());
   Body body{};
   body.request = request;
+  body.request.age_y = half_years(request.age_y);
   body.composition = body_composition(request);
   const double height = request.height_m;
   // Masses are whole multiples of the body mass's last bit, so that they add up in any order without rounding.

@@ -32,7 +32,8 @@ PersonCommand come(std::uint64_t number, const BodyRequest& body, float speed_m_
           Wish::come,
           0,
           {body.height_m, body.mass_kg, body.biotype.endo, body.biotype.meso, body.biotype.ecto,
-           static_cast<float>(body.constitution), static_cast<float>(body.sex), speed_m_s, x_m, z_m, heading_rad}};
+           static_cast<float>(body.constitution), static_cast<float>(body.sex), speed_m_s, x_m, z_m, heading_rad,
+           body.age_y}};
 }
 PersonCommand go(std::uint64_t number) {
   return {number, Wish::go, 0, {}};
@@ -119,6 +120,7 @@ bool PeopleShard::obey_come(const PersonCommand& command) {
   request.x_m = value[8];
   request.z_m = value[9];
   request.heading_rad = value[10];
+  if (value[11] != 0) request.body.age_y = value[11];  // 0 in commands recorded before ages
   request.muscles = options_.muscles;
   if (options_.muscles) request.parts = managed_parts();
   Entity entity;

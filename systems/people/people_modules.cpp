@@ -116,7 +116,8 @@ Result<void> check_walker_rows(const SavedWorld& saved, std::uint32_t table) {
                      {number(physique), number(physique + 1), number(physique + 2)},
                      constitution_of(build),
                      {},
-                     sex_of(build)};
+                     sex_of(build),
+                     age_of(build)};
     if (limbs != Table::no_column)
       body.limbs = {number(limbs), number(limbs + 1), number(limbs + 2), number(limbs + 3)};
     if (check_body(body)) continue;

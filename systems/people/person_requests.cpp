@@ -47,7 +47,8 @@ BodyRequest body_request(const World& world, Entity person) {
           {of.endo, of.meso, of.ecto},
           constitution_of(of.build),
           world.get<LimbLengths>(person).value_or(LimbLengths<float>{}),
-          sex_of(of.build)};
+          sex_of(of.build),
+          age_of(of.build)};
 }
 
 BodySize<float> body_size(const BodyRequest& request) {
@@ -66,7 +67,7 @@ BodySize<float> body_size(const World& world, Entity person) {
 
 Physique<float> physique(const BodyRequest& request) {
   const Biotype& of = request.biotype;
-  return {of.endo, of.meso, of.ecto, build_word(request.constitution, request.sex)};
+  return {of.endo, of.meso, of.ecto, build_word(request.constitution, request.sex, request.age_y)};
 }
 
 namespace {

@@ -63,9 +63,13 @@ void face_their_way(World& world, std::span<const Entity> people) {
 }  // namespace
 
 BodyRequest body_of(const Asleep<float>& asleep) {
-  return {
-      asleep.height_m,     asleep.mass_kg, {asleep.endo, asleep.meso, asleep.ecto}, constitution_of(asleep.build), {},
-      sex_of(asleep.build)};
+  return {asleep.height_m,
+          asleep.mass_kg,
+          {asleep.endo, asleep.meso, asleep.ecto},
+          constitution_of(asleep.build),
+          {},
+          sex_of(asleep.build),
+          age_of(asleep.build)};
 }
 
 BodySize<float> size_of(const Asleep<float>& asleep) {

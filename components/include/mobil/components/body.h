@@ -15,6 +15,9 @@ enum class Constitution : std::uint8_t { thin, average, athletic, heavy };
 /// mass.
 enum class Sex : std::uint8_t { man, woman };
 
+/// Age of a request without one, years. `build_word` stores it as 0, as in files from before ages.
+inline constexpr float usual_age_y = 25;
+
 /// Heath–Carter somatotype, each part from 1 (little) to about 7 (much): fat, muscle and bone, slenderness. If
 /// endomorphy and ectomorphy both have these defaults, they are unset and follow from height and mass.
 struct Biotype {
@@ -27,9 +30,9 @@ struct LimbLengths {
   F thigh_m, shank_m, upper_arm_m, forearm_m;
 };
 
-/// A request for a body. Ranges: height 1.2–2.2 m; mass 30–200 kg and within a real body's limits at that height
-/// (`living_mass_kg`); each part of the biotype 0.1–12; limbs 0.6–1.6 times the proportional length. Custom limbs are
-/// for posed people (mobil/retarget.h), because a walker's gait assumes proportional legs.
+/// A request for a body. Ranges: age 6–95 years; height 1.2–2.2 m; mass 30–200 kg and within a real body's limits at
+/// that height (`living_mass_kg`); each part of the biotype 0.1–12; limbs 0.6–1.6 times the proportional length. Custom
+/// limbs are for posed people (mobil/retarget.h), because a walker's gait assumes proportional legs.
 struct BodyRequest {
   float height_m = 1.75F;
   float mass_kg = 75.0F;
@@ -37,6 +40,7 @@ struct BodyRequest {
   Constitution constitution = Constitution::average;
   LimbLengths<float> limbs{};
   Sex sex = Sex::man;
+  float age_y = usual_age_y;  // kept to half years
 };
 /// Returns true if any limb's length is set.
 constexpr bool has_own_limbs(const BodyRequest& request) {
@@ -102,18 +106,29 @@ struct Physique {
   F endo, meso, ecto;  // Biotype
   UInt32<F> build;     // build_word
 };
-/// Returns constitution and sex in one word.
 inline constexpr std::uint32_t constitutions = static_cast<std::uint32_t>(Constitution::heavy) + 1;
-constexpr std::uint32_t build_word(Constitution constitution, Sex sex) {
-  return static_cast<std::uint32_t>(constitution) + constitutions * static_cast<std::uint32_t>(sex);
+inline constexpr std::uint32_t both_sexes = static_cast<std::uint32_t>(Sex::woman) + 1;
+/// Returns an age of 0 to 1000 years rounded to half years, as bodies are made and stored.
+constexpr float half_years(float age_y) {
+  return 0.5F * static_cast<float>(static_cast<std::uint32_t>(2 * age_y + 0.5F));
+}
+/// Returns constitution, sex and age in one word. The age is one that `check_body` (mobil/anthropometry.h) accepts.
+constexpr std::uint32_t build_word(Constitution constitution, Sex sex, float age_y) {
+  const float age = half_years(age_y);
+  const std::uint32_t halves = age == usual_age_y ? 0 : static_cast<std::uint32_t>(2 * age);
+  return static_cast<std::uint32_t>(constitution) +
+         constitutions * (static_cast<std::uint32_t>(sex) + both_sexes * halves);
 }
 constexpr Constitution constitution_of(std::uint32_t build) {
   return static_cast<Constitution>(build % constitutions);
 }
-/// Returns the sex. An invalid word, for example from a file, gives a value that `check_body` refuses.
 constexpr Sex sex_of(std::uint32_t build) {
-  const std::uint32_t sex = build / constitutions;
-  return static_cast<Sex>(sex < 255 ? sex : 255);
+  return static_cast<Sex>(build / constitutions % both_sexes);
+}
+/// Returns the age, years. An invalid word, for example from a file, gives an age that `check_body` refuses.
+constexpr float age_of(std::uint32_t build) {
+  const std::uint32_t halves = build / constitutions / both_sexes;
+  return halves == 0 ? usual_age_y : 0.5F * static_cast<float>(halves);
 }
 
 }  // namespace mobil::inline v0_3

@@ -73,7 +73,7 @@ Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const Ga
   if (!made) return tl::unexpected(made.error());
   auto gait = resolve_gait(*made, asked);
   if (!gait) return tl::unexpected(gait.error());
-  return keep_walk_limits(body_size(body), *gait);
+  return keep_walk_limits(made->size, *gait);
 }
 
 }  // namespace mobil::inline v0_3

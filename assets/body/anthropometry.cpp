@@ -8,9 +8,14 @@
 #include <vector>
 
 #include <mobil/body_composition.h>
+#include <mobil/engine/geometry.h>
+#include "assets/body/body_scales.h"
 #include "assets/body/fat_distribution.h"
 
 namespace mobil::inline v0_3 {
+
+using namespace geometry;
+
 namespace {
 
 /// Returns an empty string if value is in [low, high]; NaN is not.
@@ -31,35 +36,41 @@ std::string not_active(const BodyRequest& request) {
       request.height_m, request.mass_kg, std::ceil(10 * low) / 10, std::floor(10 * high) / 10);
 }
 
-Vec3<float> scaled(const Vec3<double>& v, double by) {
-  return {static_cast<float>(v.x * by), static_cast<float>(v.y * by), static_cast<float>(v.z * by)};
-}
-
 /// A long bone whose length can be set. Everything fixed at its far end moves with it, including the kneecap.
 struct LongBone {
   const char* name;
   Segment segment;
   std::vector<Segment> at_its_end;
   double fraction;
+  float BodySize<float>::*scale_m;
   float LimbLengths<float>::*length_m;
+
+  double usual_m(const BodySize<float>& size) const { return fraction * static_cast<double>(size.*scale_m); }
 };
 const std::array<LongBone, 4>& long_bones() {
   using enum Segment;
   static const std::array<LongBone, 4> bones = {{
-      {"thigh", thigh_right, {shank_right, patella_right}, fraction::thigh, &LimbLengths<float>::thigh_m},
-      {"shank", shank_right, {foot_right}, fraction::shank, &LimbLengths<float>::shank_m},
-      {"upper arm", upper_arm_right, {forearm_right}, fraction::upper_arm, &LimbLengths<float>::upper_arm_m},
-      {"forearm", forearm_right, {hand_right}, fraction::forearm, &LimbLengths<float>::forearm_m},
+      {"thigh", thigh_right, {shank_right, patella_right}, fraction::thigh, &BodySize<float>::leg_scale_m,
+       &LimbLengths<float>::thigh_m},
+      {"shank", shank_right, {foot_right}, fraction::shank, &BodySize<float>::leg_scale_m,
+       &LimbLengths<float>::shank_m},
+      {"upper arm", upper_arm_right, {forearm_right}, fraction::upper_arm, &BodySize<float>::upper_arm_scale_m,
+       &LimbLengths<float>::upper_arm_m},
+      {"forearm", forearm_right, {hand_right}, fraction::forearm, &BodySize<float>::forearm_scale_m,
+       &LimbLengths<float>::forearm_m},
   }};
   return bones;
 }
 
 std::string wrong_limb(const BodyRequest& request) {
+  if (!has_own_limbs(request)) return {};
+  const BodySize<float> size = make_size(request, 0);
   constexpr double least = 0.6, most = 1.6;
   for (const LongBone& bone : long_bones()) {
     const auto asked = static_cast<double>(request.limbs.*bone.length_m);
-    const double usual = bone.fraction * static_cast<double>(request.height_m);
-    if (asked == 0 || (asked >= least * usual && asked <= most * usual)) continue;
+    if (asked == 0) continue;
+    const double usual = bone.usual_m(size);
+    if (asked >= least * usual && asked <= most * usual) continue;
     return fmt::format("body: {} = {:.3f} m is outside {:.3f}–{:.3f} m at that height; choose one within, or 0",
                        bone.name, asked, least * usual, most * usual);
   }
@@ -69,7 +80,7 @@ std::string wrong_limb(const BodyRequest& request) {
 void lengthen(const LongBone& bone, Body& body) {
   const float asked = body.request.limbs.*bone.length_m;
   if (asked == 0) return;
-  const auto usual = static_cast<float>(bone.fraction * static_cast<double>(body.request.height_m));
+  const auto usual = static_cast<float>(bone.usual_m(body.size));
   for (const std::size_t side : {std::size_t{Side::right}, std::size_t{Side::left}}) {
     const std::size_t own = index(on_side(bone.segment, side));
     body.centre_of_mass_m[own].y *= asked / usual;
@@ -102,31 +113,33 @@ Result<Body> make_body(const BodyRequest& request) {
   body.request = request;
   body.request.age_y = half_years(request.age_y);
   body.composition = body_composition(request);
-  const double height = request.height_m;
+  const double extra = extra_fat_of(body.composition);
+  body.size = make_size(request, static_cast<float>(extra));
   // Masses are whole multiples of the body mass's last bit, so that they add up in any order without rounding.
   const double quantum = std::ldexp(1.0, std::ilogb(request.mass_kg) - 23);
   double rest = request.mass_kg;
-  const double extra = extra_fat_of(body.composition);
+  const auto scales = group_scales(body.size);
   for (std::size_t s = 0; s < segment_count; ++s) {
-    body.joint_offset_m[s] = scaled(unit_body.joint_offset[s], height);
-    body.centre_of_mass_m[s] = scaled(unit_body.centre_of_mass[s], height);
-    body.tip_m[s] = scaled(unit_body.tip[s], height);
+    body.joint_offset_m[s] = to_float(scaled(unit_body.joint_offset[s], scales, joint_groups[s]));
+    body.centre_of_mass_m[s] = to_float(scaled(unit_body.centre_of_mass[s], scales, segment_groups[s]));
+    body.tip_m[s] = to_float(scaled(unit_body.tip[s], scales, segment_groups[s]));
     if (s == index(Segment::pelvis)) continue;
     const double mass = quantum * std::round(mass_fraction(s, extra) * request.mass_kg / quantum);
     body.mass_kg[s] = static_cast<float>(mass);
     rest -= mass;
   }
   body.mass_kg[index(Segment::pelvis)] = static_cast<float>(rest);
-  body.heel_m = scaled({0, -fraction::ankle_height, -fraction::heel_back}, height);
-  body.ball_m = scaled({0, -fraction::ankle_height, fraction::ball_forward}, height);
-  body.thigh_length_m = static_cast<float>(fraction::thigh * height);
-  body.shank_length_m = static_cast<float>(fraction::shank * height);
-  body.hip_height_m = static_cast<float>(fraction::hip_height * height);
+  const double leg = body.size.leg_scale_m;
+  body.heel_m = to_float(leg * Vec3<double>{0, -fraction::ankle_height, -fraction::heel_back});
+  body.ball_m = to_float(leg * Vec3<double>{0, -fraction::ankle_height, fraction::ball_forward});
+  body.thigh_length_m = static_cast<float>(fraction::thigh * leg);
+  body.shank_length_m = static_cast<float>(fraction::shank * leg);
+  body.hip_height_m = static_cast<float>(fraction::hip_height * leg);
   if (!has_own_limbs(request)) return body;
   for (const LongBone& bone : long_bones()) lengthen(bone, body);
   if (request.limbs.thigh_m != 0) body.thigh_length_m = request.limbs.thigh_m;
   if (request.limbs.shank_m != 0) body.shank_length_m = request.limbs.shank_m;
-  body.hip_height_m = static_cast<float>(fraction::ankle_height * height) + body.thigh_length_m + body.shank_length_m;
+  body.hip_height_m = static_cast<float>(fraction::ankle_height * leg) + body.thigh_length_m + body.shank_length_m;
   body.joint_offset_m[index(Segment::pelvis)].y = body.hip_height_m;
   return body;
 }

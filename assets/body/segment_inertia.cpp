@@ -1,15 +1,16 @@
 #include "assets/body/segment_inertia.h"
 
 #include <mobil/engine/geometry.h>
+#include "assets/body/body_scales.h"
 
 namespace mobil::inline v0_3 {
 
 using namespace geometry;
 
 Vec3<double> segment_inertia_kg_m2(const Body& body, Segment segment) {
-  const auto height = static_cast<double>(body.request.height_m);
   const std::size_t s = index(segment);
-  return (static_cast<double>(body.mass_kg[s]) / unit_body.mass_fraction[s] * height * height) * unit_inertia[s];
+  const auto thick = static_cast<double>(group_scales(body.size)[static_cast<std::size_t>(segment_groups[s].z)]);
+  return (static_cast<double>(body.mass_kg[s]) / unit_body.mass_fraction[s] * thick * thick) * unit_inertia[s];
 }
 
 Vec3<double> joint_centre_m(const Body& body, Segment segment) {

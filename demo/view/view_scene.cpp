@@ -233,14 +233,14 @@ ViewMethod ViewScene::method(std::size_t group) const {
   const auto gait = simulation_->get<Gait>(person_);
   if (!size || !gait) return is;
   const bool active = choice_.activation != ExcitationSource::none;
-  const LevelCase of{static_cast<std::uint32_t>(group), LodTable::speed_step(gait->speed_m_s, size->height_m),
+  const LevelCase of{static_cast<std::uint32_t>(group), LodTable::speed_step(gait->speed_m_s, size->leg_scale_m),
                      choice_.inertia, true, active};
   for (std::uint32_t level = 0; level < level_count; ++level) {
     const LodLevel& way = levels_of(active)[level];
     if (way.method != is.method.method) continue;
     if (way.method == Method::modal && (way.modes != is.method.modal.modes || way.moving != is.method.modal.moving))
       continue;
-    is.error_m = lod_table.error_m(of, level, size->height_m);
+    is.error_m = lod_table.error_m(of, level, size->leg_scale_m);
     is.cost_us = lod_table.cost_us(of, level);
     break;
   }

@@ -43,7 +43,7 @@ void find_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>
   constexpr auto leg_g = static_cast<float>(9.81 * fraction::hip_height);
   const Wide part = load(state.time_s) / load(plan.duration_s), from = load(plan.from.speed_m_s);
   store(part * 0.5F, clock.cycle);
-  store(fma(load(plan.to.speed_m_s) - from, part, from) / sqrt(load(size.height_m) * leg_g), clock.speed);
+  store(fma(load(plan.to.speed_m_s) - from, part, from) / sqrt(load(size.leg_scale_m) * leg_g), clock.speed);
 }
 
 }  // namespace mobil::inline v0_3::HWY_NAMESPACE

@@ -69,11 +69,11 @@ const AvoidanceReport& Avoidance::report() const {
 /// Returns a walker's first state. A new walker wants the last request, on level ground. A managed one keeps the
 /// desired velocity and the turn of the shoulders.
 static AvoidanceState<float> first_course(const World& world, const AvoidanceOptions& options, Entity person) {
-  const float height = world.get<BodySize>(person)->height_m;
+  const BodySize<float> size = *world.get<BodySize>(person);
   const auto before = world.get<AvoidanceState>(person);
   AvoidanceState<float> course = before.value_or(AvoidanceState<float>{});
-  course.radius_m = options.radius_h * height;
-  course.shoulders_m = options.shoulders_h * height;
+  course.radius_m = options.radius_h * size.shoulders_scale_m;
+  course.shoulders_m = options.shoulders_h * size.shoulders_scale_m;
   if (before) return course;
   const Gait<float> gait = *world.get<Gait>(person);
   const LevelWalk asked = level_walk(gait, world.get<Footing>(person).value_or(Footing<float>{}));
@@ -81,7 +81,7 @@ static AvoidanceState<float> first_course(const World& world, const AvoidanceOpt
   course.heading_rad = gait.heading_rad;
   course.usual = 1;
   if (asked.speed_m_s > 0) {
-    const auto usual = resolve_gait(height, {.speed_m_s = asked.speed_m_s});
+    const auto usual = resolve_gait(size.leg_scale_m, {.speed_m_s = asked.speed_m_s});
     if (usual) course.usual = asked.step_length_m / usual->step_length_m;
   }
   return course;
@@ -149,7 +149,7 @@ static std::optional<Footing<float>> released_footing(const World& world, Entity
   auto footing = world.get<Footing>(person);
   const auto asked = asked_body(world, person);
   if (!footing || !asked || !is_slowed(asked->gait, *footing)) return {};
-  const LevelWalk level = level_wish(*world.get<AvoidanceState>(person), asked->size.height_m);
+  const LevelWalk level = level_wish(*world.get<AvoidanceState>(person), asked->size.leg_scale_m);
   footing->level_speed_m_s = level.speed_m_s;
   footing->level_length_m = level.step_length_m;
   return *footing;
@@ -189,7 +189,7 @@ Result<void> Avoidance::set_desired_velocity(std::span<const DesiredVelocity> wi
     if (!(std::fabs(heading) < 1e4F))
       return fail(fmt::format("Avoidance: a heading of {} rad is not within ±10000; give an angle about +Y", heading));
     if (speed == 0) continue;
-    if (auto gait = resolve_gait(body_request(world, person).height_m, {.speed_m_s = speed}); !gait)
+    if (auto gait = resolve_gait(body_size(world, person).leg_scale_m, {.speed_m_s = speed}); !gait)
       return tl::unexpected(gait.error());
   }
   for (const auto& [person, speed, heading] : wishes) {
@@ -308,7 +308,7 @@ void AvoidanceWork::choose(const Frame& frame) {
     asked.revision = (before.revision + (other ? 1U : 0U)) & 0xFFFFU;
     put_row(asked, gaits, lane);
     if (const TableColumn<Footing> ground(*table); ground) {
-      const float height_m = TableColumn<BodySize>(*table).at(*table, block).height_m[lane];
+      const float height_m = TableColumn<BodySize>(*table).at(*table, block).leg_scale_m[lane];
       keep_level_wish(row_of(courses, lane), asked, height_m, ground.at(*table, block), lane);
     }
     const bool stands = TableColumn<StepPlan>(*table).at(*table, block).to.speed_m_s[lane] <= 0;

@@ -105,7 +105,7 @@ void ReservationBook::remake(BlockOfReservations& at, float shoulders_h) {
                                         state.line_z_m[l],      state.heading_rad[l],    plan.duration_s[l],
                                         plan.to.speed_m_s[l],   state.bend_next_per_m[l]};
     Reservation& reservation = reservations_[seen_[at.first + l]];
-    reservation.shoulders_m = courses ? courses.at(table, at.block).shoulders_m[l] : shoulders_h * size.height_m[l];
+    reservation.shoulders_m = courses ? courses.at(table, at.block).shoulders_m[l] : shoulders_h * size.shoulders_scale_m[l];
     reservation.radius_m = courses ? courses.at(table, at.block).radius_m[l] : reservation.shoulders_m;
     reservation.yields = static_cast<bool>(courses);
     reservation.ground_m = ground ? ground.at(table, at.block).height_m[index(FootholdOf::stance)][l] : 0;

@@ -306,7 +306,7 @@ void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float
   GaitState<Lanes<float>> then = state;
   then.time_s = plan.duration_s;
   advance_gait(plan, then, 0);  // a tick of zero length: to the strike
-  next.height_m = size.height_m;
+  next.height_m = size.leg_scale_m;
   next.speed_m_s = plan.to.speed_m_s;
   next.pace_hz = plan.to.pace_hz;
   next.advance_m = plan.to.advance_m;

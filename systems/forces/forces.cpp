@@ -131,7 +131,7 @@ template <class Split, class SplitAgain>
 HWY_INLINE void press(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion, const WideVec& total,
                       const Sole (&soles)[2], const Split& split, const SplitAgain& split_again, const Wide& push,
                       const Wide& pivot, WideVec (&force)[2], WideVec (&centre)[2]) {
-  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m), mass = load(size.mass_kg);
+  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.leg_scale_m), mass = load(size.mass_kg);
   const Pressed wanted = balancing(motion, total);
   Wide x[2], z[2];
   for (std::size_t k = 0; k < 2; ++k) {
@@ -190,7 +190,7 @@ HWY_NOINLINE void put_free_moments(const BodySize<Lanes<float>>& size, const Bod
 /// Computes the total ground force on walkers, its split and the points where it acts.
 HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                           const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
-  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m);
+  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.leg_scale_m);
   const Wide phase = step_phase(plan, load(state.time_s) / load(plan.duration_s));
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
   const Wide off = load(plan.double_support);
@@ -259,7 +259,7 @@ HWY_NOINLINE Contact contact_of(const Wide& height, const Pose<Lanes<float>>& be
 HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                                 const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
                                 const Pose<Lanes<float>>& after, float apart_s, Support& out) {
-  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m);
+  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.leg_scale_m);
   WideVec total = load(motion.force_per_kg);
   const WideMask pulls = total.y <= 0.0F;  // the ground does not pull
   total = {select(pulls, zero, total.x), select(pulls, zero, total.y), select(pulls, zero, total.z)};

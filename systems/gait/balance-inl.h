@@ -21,15 +21,15 @@ constexpr std::size_t step_parts = 20;
 
 /// Returns the displacement of the centre of pressure per acceleration of the hips: height of the centre of mass over
 /// gravity, s².
-HWY_INLINE Wide pendulum(const Wide& height) {
-  constexpr float centre = 0.56F;  // of mass, of the height
-  return height * (centre / gravity_f);
+HWY_INLINE Wide pendulum(const LegSize& size) {
+  constexpr float centre = 0.56F, above = 0.115F;  // of mass, of the height; its part that grows with the upper body
+  return fma(size.upper - size.leg, wide(above / gravity_f), size.leg * (centre / gravity_f));
 }
 
 /// Returns the lateral centre of pressure of a steady walk of that shape, from a pendulum on the hips' path.
-HWY_NOINLINE inline Wide steady_aside(const HeelStrike<Lanes<float>>& strike, const Wide& height, const StepWaves& w) {
+HWY_NOINLINE inline Wide steady_aside(const HeelStrike<Lanes<float>>& strike, const LegSize& size, const StepWaves& w) {
   const OneShape of{strike.shape};
-  const Wide pace = load(strike.pace_hz), per = pendulum(height) * (pi_f * pi_f) * pace * pace;
+  const Wide pace = load(strike.pace_hz), per = pendulum(size) * (pi_f * pi_f) * pace * pace;
   const ShapePart& a = step_shape::aside;
   const Wide once = fma(of(a, 0), w.cosine[1], of(a, 2) * w.sine[1]);
   const Wide thrice = fma(of(a, 1), w.cosine[3], of(a, 3) * w.sine[3]);
@@ -60,10 +60,11 @@ HWY_NOINLINE inline void room_ahead(const StepPlan<Lanes<float>>& plan, const Mi
 }
 
 /// Computes the centre of pressure of a step before it is balanced.
-HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const Wide& height, Pressed& ahead,
+HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const LegSize& size, Pressed& ahead,
                                       Pressed& aside) {
+  const Wide& height = size.leg;
   const Wide per_apart = static_cast<float>(step_parts) / load(plan.duration_s);
-  const Wide per_aside = pendulum(height) * per_apart * per_apart;
+  const Wide per_aside = pendulum(size) * per_apart * per_apart;
   const Wide width = load(plan.from.half_width_m) + load(plan.to.half_width_m);
   const WideMask from_stands = stands(plan.from), to_stands = stands(plan.to);
   const Wide off = load(plan.double_support), landing = load(plan.landing);
@@ -77,10 +78,10 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
     const Wide u = wide(static_cast<float>(k) / step_parts);
     phase[k % 2] = step_phase(plan, u);
     waves[k % 2] = step_waves(phase[k % 2]);
-    planar_figure(plan, height, u, phase[k % 2], waves[k % 2], along, figure[k % 3]);
+    planar_figure(plan, size, u, phase[k % 2], waves[k % 2], along, figure[k % 3]);
     if (k == 0) continue;
     const PlanarFigure& last = figure[(k + 2) % 3];
-    const PlanarMotion now = planar_motion(last, figure[k % 3], height, per_apart);
+    const PlanarMotion now = planar_motion(last, figure[k % 3], size.upper, per_apart);
     if (k > 1) {
       const std::size_t i = k - 1;
       Wide centre = wide(0.0F);
@@ -97,7 +98,7 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
       const Wide part = select(from_stands, smooth(p / max(off, 1e-3F)),
                                select(to_stands, smooth((p - landing) / max(1.0F - landing, 1e-3F)), of.part));
       aside.middle[i] =
-          mix(steady_aside(plan.from, height, waves[i % 2]), steady_aside(plan.to, height, waves[i % 2]), part);
+          mix(steady_aside(plan.from, size, waves[i % 2]), steady_aside(plan.to, size, waves[i % 2]), part);
       aside.least[i] = aside.middle[i] - room_aside * height;
       aside.most[i] = aside.middle[i] + select(both, width, room_aside * height);
     }
@@ -159,14 +160,14 @@ HWY_NOINLINE inline Wide into_room(const Elimination<other_ways>& normal, const 
 
 /// Computes, for standing people who move a foot, the reach of both soles and the lateral centre of pressure of the
 /// step as a pendulum. `right_one` is 1 if the right foot stands, otherwise −1.
-HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& right_one,
+HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const LegSize& size, const Wide& right_one,
                                       Pressed& ahead, Pressed& aside) {
   const Wide per_apart = static_cast<float>(step_parts) / load(plan.duration_s);
-  const Wide per = pendulum(height) * per_apart * per_apart;
+  const Wide per = pendulum(size) * per_apart * per_apart;
   const Wide before = load(plan.length_before_m), length = load(plan.step_length_m);
   const Wide off = load(plan.double_support), landing = load(plan.landing);
-  const SoleReach reach = sole_reach(height, wide(0.0F));
-  const Wide half = sole::half_width * height;
+  const SoleReach reach = sole_reach(size.leg, wide(0.0F));
+  const Wide half = sole::half_width * size.leg;
   Wide s, c;
   sin_cos(load(plan.slant_rad), s, c);
   s = s * right_one;
@@ -198,7 +199,7 @@ HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const 
 }
 
 /// Chooses plan.ahead_m and aside_m. Returns the distance of the resulting centre of pressure outside the soles.
-HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one, const WideMask& alike,
+HWY_NOINLINE inline Wide balance_step(const LegSize& size, const Wide& right_one, const WideMask& alike,
                                       const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   for (std::size_t k = 0; k < other_ways; ++k) {
     store(wide(0.0F), plan.ahead_m[k]);
@@ -206,10 +207,10 @@ HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one,
   }
   if (!any(select(alike, wide(0.0F), wide(1.0F)) > 0.0F)) return wide(0.0F);
   Pressed ahead, aside;
-  look_at_step(plan, height, ahead, aside);
+  look_at_step(plan, size, ahead, aside);
   if (any(on_spot)) {
     Pressed standing_ahead = ahead, standing_aside;
-    look_at_feet(plan, height, right_one, standing_ahead, standing_aside);
+    look_at_feet(plan, size, right_one, standing_ahead, standing_aside);
     for (std::size_t i = 1; i < step_parts; ++i) {
       for (auto number : {&Pressed::at, &Pressed::middle, &Pressed::least, &Pressed::most}) {
         (ahead.*number)[i] = select(on_spot, (standing_ahead.*number)[i], (ahead.*number)[i]);
@@ -217,7 +218,7 @@ HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one,
       }
     }
   }
-  const Wide per = pendulum(height) / (load(plan.duration_s) * load(plan.duration_s));
+  const Wide per = pendulum(size) / (load(plan.duration_s) * load(plan.duration_s));
   Elimination<other_ways> normal;
   for (std::size_t k = 0; k < other_ways; ++k) {
     for (std::size_t j = 0; j < other_ways; ++j) normal.a[k][j] = wide(j == k ? 1e-3F : 0.0F);
@@ -232,7 +233,7 @@ HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one,
   normal.factor();
   auto choose = [&](const Pressed& pressed, Lanes<float>(&way)[other_way_count], float sign) {
     Wide by[other_ways];
-    const Wide outside = into_room(normal, effect, pressed, by), most = max_other_way * height;
+    const Wide outside = into_room(normal, effect, pressed, by), most = max_other_way * size.leg;
     for (std::size_t k = 0; k < other_ways; ++k)
       store(select(alike, wide(0.0F), sign * min(max(by[k], -most), most)), way[k]);
     return select(alike, wide(0.0F), outside);

@@ -5,9 +5,9 @@
 #include "assets/body/fat_distribution.h"
 #include "assets/body/segment_inertia.h"
 #include "engine/exact_math.h"
-#include "engine/wide_geometry-inl.h"
 #include "systems/gait/body_motion.h"
 #include "systems/gait/kinematics.h"
+#include "systems/gait/kinematics_wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
@@ -18,13 +18,13 @@ constexpr auto toes_of_foot = static_cast<float>(
     unit_body.mass_fraction[index(Segment::toes_right)] /
     (unit_body.mass_fraction[index(Segment::toes_right)] + unit_body.mass_fraction[index(Segment::foot_right)]));
 
-HWY_INLINE WideVec scaled_exactly(const Vec3<double>& v, const Wide& by) {
-  return {static_cast<float>(v.x) * by, static_cast<float>(v.y) * by, static_cast<float>(v.z) * by};
+HWY_INLINE Vec3<float> single(const Vec3<double>& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-HWY_INLINE WideVec centre_of(const Wide& height, const Pose<Lanes<float>>& pose, std::size_t segment) {
+HWY_INLINE WideVec centre_of(const WideScales& scale, const Pose<Lanes<float>>& pose, std::size_t segment) {
   return load(pose.position_m[segment]) +
-         rotate(load(pose.rotation[segment]), scaled_exactly(unit_body.centre_of_mass[segment], height));
+         rotate(load(pose.rotation[segment]), scaled(single(unit_body.centre_of_mass[segment]), scale, segment_groups[segment]));
 }
 
 /// Returns the angular velocity between two orientations of a segment, in its own axes.
@@ -38,7 +38,8 @@ HWY_INLINE WideVec turning(const WideQuat& a, const WideQuat& b, const Wide& per
 
 void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
                   const Pose<Lanes<float>>& after, float apart_s, BodyMotion<Lanes<float>>& motion) {
-  const Wide height = load(size.height_m), extra = load(size.extra_fat), zero = wide(0.0F);
+  const WideScales scale(size);
+  const Wide extra = load(size.extra_fat), zero = wide(0.0F);
   const Wide per2 = wide(1.0F / (apart_s * apart_s)), per = wide(1.0F / apart_s), per_half = wide(2.0F / apart_s);
   auto bend = [&](const WideVec& a, const WideVec& b, const WideVec& c) {
     const WideVec d = (c - b) - (b - a);
@@ -50,14 +51,14 @@ void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
     const double usual = unit_body.mass_fraction[s], more = mass_per_extra_fat(s);
     const Wide of_usual = fma(extra, wide(static_cast<float>(more / usual)), wide(1.0F));
     const Wide mass = of_usual * static_cast<float>(usual);
-    const WideVec r = centre_of(height, now, s);
-    WideVec a = bend(centre_of(height, before, s), r, centre_of(height, after, s));
+    const WideVec r = centre_of(scale, now, s);
+    WideVec a = bend(centre_of(scale, before, s), r, centre_of(scale, after, s));
     a.y = a.y + gravity_m_s2;
     const WideVec f = {mass * a.x, mass * a.y, mass * a.z};
     const WideQuat q0 = load(before.rotation[s]), q1 = load(now.rotation[s]), q2 = load(after.rotation[s]);
     const WideVec first = turning(q0, q1, per_half), second = turning(q1, q2, per_half);
-    const Vec3<double>& unit = unit_inertia[s];
-    const WideVec inertia = scaled_exactly(unit, of_usual * height * height);
+    const Wide& thick = scale[segment_groups[s].z];
+    const WideVec inertia = scaled(single(unit_inertia[s]), of_usual * thick * thick);
     const WideVec spin = {0.5F * (first.x + second.x), 0.5F * (first.y + second.y), 0.5F * (first.z + second.z)};
     const WideVec whirl = cross(spin, WideVec{inertia.x * spin.x, inertia.y * spin.y, inertia.z * spin.z});
     const WideVec own = {fma(inertia.x, (second.x - first.x) * per, whirl.x),
@@ -100,8 +101,8 @@ void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
     keep(ankle_point, joint(foot_right));
     keep(ball_point, joint(toes_right));
     keep(foot_centre_point, [&](const Pose<Lanes<float>>& pose) {
-      const WideVec foot = centre_of(height, pose, index(on_side(foot_right, side)));
-      return fma(wide(toes_of_foot), centre_of(height, pose, index(on_side(toes_right, side))) - foot, foot);
+      const WideVec foot = centre_of(scale, pose, index(on_side(foot_right, side)));
+      return fma(wide(toes_of_foot), centre_of(scale, pose, index(on_side(toes_right, side))) - foot, foot);
     });
   }
 }

@@ -219,9 +219,10 @@ HWY_NOINLINE inline void swing_forward(const SwingLeg& leg, const SwingToMeet& s
 }
 
 /// Computes the swing of a step from its curves.
-HWY_NOINLINE inline void swing_to_meet(const StepPlan<Lanes<float>>& plan, const SwingLeg& leg, const Wide& height,
+HWY_NOINLINE inline void swing_to_meet(const StepPlan<Lanes<float>>& plan, const SwingLeg& leg, const LegSize& size,
                                        SwingToMeet& out) {
   constexpr std::size_t last = swing_instants - 1;
+  const Wide& height = size.leg;
   const Wide per_time = 1.0F / load(plan.duration_s), per_height = 1.0F / height, from = load(plan.double_support_s);
   Wide s, along;
   sin_cos(load(plan.slant_rad), s, along);
@@ -229,7 +230,7 @@ HWY_NOINLINE inline void swing_to_meet(const StepPlan<Lanes<float>>& plan, const
   auto seen = [&](const Wide& time) {
     const Wide u = time * per_time, phase = step_phase(plan, u);
     const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
-    const HipsSeen hips = hips_seen(plan, of, height, u, phase, step_waves(phase), along);
+    const HipsSeen hips = hips_seen(plan, of, size, u, phase, step_waves(phase), along);
     OtherLeg l = other_leg(plan, of, height, phase, hips, along);
     for (Wide* length : {&l.hip_forward, &l.hip_up, &l.ankle_forward, &l.ankle_up}) *length = *length * per_height;
     return l;
@@ -302,11 +303,11 @@ constexpr float max_miss = 0.03F, max_moved = 0.1F;
 
 /// Chooses plan.swing_by_forward_m and swing_by_up_m: deviation of a forward-integrated swing from the curves of the
 /// shape. `share` is its weight. With 0 the swing stays unchanged.
-HWY_NOINLINE inline void integrate_swing(const Wide& height, const Wide& share, StepPlan<Lanes<float>>& plan) {
+HWY_NOINLINE inline void integrate_swing(const LegSize& size, const Wide& share, StepPlan<Lanes<float>>& plan) {
   constexpr SwingLeg leg = unit_swing_leg;
   SwingToMeet swing;
   Wide first[torque_count], number[torque_count];
-  swing_to_meet(plan, leg, height, swing);
+  swing_to_meet(plan, leg, size, swing);
   first_numbers(leg, swing, first);
   for (std::size_t k = 0; k < torque_count; ++k) number[k] = first[k];
   SwingState way[swing_steps + 1];
@@ -320,8 +321,8 @@ HWY_NOINLINE inline void integrate_swing(const Wide& height, const Wide& share, 
   for (std::size_t k = 0; k < other_way_count; ++k)
     sound = sound & (abs(forward[k]) < max_moved) & (abs(up[k]) < max_moved);
   for (std::size_t k = 0; k < other_way_count; ++k) {
-    store(select(sound, share * height * forward[k], wide(0.0F)), plan.swing_by_forward_m[k]);
-    store(select(sound, share * height * up[k], wide(0.0F)), plan.swing_by_up_m[k]);
+    store(select(sound, share * size.leg * forward[k], wide(0.0F)), plan.swing_by_forward_m[k]);
+    store(select(sound, share * size.leg * up[k], wide(0.0F)), plan.swing_by_up_m[k]);
   }
 }
 

@@ -35,7 +35,7 @@ double speed_of(double wanted, Of of) {
 }
 
 struct LegSizes {
-  float height_m, leg_m, hips_m;
+  float height_m, scale_m, leg_m, hips_m;
 };
 
 Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
@@ -51,7 +51,7 @@ Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
   const auto& [speed_asked, length_asked, frequency_asked, style] = request;
 
   if (speed_asked && *speed_asked == 0.0F && !length_asked && !frequency_asked)
-    return complete_gait(of.height_m, 0, 0, style);
+    return complete_gait(of.scale_m, 0, 0, style);
   auto positive = [](const std::optional<float>& value) { return !value || (*value > 0.0F && *value < 1e6F); };
   if (!positive(speed_asked) || !positive(length_asked) || !positive(frequency_asked))
     return fail(
@@ -96,34 +96,41 @@ Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
                               height, asked ? "choose one within that range" : "ask for more usual steps"));
     }
   }
-  return complete_gait(of.height_m, static_cast<float>(speed), static_cast<float>(length), style);
+  return complete_gait(of.scale_m, static_cast<float>(speed), static_cast<float>(length), style);
 }
 
 }  // namespace
 
 Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
-  return resolve({body.request.height_m, body.thigh_length_m + body.shank_length_m, body.hip_height_m}, request);
+  return resolve({body.request.height_m, body.size.leg_scale_m, body.thigh_length_m + body.shank_length_m, body.hip_height_m}, request);
 }
 
-Result<Gait<float>> resolve_gait(float height_m, const GaitRequest& request) {
-  const double height = height_m;
-  const auto of_height = [&](double part) { return static_cast<float>(part * height); };
-  return resolve({height_m, of_height(fraction::thigh) + of_height(fraction::shank), of_height(fraction::hip_height)},
+Result<Gait<float>> resolve_gait(const BodySize<float>& size, const GaitRequest& request) {
+  const double scale = size.leg_scale_m;
+  const auto scaled = [&](double part) { return static_cast<float>(part * scale); };
+  return resolve({size.height_m, size.leg_scale_m, scaled(fraction::thigh) + scaled(fraction::shank),
+                  scaled(fraction::hip_height)},
                  request);
 }
 
-float usual_length_m(float height_m, float speed_m_s) {
+Result<Gait<float>> resolve_gait(float height_m, const GaitRequest& request) {
+  BodySize<float> size{};
+  size.height_m = size.leg_scale_m = height_m;
+  return resolve_gait(size, request);
+}
+
+float usual_length_m(float leg_scale_m, float speed_m_s) {
   if (speed_m_s == 0) return 0;
-  const auto hips_m = static_cast<float>(fraction::hip_height * static_cast<double>(height_m));
+  const auto hips_m = static_cast<float>(fraction::hip_height * static_cast<double>(leg_scale_m));
   return static_cast<float>(usual_length_at(static_cast<double>(speed_m_s), static_cast<double>(hips_m)));
 }
 
-float lowest_speed_m_s(float height_m) {
+float lowest_speed_m_s(float leg_scale_m) {
   constexpr auto leg = static_cast<float>(fraction::thigh + fraction::shank);
-  return static_cast<float>(lowest_speed) * std::sqrt(leg / 0.9F * height_m);
+  return static_cast<float>(lowest_speed) * std::sqrt(leg / 0.9F * leg_scale_m);
 }
 
-Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, const GaitStyle& style) {
+Gait<float> complete_gait(float leg_scale_m, float speed_m_s, float step_length_m, const GaitStyle& style) {
   Gait<float> gait{};
   gait.style = style;
   if (speed_m_s == 0) return gait;
@@ -132,7 +139,7 @@ Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, 
   gait.step_length_m = step_length_m;
   gait.step_frequency_hz = static_cast<float>(frequency);
   namespace d = double_support_law;
-  const double cadence = 60.0 * frequency * std::sqrt(static_cast<double>(height_m) / 1.8);
+  const double cadence = 60.0 * frequency * std::sqrt(static_cast<double>(leg_scale_m) / 1.8);
   const double percent = (d::at_rest - d::per_cadence * cadence) * static_cast<double>(style.double_support_scale);
   gait.double_support_cycle = static_cast<float>(std::fmin(std::fmax(percent, d::least), d::most) / 100.0);
   return gait;

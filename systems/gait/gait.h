@@ -12,16 +12,16 @@
 
 namespace mobil::inline v0_3 {
 
-/// Returns the step length of people of that height at a speed, m, from measurements (assets/gait/README.md). 0 at a
+/// Returns the step length of people with legs of that scale (BodySize) at a speed, m, from measurements (assets/gait/README.md). 0 at a
 /// speed of 0.
-float usual_length_m(float height_m, float speed_m_s);
+float usual_length_m(float leg_scale_m, float speed_m_s);
 
-/// Returns the lowest speed other than 0 that can be requested for a walker of that height, m/s.
-float lowest_speed_m_s(float height_m);
+/// Returns the lowest speed other than 0 that can be requested for a walker of that scale, m/s.
+float lowest_speed_m_s(float leg_scale_m);
 
 /// Returns the gait of a speed and a step length, without heading or displacement. All results of resolve_gait follow
 /// from these two numbers. A speed of 0 stands.
-Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, const GaitStyle& style);
+Gait<float> complete_gait(float leg_scale_m, float speed_m_s, float step_length_m, const GaitStyle& style);
 
 /// Plans the first step of sixteen walkers, as if they had walked before: right heel strike at the start, or standing.
 void plan_first_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,

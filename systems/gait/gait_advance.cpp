@@ -140,7 +140,7 @@ void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const WideMask steps = load(plan.landing) > 0.0F;
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   const NextFoot next =
-      next_foot({load(size.height_m), load(plan.step_length_m), load(plan.to.speed_m_s),
+      next_foot({load(size.leg_scale_m), load(plan.step_length_m), load(plan.to.speed_m_s),
                  load(plan.from.half_width_m) + load(plan.to.half_width_m), load(state.bend_per_m), load(state.shift_m),
                  select(equal(state.stance_side, Side::right), wide(1.0F), wide(-1.0F))},
                 way);

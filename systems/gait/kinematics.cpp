@@ -14,7 +14,7 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 /// The pose under construction.
 struct Skeleton {
-  Wide height;
+  WideScales scale;
   Pose<Lanes<float>>& pose;
 
   HWY_INLINE WideVec position(Segment s) const { return load(pose.position_m[index(s)]); }
@@ -26,7 +26,7 @@ struct Skeleton {
   /// Places a segment at its parent's joint with its own rotation.
   HWY_NOINLINE void hang(Segment s, const WideQuat& world_rotation) const {
     const Segment parent = segment_parent[index(s)];
-    const WideVec offset = scaled(unit_skeleton.joint_offset[index(s)], height);
+    const WideVec offset = scaled(unit_skeleton.joint_offset[index(s)], scale, joint_groups[index(s)]);
     put(s, position(parent) + rotate(rotation(parent), offset), world_rotation);
   }
 };
@@ -45,7 +45,7 @@ HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQ
   const Segment thigh = on_side(thigh_right, side), patella = on_side(patella_right, side);
   const Segment shank = on_side(shank_right, side), foot_segment = on_side(foot_right, side);
   const Segment toes = on_side(toes_right, side);
-  const Wide& height = skeleton.height;
+  const Wide& height = skeleton.scale[LengthGroup::leg];
   const FootMotion& foot = now.foot[side];
   const Foothold& at = now.at[side];
   const LegPlane leg = leg_plane(now, side, height);
@@ -153,8 +153,8 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
                         plan_lines = sizeof(plan) / 64 / step_now_fetches + 1;
   const auto fetch = [&] { poses.fetch(pose_lines); };
   FetchAhead(next.state).fetch(all_lines);
-  const Skeleton skeleton{load(size.height_m), pose};
-  const StepNow now = step_now(skeleton.height, plan, state, footing, [&] { plans.fetch(plan_lines); });
+  const Skeleton skeleton{WideScales(size), pose};
+  const StepNow now = step_now(leg_size(size), plan, state, footing, [&] { plans.fetch(plan_lines); });
   const PelvisMotion& motion = now.motion;
   const PelvisPlace& pelvis = now.pelvis;
   const Wide& eased = now.eased;
@@ -204,10 +204,11 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 
 void centre_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
                   CentreOfMass<Lanes<float>>& centre) {
-  const Wide height = load(size.height_m), extra = load(size.extra_fat);
+  const WideScales scale(size);
+  const Wide extra = load(size.extra_fat);
   WideVec sum = {wide(0.0F), wide(0.0F), wide(0.0F)};
   for (std::size_t s = 0; s < segment_count; ++s) {
-    const WideVec c = rotate(load(pose.rotation[s]), scaled(unit_skeleton.centre_of_mass[s], height));
+    const WideVec c = rotate(load(pose.rotation[s]), scaled(unit_skeleton.centre_of_mass[s], scale, segment_groups[s]));
     const Wide mass = fma(extra, wide(unit_skeleton.mass_per_extra_fat[s]), wide(unit_skeleton.mass_fraction[s]));
     sum = fma(mass, load(pose.position_m[s]) + c, sum);
   }

@@ -9,12 +9,32 @@
 
 #include "assets/gait/step_curves-inl.h"
 #include "engine/wide_geometry-inl.h"
+#include "assets/body/body_scales.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 HWY_INLINE WideVec scaled(const Vec3<float>& v, const Wide& by) {
   return {v.x * by, v.y * by, v.z * by};
+}
+
+/// Scales of sixteen people, in the order of LengthGroup.
+struct WideScales {
+  Wide of[length_groups];
+
+  HWY_INLINE explicit WideScales(const BodySize<Lanes<float>>& size)
+      : of{load(size.height_m), load(size.leg_scale_m), load(size.leg_scale_m), load(size.trunk_scale_m),
+           load(size.height_m), load(size.shoulders_scale_m), load(size.upper_arm_scale_m),
+           load(size.forearm_scale_m)} {
+    const Wide &height = of[0], off_leg = height - of[1], off_trunk = height - of[3];
+    of[4] = height + (off_leg * head_per_leg + off_trunk * head_per_trunk);
+  }
+  HWY_INLINE const Wide& operator[](LengthGroup g) const { return of[static_cast<std::size_t>(g)]; }
+};
+
+/// Returns a vector of the unit body at each person's size.
+HWY_INLINE WideVec scaled(const Vec3<float>& v, const WideScales& by, const AxisGroups& groups) {
+  return {v.x * by[groups.x], v.y * by[groups.y], v.z * by[groups.z]};
 }
 
 HWY_INLINE WideQuat turn_x(const Wide& angle) {

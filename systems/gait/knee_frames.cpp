@@ -90,16 +90,17 @@ HWY_NOINLINE void knee_frame(const StepNow& now, const WideVec (&pelvis)[3], std
 
 void both_knees(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2], LegPlanAhead& ahead) {
-  const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
+  const LegSize legs = leg_size(size);
+  const Wide zero = wide(0.0F), one = wide(1.0F);
   constexpr std::size_t places = step_now_fetches + 2, lines = sizeof(plan) / 64 / places + 1;
   const auto fetch = [&] { ahead.fetch(lines); };
-  const StepNow now = step_now(height, plan, state, nullptr, fetch);
+  const StepNow now = step_now(legs, plan, state, nullptr, fetch);
   const WideQuat& turn = now.motion.turn;
   const WideVec pelvis[3] = {rotate(turn, {one, zero, zero}), rotate(turn, {zero, one, zero}),
                              rotate(turn, {zero, zero, one})};
   for (std::size_t side = 0; side < 2; ++side) {
     fetch();
-    knee_frame(now, pelvis, side, height, leg[side]);
+    knee_frame(now, pelvis, side, legs.leg, leg[side]);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "assets/gait/leg_model.h"
 #include "assets/gait/step_feet-inl.h"
+#include "systems/gait/leg_size-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
@@ -85,11 +86,11 @@ struct HipsSeen {
 
 /// Computes the hips at a part of the step's time, its phase and its waves. `along` is the cosine of the line's slant,
 /// which projects steps of standing people along a slanted line into the side view.
-HWY_NOINLINE inline HipsSeen hips_seen(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
+HWY_NOINLINE inline HipsSeen hips_seen(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const LegSize& size,
                                        const Wide& u, const Wide& phase, const StepWaves& waves, const Wide& along) {
   const HipsPlace hips = hips_place(plan, of, u, phase, waves);
-  const Wide eased = smooth(u), half = static_cast<float>(fraction::hip_half_spacing) * height;
-  return {fma(hips.forward, along, hips.ahead), hips_height(plan, of, height, u, waves),
+  const Wide eased = smooth(u), half = static_cast<float>(fraction::hip_half_spacing) * size.hips;
+  return {fma(hips.forward, along, hips.ahead), hips_height(plan, of, size.leg, u, waves),
           half * pelvis_rotation(plan, waves, eased), half * pelvis_list(plan, waves, eased), hips.aside};
 }
 
@@ -111,11 +112,12 @@ HWY_NOINLINE inline OtherLeg other_leg(const StepPlan<Lanes<float>>& plan, const
 }
 
 /// Computes the figure at a part of the step's time and its phase. `along` is that of hips_seen.
-HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& u,
+HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const LegSize& size, const Wide& u,
                                        const Wide& phase, const StepWaves& waves, const Wide& along,
                                        PlanarFigure& out) {
+  const Wide& height = size.leg;
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
-  const HipsSeen hips = hips_seen(plan, of, height, u, phase, waves, along);
+  const HipsSeen hips = hips_seen(plan, of, size, u, phase, waves, along);
   const OtherLeg other = other_leg(plan, of, height, phase, hips, along);
   out.stance_pitch = stance_pitch(plan, of, phase);
   const PlantedAnkle stands = planted_ankle(height, out.stance_pitch);
@@ -140,8 +142,8 @@ HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const
           (posture(from.arm_forward, to.arm_forward, eased) + posture(from.arm_back, to.arm_back, eased)) -
       2.0F * posture(from.arm_back, to.arm_back, eased);
   const Wide ahead = fma(wide(b::per_swing), swing, bent_forward + b::ahead);
-  out.forward[planar_points - 1] = fma(ahead, height, hips.forward);
-  out.up[planar_points - 1] = fma(wide(b::above), height, hips.up);
+  out.forward[planar_points - 1] = fma(ahead, size.upper, hips.forward);
+  out.up[planar_points - 1] = fma(wide(b::above), size.upper, hips.up);
 }
 
 /// Mean rates between two figures `apart` seconds from each other, per kg: of the total angular momentum (z ẏ − y ż,
@@ -150,7 +152,7 @@ struct PlanarMotion {
   Wide turning, rising;
 };
 
-HWY_NOINLINE inline PlanarMotion planar_motion(const PlanarFigure& a, const PlanarFigure& b, const Wide& height,
+HWY_NOINLINE inline PlanarMotion planar_motion(const PlanarFigure& a, const PlanarFigure& b, const Wide& upper,
                                                const Wide& per_apart) {
   PlanarMotion m = {wide(0.0F), wide(0.0F)};
   for (std::size_t i = 0; i < planar_points; ++i) {
@@ -159,7 +161,7 @@ HWY_NOINLINE inline PlanarMotion planar_motion(const PlanarFigure& a, const Plan
     m.rising = fma(mass, b.up[i] - a.up[i], m.rising);
   }
   constexpr float spin = upper_body::gyration2 * planar_mass(planar_points - 1);
-  m.turning = fnma(spin * height * height, b.lean - a.lean, m.turning) * per_apart;
+  m.turning = fnma(spin * upper * upper, b.lean - a.lean, m.turning) * per_apart;
   m.rising = m.rising * per_apart;
   return m;
 }

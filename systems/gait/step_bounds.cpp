@@ -77,11 +77,11 @@ HWY_NOINLINE void trunk_bounds(const PelvisMotion& motion, const Wide& turned, c
 
 void bounds_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                   const GaitState<Lanes<float>>& state, StepBounds<Lanes<float>>& bounds) {
-  const Wide height = load(size.height_m);
-  const StepNow now = step_now(height, plan, state, nullptr, [] {});
+  const LegSize legs = leg_size(size);
+  const StepNow now = step_now(legs, plan, state, nullptr, [] {});
   const Furthest furthest(bounds);
   Wide leg[2];
-  for (std::size_t side = 0; side < 2; ++side) leg[side] = leg_bounds(now, side, height, furthest);
+  for (std::size_t side = 0; side < 2; ++side) leg[side] = leg_bounds(now, side, legs.leg, furthest);
 
   const PostureParameters<Lanes<float>>&from = plan.from.posture, &to = plan.to.posture;
   const auto of = [&](Lanes<float> PostureParameters<Lanes<float>>::*what)

@@ -11,6 +11,7 @@
 #include "assets/gait/on_line-inl.h"
 #include "assets/gait/uneven-inl.h"
 #include "systems/gait/kinematics_wide-inl.h"
+#include "systems/gait/leg_size-inl.h"
 #include "systems/gait/unit_skeleton.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,7 +26,7 @@ struct PelvisMotion {
 };
 
 HWY_NOINLINE inline PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, const StepWaves& w,
-                                               const Wide& eased, const Wide& sign, const Wide& height) {
+                                               const Wide& eased, const Wide& sign, const Wide& hips) {
   PelvisMotion m;
   m.rotation = sign * pelvis_rotation(plan, w, eased);
   m.list = sign * pelvis_list(plan, w, eased);
@@ -33,7 +34,7 @@ HWY_NOINLINE inline PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& pla
   m.turn = turn_yzx(m.rotation, -m.list, m.tilt - static_cast<float>(neutral_tilt));
   for (std::size_t side = 0; side < 2; ++side)
     m.hip[side] =
-        rotate(m.turn, scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));
+        rotate(m.turn, scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], hips));
   return m;
 }
 
@@ -127,10 +128,10 @@ constexpr std::size_t step_now_fetches = 7;
 /// Computes the state of a step. `footing` is null on level ground. `fetch` is called step_now_fetches times, evenly
 /// over the work, for prefetching.
 template <class Fetch>
-HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& plan,
+HWY_INLINE StepNow step_now(const LegSize& size, const StepPlan<Lanes<float>>& plan,
                             const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing,
                             const Fetch& fetch) {
-  const Wide one = wide(1.0F), zero = wide(0.0F);
+  const Wide &height = size.leg, one = wide(1.0F), zero = wide(0.0F);
   const Wide time = load(state.time_s);
   const WideMask right_stands = equal(state.stance_side, Side::right),
                  left_stands = equal(state.stance_side, Side::left);
@@ -138,7 +139,7 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
   const StepWaves waves = step_waves(phase);
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
   fetch();
-  const PelvisMotion motion = pelvis_motion(plan, waves, eased, select(right_stands, one, -one), height);
+  const PelvisMotion motion = pelvis_motion(plan, waves, eased, select(right_stands, one, -one), size.hips);
   const Line line = line_of(plan, state);
   fetch();
 

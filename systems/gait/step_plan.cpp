@@ -68,10 +68,10 @@ HWY_NOINLINE Wide calm_style(const Wide& own, const GaitStyleOf<Lanes<float>>& s
 }
 
 /// Computes the strike at the end of this step toward the wanted gait. `turn` is the turn left at its beginning.
-HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted, const Wide& turn,
+HWY_NOINLINE void next_strike(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted, const Wide& turn,
                               const HeelStrike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
                               Solve solve, HeelStrike<Lanes<float>>& to) {
-  const Wide leg = ratio(fraction::thigh + fraction::shank, height);
+  const Wide height = load(size.leg_scale_m), leg = ratio(fraction::thigh + fraction::shank, height);
   const Wide scale = sqrt(leg / leg_m);
   const Wide now = load(from.speed_m_s), aim = select(half_aside(from), wide(0.0F), load(wanted.speed_m_s));
   const WideMask standing = now <= 0.0F, to_stand = aim <= 0.0F;
@@ -80,7 +80,8 @@ HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<L
   const Wide walking = select(standing, min(aim, first_speed * scale), min(max(aim, slower), faster));
   StrikeRequest r;
   r.height = height;
-  r.mass = mass;
+  r.mass = load(size.mass_kg);
+  r.stature = load(size.height_m);
   r.speed = select(fresh, aim, select(to_stand, stopping, walking));
   const Wide length = load(wanted.step_length_m), usual = usual_length(height, r.speed);
   const Wide scaled = length * usual / usual_length(height, aim);
@@ -224,7 +225,8 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
                              const WideMask& right_lands, const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   time_step(wanted, right_lands, on_spot, plan);
   const HeelStrike<Lanes<float>>&from = plan.from, &to = plan.to;
-  const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
+  const LegSize legs = leg_size(size);
+  const Wide height = legs.leg, zero = wide(0.0F), one = wide(1.0F);
   const WideMask from_stands = stands(from), to_stands = stands(to);
   const auto [stays, spot] = standing(plan, on_spot);
   const Wide off = load(plan.double_support), duration = load(plan.duration_s);
@@ -243,9 +245,9 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
     store(zero, plan.swing_by_forward_m[k]);
     store(zero, plan.swing_by_up_m[k]);
   }
-  if (any(share > 0.0F)) integrate_swing(height, share, plan);
+  if (any(share > 0.0F)) integrate_swing(legs, share, plan);
   const WideMask alike = same_words(from, to);
-  const Wide astray = balance_step(height, select(right_lands, -one, one), alike | stays, spot, plan);
+  const Wide astray = balance_step(legs, select(right_lands, -one, one), alike | stays, spot, plan);
   store_flags(astray > max_astray * height, plan.clamped);
   settle_step(wanted, alike, on_spot, plan);
 }
@@ -303,9 +305,9 @@ HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<La
     plan.to.shape[step_shape::hips_forward.first][l] = -0.5F * way;
     // Legs apart reach less high.
     const float apart =
-        0.25F * way * way + way * std::abs(exact::sin(plan.slant_rad[l])) * ankle_outward * size.height_m[l];
+        0.25F * way * way + way * std::abs(exact::sin(plan.slant_rad[l])) * ankle_outward * size.leg_scale_m[l];
     plan.to.shape[step_shape::hips_up.first][l] -=
-        sinks_apart * 0.5F * apart / (static_cast<float>(fraction::hip_height) * size.height_m[l]);
+        sinks_apart * 0.5F * apart / (static_cast<float>(fraction::hip_height) * size.leg_scale_m[l]);
   }
   return load(begins) > 0.0F;
 }
@@ -315,8 +317,8 @@ void begin_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wa
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask all = one > zero, left_lands = zero > one;
   store(load(wanted.speed_m_s), plan.from.speed_m_s);
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, zero, plan.from, all, all, solve, plan.from);
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, zero, plan.from, all, left_lands, solve, plan.to);
+  next_strike(size, wanted, zero, plan.from, all, all, solve, plan.from);
+  next_strike(size, wanted, zero, plan.from, all, left_lands, solve, plan.to);
   plan.trailing_half_width_m = plan.from.half_width_m;
   plan.trailing_toe_out = plan.from.toe_out;
   solve == Solve::whole ? solve_step(size, wanted, left_lands, left_lands, plan)
@@ -335,7 +337,7 @@ void follow_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
   keep(sides_change, plan.from.toe_out, plan.trailing_toe_out);
   plan.from = plan.to;
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, way, plan.from, fresh, right_lands, solve, plan.to);
+  next_strike(size, wanted, way, plan.from, fresh, right_lands, solve, plan.to);
   // Standing people step in place until both feet have the requested heading and stance of the style. One foot can come
   // from a calmed strike, or the style can have changed.
   const WideMask turns = (abs(way) > off_heading) | (abs(load(state.turn_before_rad)) > 0.0F);

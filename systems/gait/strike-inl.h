@@ -31,7 +31,7 @@ HWY_INLINE Wide ratio(double fraction_of_height, const Wide& height) {
 
 /// Inputs of a strike, in lanes.
 struct StrikeRequest {
-  Wide height, mass;
+  Wide height, mass, stature;
   Wide speed, step_length;  // of the gait at the strike; speed 0 stands
   Wide length;              // of the step that ends here
   Wide slower;              // extra duration relative to the mean step
@@ -39,10 +39,11 @@ struct StrikeRequest {
 
 /// Returns the height of a standing person's hips relative to straight legs. Legs of equal stiffness sink under the
 /// weight above 24.5 kg/m² of a body of this height, with a saturating sag.
-HWY_NOINLINE inline Wide sunk(const Wide& height, const Wide& mass, const GaitStyleOf<Lanes<float>>& style) {
+HWY_NOINLINE inline Wide sunk(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style) {
+  const Wide& height = r.height;
   const Wide stand = ratio(fraction::hip_height, height);
   const Wide stiffness = load(style.leg_stiffness_n_per_m) * height / 1.8F;
-  const Wide excess = max(mass - 24.5F * height * height, 0.0F) * gravity_f / (stiffness * stand);
+  const Wide excess = max(r.mass - 24.5F * r.stature * r.stature, 0.0F) * gravity_f / (stiffness * stand);
   constexpr float most = 0.018F;
   const Wide sag = most * excess / sqrt(most * most + excess * excess);
   return stand * (load(style.mid_stance_height) - 1.0F - sag);
@@ -50,8 +51,8 @@ HWY_NOINLINE inline Wide sunk(const Wide& height, const Wide& mass, const GaitSt
 
 /// Returns the factor by which heavier people's steps are wider than at 24.5 kg/m²: 30 % from 22.1 to 35.5 kg/m²
 /// (Browning and Kram 2007). At one speed, step length and double support are the same (Vartiainen and others 2012).
-HWY_INLINE Wide wider_steps(const Wide& height, const Wide& mass) {
-  return fma(max(mass / (height * height) - 24.5F, 0.0F), wide(0.0224F), wide(1.0F));
+HWY_INLINE Wide wider_steps(const Wide& stature, const Wide& mass) {
+  return fma(max(mass / (stature * stature) - 24.5F, 0.0F), wide(0.0224F), wide(1.0F));
 }
 
 /// Amounts by style_effects, and the largest of them, which is 0 for the usual walk.
@@ -155,7 +156,7 @@ HWY_NOINLINE inline void flatten_within(const Wide& times, HeelStrike<Lanes<floa
 }
 
 HWY_INLINE Wide step_width(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style) {
-  return load(style.step_width_h) * wider_steps(r.height, r.mass);
+  return load(style.step_width_h) * wider_steps(r.stature, r.mass);
 }
 
 /// Writes position and speed of a strike, from which footholds and times of steps follow.
@@ -208,7 +209,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   // In uneven steps the hips keep a constant speed. A longer step of the table already has them further back.
   constexpr float further_back = 0.42F;
   more(step_shape::hips_forward, 0, walking(fma(wide(further_back - 0.5F), r.length - step, 0.5F * step * r.slower)));
-  const Wide sink = sunk(r.height, r.mass, style), lean = load(style.trunk_lean_deg) * degree_f;
+  const Wide sink = sunk(r, style), lean = load(style.trunk_lean_deg) * degree_f;
   more(step_shape::hips_up, 0,
        select(stands, sink - soft_knees * r.height,
               sink - (usual.mid_stance_height - 1.0F) * ratio(fraction::hip_height, r.height) -

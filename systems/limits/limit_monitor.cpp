@@ -85,7 +85,7 @@ void count_limit_violations(const BodySize<Lanes<float>>& size, const StepPlan<L
   for (std::size_t l = 0; l < rows.live; ++l)
     if (turns_back(plan, state, l) ||
         (plan.settled[l] == 0 &&
-         (changes_style(plan, l) || !has_usual_steps(size.height_m[l], wanted.speed_m_s[l], wanted.step_length_m[l]) ||
+         (changes_style(plan, l) || !has_usual_steps(size.leg_scale_m[l], wanted.speed_m_s[l], wanted.step_length_m[l]) ||
           !is_near_usual(row_of(wanted.style, l)))))
       looked_at |= 1U << l;
   if (looked_at == 0) return;

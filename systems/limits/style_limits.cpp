@@ -157,7 +157,7 @@ StyleLimitSearch::StyleLimitSearch(std::span<const BodySize<float>> sizes, std::
     Walker& walker = walkers_[w];
     walker.asked = walker.style = gait.style;
     walker.asked_m = gait.step_length_m;
-    walker.usual_m = usual_length_m(sizes[people[w]].height_m, gait.speed_m_s);
+    walker.usual_m = usual_length_m(sizes[people[w]].leg_scale_m, gait.speed_m_s);
   }
   for (std::size_t l = 0; l < lane_count; ++l) {
     const std::size_t i = people[walker_of(l)];
@@ -431,7 +431,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
   work.breaks.assign(gaits.size(), 1);
   in_parallel(jobs, gaits.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (is_usual(sizes[i].height_m, gaits[i]) ||
+      if (is_usual(sizes[i].leg_scale_m, gaits[i]) ||
           (stops_as_it_walks(gaits[i].style) && surely_keeps_limits(sizes[i], gaits[i])))
         work.breaks[i] = 0;
   });
@@ -462,7 +462,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
     block.clamp_toward_default();
     for (std::size_t w = 0; w < some.size(); ++w) {
       if (!block.is_drawn(w)) continue;
-      const float height_m = sizes[some[w]].height_m;
+      const float height_m = sizes[some[w]].leg_scale_m;
       Gait<float>& gait = gaits[some[w]];
       if (!moved.empty()) add_changes(block.changes(w), moved[some[w]]);
       const Gait<float> kept = complete_gait(height_m, gait.speed_m_s, block.step_length_m(w), block.style(w));

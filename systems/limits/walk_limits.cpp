@@ -13,6 +13,7 @@
 #include <mobil/components/step_plan.h>
 #include <mobil/engine/interrupt.h>
 #include <mobil/rows.h>
+#include "assets/body/body_scales.h"
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
 #include "assets/gait/step_table.h"
@@ -142,7 +143,7 @@ class WalkLooked {
   /// usual steps for that speed.
   void scale_speed(float part) {
     for (std::size_t l = 0; l < lane_count; ++l) {
-      const float height_m = size_.height_m[l], speed_m_s = gait_.speed_m_s[l];
+      const float height_m = size_.leg_scale_m[l], speed_m_s = gait_.speed_m_s[l];
       if (!(speed_m_s > 0)) continue;
       const float slow_m_s = std::max(part * speed_m_s, std::min(speed_m_s, lowest_speed_m_s(height_m)));
       const Gait<float> slow = complete_gait(height_m, slow_m_s, usual_length_m(height_m, slow_m_s), {});
@@ -332,9 +333,7 @@ void fill(float height_m, float speed_m_s, Node& node) {
   BodySize<Lanes<float>> size{};
   Gait<Lanes<float>> walks{};
   WalkExtremes found{};
-  BodySize<float> body{};
-  body.height_m = height_m;
-  body.mass_kg = 22.5F * height_m * height_m;
+  const auto body = make_size({.height_m = height_m, .mass_kg = 22.5F * height_m * height_m}, 0);
   // Sixteen at a time: walk 2·p has a tenth more of parameter p, walk 2·p + 1 a tenth less. The last is the usual walk.
   constexpr std::size_t count = 2 * gait_parameters.size() + 1;
   std::array<std::array<float, bound_count>, count> value{};
@@ -429,7 +428,7 @@ bool has_usual_steps(float height_m, float speed_m_s, float step_length_m) {
 }
 
 bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait) {
-  const float height_m = size.height_m, place = (gait.speed_m_s - lowest_speed) / speed_step;
+  const float height_m = size.leg_scale_m, place = (gait.speed_m_s - lowest_speed) / speed_step;
   const bool stands = gait.speed_m_s == 0;
   if (!(height_m >= 1.35F && height_m <= 2.15F)) return false;
   if (!stands && !(place >= 0 && place < static_cast<float>(node_speeds - 1))) return false;

@@ -216,7 +216,7 @@ void LodRound::evaluate(Table& table, const Columns& at, std::size_t b, Looked& 
     const LodRequest<float> needs = row_of(all_needs, lane);
     LodState<float> lod_state = row_of(all_tiers, lane);
     if (lod_state.relative_size == 0) lod_state = begin_tiers(choice);
-    const float height = at.size.at(table, b).height_m[lane];
+    const float height = at.size.at(table, b).leg_scale_m[lane];
     float speed = INFINITY;
     if (at.gait && at.plan) {
       const auto& plan = at.plan.at(table, b);

@@ -15,6 +15,7 @@
 #include <mobil/forces.h>
 #include <mobil/rows.h>
 #include <mobil/systems/people/sleepers.h>
+#include "assets/body/body_scales.h"
 #include "assets/gait/slope_pace.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/kinematics.h"
@@ -52,17 +53,12 @@ BodyRequest body_request(const World& world, Entity person) {
 }
 
 BodySize<float> body_size(const BodyRequest& request) {
-  return {request.height_m, request.mass_kg, static_cast<float>(extra_fat_of(body_composition(request)))};
-}
-
-BodySize<float> body_size(const Body& body) {
-  return {body.request.height_m, body.request.mass_kg, static_cast<float>(extra_fat_of(body.composition))};
+  return make_size(request, static_cast<float>(extra_fat_of(body_composition(request))));
 }
 
 BodySize<float> body_size(const World& world, Entity person) {
   if (const auto size = world.get<BodySize>(person)) return *size;
-  const Asleep<float> asleep = *world.get<Asleep>(person);
-  return {asleep.height_m, asleep.mass_kg, asleep.extra_fat};
+  return size_of(*world.get<Asleep>(person));
 }
 
 Physique<float> physique(const BodyRequest& request) {
@@ -93,7 +89,7 @@ GaitRequest request_of(const Gait<float>& gait) {
 }
 
 Result<Gait<float>> next_gait(const AskedBody& now, const GaitRequest& request) {
-  auto gait = resolve_gait(now.size.height_m, request);
+  auto gait = resolve_gait(now.size, request);
   if (!gait) return gait;
   const Gait<float>& before = now.gait;
   gait->heading_rad = before.heading_rad;
@@ -120,7 +116,8 @@ std::optional<GaitRequest> gait_request(const World& world, Entity person) {
 std::optional<AskedBody> asked_body(const World& world, Entity person) {
   if (is_asleep(world, person)) {
     const Asleep<float> asleep = *world.get<Asleep>(person);
-    return AskedBody{size_of(asleep), gait_of(asleep.height_m, asleep.walk, sleeper_style(world, person))};
+    const BodySize<float> size = size_of(asleep);
+    return AskedBody{size, gait_of(size.leg_scale_m, asleep.walk, sleeper_style(world, person))};
   }
   const auto gait = world.get<Gait>(person);
   return gait ? std::optional(AskedBody{*world.get<BodySize>(person), *gait}) : std::nullopt;

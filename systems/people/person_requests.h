@@ -30,7 +30,6 @@ std::optional<PersonState> person_state(const World& world, Entity person);
 BodyRequest body_request(const World& world, Entity person);
 /// Return the components of a body.
 BodySize<float> body_size(const BodyRequest& request);
-BodySize<float> body_size(const Body& body);
 BodySize<float> body_size(const World& world, Entity person);
 Physique<float> physique(const BodyRequest& request);
 

@@ -1,11 +1,12 @@
 #include "systems/people/pose_measures.h"
 
 #include <cmath>
-#include <utility>
+#include <tuple>
 
 #include <mobil/anthropometry.h>
 #include <mobil/components/muscle.h>
 #include <mobil/engine/geometry.h>
+#include "assets/body/body_scales.h"
 #include "assets/body/column.h"
 #include "assets/body/fat_distribution.h"
 
@@ -46,11 +47,13 @@ JointAngles<float> joint_angles(const Pose<float>& pose) {
 void move_mass_along_limbs(const BodySize<Lanes<float>>& size, const LimbLengths<Lanes<float>>& limbs,
                            const Pose<Lanes<float>>& pose, CentreOfMass<Lanes<float>>& centre) {
   using enum Segment;
-  const std::pair<Segment, const Lanes<float>&> bones[] = {{thigh_right, limbs.thigh_m},
-                                                           {shank_right, limbs.shank_m},
-                                                           {upper_arm_right, limbs.upper_arm_m},
-                                                           {forearm_right, limbs.forearm_m}};
-  for (const auto& [right_one, length_m] : bones) {
+  using Size = BodySize<Lanes<float>>;
+  const std::tuple<Segment, Lanes<float> Size::*, const Lanes<float>&> bones[] = {
+      {thigh_right, &Size::leg_scale_m, limbs.thigh_m},
+      {shank_right, &Size::leg_scale_m, limbs.shank_m},
+      {upper_arm_right, &Size::upper_arm_scale_m, limbs.upper_arm_m},
+      {forearm_right, &Size::forearm_scale_m, limbs.forearm_m}};
+  for (const auto& [right_one, scale, length_m] : bones) {
     for (const Side side : {Side::right, Side::left}) {
       const std::size_t s = index(on_side(right_one, side));
       const auto tip = static_cast<float>(unit_body.tip[s].y),
@@ -61,7 +64,7 @@ void move_mass_along_limbs(const BodySize<Lanes<float>>& size, const LimbLengths
       for (std::size_t l = 0; l < lane_count; ++l) {
         if (length_m[l] == 0) continue;
         // Along the bone's own y axis, down.
-        const float by = (usual + more * size.extra_fat[l]) * part * (length_m[l] + tip * size.height_m[l]);
+        const float by = (usual + more * size.extra_fat[l]) * part * (length_m[l] + tip * (size.*scale)[l]);
         centre.position_m.x[l] -= by * 2 * (q.x[l] * q.y[l] - q.w[l] * q.z[l]);
         centre.position_m.y[l] -= by * (1 - 2 * (q.x[l] * q.x[l] + q.z[l] * q.z[l]));
         centre.position_m.z[l] -= by * 2 * (q.y[l] * q.z[l] + q.w[l] * q.x[l]);
@@ -70,13 +73,13 @@ void move_mass_along_limbs(const BodySize<Lanes<float>>& size, const LimbLengths
   }
 }
 
-Feet<float> sole_points(float height_m, const Pose<float>& pose) {
+Feet<float> sole_points(float leg_scale_m, const Pose<float>& pose) {
   namespace f = fraction;
   Feet<float> feet{};
   for (const Side side : {Side::right, Side::left}) {
     const auto point = [&](Segment segment, double up, double forward) {
       const std::size_t s = index(on_side(segment, side));
-      const auto height = static_cast<double>(height_m);
+      const auto height = static_cast<double>(leg_scale_m);
       return to_float(to_double(pose.position_m[s]) +
                       rotated(to_double(pose.rotation[s]), {0, height * up, height * forward}));
     };

@@ -17,6 +17,6 @@ JointAngles<float> joint_angles(const Pose<float>& pose);
 void move_mass_along_limbs(const BodySize<Lanes<float>>& size, const LimbLengths<Lanes<float>>& limbs,
                            const Pose<Lanes<float>>& pose, CentreOfMass<Lanes<float>>& centre);
 /// Returns the points of the soles of a body of that height. `phase` is 0, because a pose has none.
-Feet<float> sole_points(float height_m, const Pose<float>& pose);
+Feet<float> sole_points(float leg_scale_m, const Pose<float>& pose);
 
 }  // namespace mobil::inline v0_3

@@ -8,6 +8,7 @@
 #include <mobil/components/avoidance.h>
 #include <mobil/each.h>
 #include <mobil/rows.h>
+#include "assets/body/body_scales.h"
 #include "engine/state_hash.h"
 #include "systems/gait/asleep.h"
 #include "systems/people/person_requests.h"
@@ -73,11 +74,11 @@ BodyRequest body_of(const Asleep<float>& asleep) {
 }
 
 BodySize<float> size_of(const Asleep<float>& asleep) {
-  return {asleep.height_m, asleep.mass_kg, asleep.extra_fat};
+  return make_size(body_of(asleep), asleep.extra_fat);
 }
 
-Gait<float> gait_of(float height_m, const SteadyWalk<float>& walk, const GaitStyle& style) {
-  Gait<float> gait = complete_gait(height_m, walk.speed_m_s, walk.step_length_m, style);
+Gait<float> gait_of(float leg_scale_m, const SteadyWalk<float>& walk, const GaitStyle& style) {
+  Gait<float> gait = complete_gait(leg_scale_m, walk.speed_m_s, walk.step_length_m, style);
   gait.heading_rad = walk.asked_heading_rad;
   gait.revision = walk.requests & 0xFFFFU;
   gait.displacement = walk.requests >> 16U;
@@ -108,7 +109,7 @@ BodyRequest sleeper_body(const World& world, Entity person) {
 
 Gait<float> sleeper_gait(const World& world, Entity person) {
   const Asleep<float> asleep = *world.get<Asleep>(person);
-  return gait_of(asleep.height_m, asleep.walk, sleeper_style(world, person));
+  return gait_of(size_of(asleep).leg_scale_m, asleep.walk, sleeper_style(world, person));
 }
 
 void find_steady(const World& world, std::span<const Entity> people, const SleepTime& time, std::vector<Sleeper>& out) {

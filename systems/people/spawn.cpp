@@ -42,7 +42,7 @@ Result<void> check(const SpawnRequest& request, BodySize<float>& size, Gait<floa
   auto resolved = resolve_gait(*body, request.gait);
   if (!resolved) return tl::unexpected(resolved.error());
   if (auto placed = check_place(request); !placed) return placed;
-  size = body_size(*body);
+  size = body->size;
   gait = *resolved;
   gait.heading_rad = request.heading_rad;
   return each(person, *body);
@@ -139,17 +139,17 @@ void create_walkers(World& world, const Jobs& jobs, std::span<const SpawnRequest
 Result<Entity> spawn_posed(World& world, const BodyRequest& request) {
   const auto body = make_body(request);
   if (!body) return tl::unexpected(body.error());
-  const BodySize<float> size = body_size(request);
+  const BodySize<float>& size = body->size;
   const Pose<float> pose = standing_pose(*body);
   CentreOfMass<Lanes<float>> centre;
   centre_of_mass(broadcast(size), broadcast(pose), centre);
   if (!has_own_limbs(request)) {
-    return world.create(size, physique(request), pose, joint_angles(pose), sole_points(size.height_m, pose),
+    return world.create(size, physique(request), pose, joint_angles(pose), sole_points(size.leg_scale_m, pose),
                         first_lane(centre), Publishes<PublishedLeg>{});
   }
   move_mass_along_limbs(broadcast(size), broadcast(request.limbs), broadcast(pose), centre);
   return world.create(size, physique(request), request.limbs, pose, joint_angles(pose),
-                      sole_points(size.height_m, pose), first_lane(centre), Publishes<PublishedLeg>{});
+                      sole_points(size.leg_scale_m, pose), first_lane(centre), Publishes<PublishedLeg>{});
 }
 
 void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleLimitWork& work) {

@@ -20,9 +20,10 @@ void work_out(Asleep<Lanes<float>>& asleep, Unsettled<Lanes<float>>& since, cons
   for (std::size_t l = 0; l < lane_count; ++l) {
     const Asleep<float> one = row_of(asleep, l);
     const GaitStyle its = row_of(style, l);
-    put_row(size_of(one), block.size, l);
-    put_row(gait_of(one.height_m, one.walk, its), block.gait, l);
-    put_row(gait_of(one.height_m, row_of(since.before, l), its), gait_before, l);
+    const BodySize<float> size = size_of(one);
+    put_row(size, block.size, l);
+    put_row(gait_of(size.leg_scale_m, one.walk, its), block.gait, l);
+    put_row(gait_of(size.leg_scale_m, row_of(since.before, l), its), gait_before, l);
   }
   SteadyWalk<Lanes<float>> after = asleep.walk;
   settle(gait_before, since.before, since.asked_tick, tick_s, block, after, since.until_tick);

@@ -43,12 +43,13 @@ struct WakingBlock {
   void put(const Asleep<float>& asleep, const GaitStyle& style, const std::optional<Unsettled<float>>& since,
            const SleepTime& time, std::size_t lane) {
     const BodyRequest body = body_of(asleep);
-    put_row(size_of(asleep), walkers.size, lane);
+    const BodySize<float> size = size_of(asleep);
+    put_row(size, walkers.size, lane);
     put_row(mobil::physique(body), physique, lane);
     const bool changing = is_unsettled(since, time);
     const SteadyWalk<float> from = changing ? since->before : asleep.walk;
-    put_row(gait_of(body.height_m, asleep.walk, style), walkers.gait, lane);
-    put_row(gait_of(body.height_m, from, style), gait_before, lane);
+    put_row(gait_of(size.leg_scale_m, asleep.walk, style), walkers.gait, lane);
+    put_row(gait_of(size.leg_scale_m, from, style), gait_before, lane);
     put_row(from, before, lane);
     asked[lane] = changing ? since->asked_tick : time.tick;
     tick[lane] = time.tick;

@@ -52,7 +52,7 @@ void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people,
       mark(world, person, now->gait, {});
       continue;
     }
-    const GaitChange change = change_to(now->size.height_m, level, speed);
+    const GaitChange change = change_to(now->size.leg_scale_m, level, speed);
     const auto gait = changed_gait(*now, change);
     if (!gait) {
       mark(world, person, now->gait, {});

@@ -119,7 +119,7 @@ void TerrainWork::collect_block(const Table& table, std::uint32_t block) {
     asking.push_back({entities[l], state.steps[l], state.stance_side[l], state.line_x_m[l], state.line_z_m[l],
                       at.x_m[stance][l], at.z_m[stance][l], at.x_m[landing][l], at.z_m[landing][l], queries.size(),
                       all});
-    const float height_m = size.height_m[l];
+    const float height_m = size.leg_scale_m[l];
     const std::array<float, sole_places> sole = {0, -SoleGround::back_h * height_m, SoleGround::front_h * height_m};
     std::array<float, SoleGround::places> about;
     for (std::size_t i = 0; i < SoleGround::places; ++i) about[i] = SoleGround::ahead_h(i) * height_m;
@@ -288,7 +288,7 @@ std::size_t TerrainWork::put_answers(World& world, const Asking& one, bool slows
     return 0;
   const std::size_t next = first + (all ? 2 * sole_places : 0), on_way = next + SoleGround::places;
   const float usual_m = footing.height_m[stance][l],
-              height_m = TableColumn<BodySize>(*table).at(*table, block).height_m[l];
+              height_m = TableColumn<BodySize>(*table).at(*table, block).leg_scale_m[l];
   std::size_t unusable = 0;
   for (std::size_t i = first; i < next; i += sole_places) unusable += mend_answers(i, sole_places, i, usual_m);
   unusable += mend_answers(next, SoleGround::places, next + SoleGround::ankle, usual_m);

@@ -9,6 +9,7 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/components/step_plan.h>
+#include "assets/body/body_scales.h"
 #include "engine/eigen.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/body_motion.h"
@@ -147,8 +148,8 @@ inline std::unique_ptr<Block> random_people(unsigned seed) {
   };
   auto b = std::make_unique<Block>();
   for (std::size_t l = 0; l < lane_count; ++l) {
-    b->size.height_m[l] = dice(1.2, 2.2);
-    b->size.mass_kg[l] = dice(30, 200);
+    const float height_m = dice(1.2, 2.2);
+    put(make_size({.height_m = height_m, .mass_kg = dice(30, 200)}, 0), b->size, l);
     b->plan.duration_s[l] = 0.5F;
   }
   return b;

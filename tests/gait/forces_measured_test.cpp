@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <mobil/assets/files/csv_table.h>
+#include "assets/body/body_scales.h"
 #include "tests/files/reference_data.h"
 #include "tests/gait/forces_figure.h"
 
@@ -146,8 +147,7 @@ std::vector<Row> computed(const Man& man) {
     const int sample = i % samples;
     const bool second = sample >= samples / 2;
     for (std::size_t l = 0; l < lane_count; ++l) {
-      b->size.height_m[l] = static_cast<float>(height);
-      b->size.mass_kg[l] = static_cast<float>(mass);
+      put(make_size({.height_m = static_cast<float>(height), .mass_kg = static_cast<float>(mass)}, 0), b->size, l);
       b->plan.from.speed_m_s[l] = b->plan.to.speed_m_s[l] = 1;
       b->plan.from.shape[step_shape::share.first][l] = b->plan.to.shape[step_shape::share.first][l] = 1.3F;
       b->plan.phase_rate_from[l] = b->plan.phase_rate_to[l] = 1;

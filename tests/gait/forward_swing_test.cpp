@@ -54,7 +54,7 @@ struct Swing {
   SwingState way[swing_steps + 1];
 
   explicit Swing(const Walkers& w, int rounds = 3) {
-    wide_step::swing_to_meet(w.plan, wide_step::unit_swing_leg, wide_step::load(w.size.height_m), to_meet);
+    wide_step::swing_to_meet(w.plan, wide_step::unit_swing_leg, wide_step::leg_size(w.size), to_meet);
     wide_step::first_numbers(wide_step::unit_swing_leg, to_meet, first);
     for (std::size_t k = 0; k < torque_count; ++k) number[k] = first[k];
     for (int round = 0; round < rounds; ++round) {

@@ -65,8 +65,7 @@ struct Walkers {
 
   void set_body(std::size_t lane, const BodyRequest& request) {
     body[lane] = make_body(request).value();
-    const auto extra_fat = static_cast<float>(extra_fat_of(body[lane].composition));
-    put(BodySize<float>{request.height_m, request.mass_kg, extra_fat}, size, lane);
+    put(body[lane].size, size, lane);
   }
   /// Returns false if the gait is out of range; it is then unchanged.
   bool ask(std::size_t lane, const GaitRequest& request) {

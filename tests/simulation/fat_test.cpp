@@ -10,6 +10,7 @@
 #include <mobil/components/fat.h>
 #include <mobil/rows.h>
 #include <mobil/simulation.h>
+#include "assets/body/body_scales.h"
 #include "systems/gait/fat_motion.h"
 
 namespace mobil::fat_test {
@@ -51,8 +52,8 @@ Pose<Lanes<float>> pose_at(float x_m) {
 TEST(Fat, SwingsAsAMassOnASpring) {
   BodySize<Lanes<float>> size;
   for (std::size_t l = 0; l < lane_count; ++l)
-    put_row(BodySize<float>{1.6F + 0.02F * static_cast<float>(l), 60 + 3 * static_cast<float>(l),
-                            -0.05F + 0.02F * static_cast<float>(l)},
+    put_row(make_size({.height_m = 1.6F + 0.02F * static_cast<float>(l), .mass_kg = 60 + 3 * static_cast<float>(l)},
+                      -0.05F + 0.02F * static_cast<float>(l)),
             size, l);
   for (const double tick_s : {1.0 / 30, 1.0 / 60, 1.0 / 240, 0.2}) {
     std::mt19937 random(5);

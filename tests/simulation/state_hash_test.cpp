@@ -51,7 +51,7 @@ TEST(StateHash, ChangesWithTimeAndWithAnyPerson) {
   EXPECT_TRUE(is_new());
   ASSERT_EQ(simulation.despawn(sixth), Status::ok);
   EXPECT_TRUE(is_new());
-  world_of(simulation).create(BodySize<float>{1, 2, 0});  // without an owner
+  world_of(simulation).create(BodySize<float>{});  // without an owner
   EXPECT_TRUE(is_new());
 }
 

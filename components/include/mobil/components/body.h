@@ -70,6 +70,17 @@ constexpr bool has_note(const BodyComposition& composition, BodyNote note) {
   return (composition.notes & static_cast<std::uint8_t>(note)) != 0;
 }
 
+/// Sizes that per-tick kernels read. A length of the unit body (mobil/anthropometry.h) times the scale of its group is
+/// the person's; assets/body/body_scales.h has the groups, and those that follow from others. Each scale is thus the
+/// height of the unit body with that part. Walks scale with the legs. (Custom limbs are in a posed person's pose, and in the scale of its muscles' paths.)
+template <class F>
+struct BodySize {
+  F height_m;
+  F mass_kg;
+  F extra_fat;  // fraction of the mass (assets/body/fat_distribution.h)
+  F leg_scale_m, trunk_scale_m, shoulders_scale_m, upper_arm_scale_m, forearm_scale_m;
+};
+
 /// Skeleton of one person, host side, made once at spawn by `make_body` (mobil/anthropometry.h). Every segment's origin
 /// is its proximal joint (thigh – hip centre, shank – knee, foot – ankle, toes – ball of the foot, pelvis – midpoint of
 /// the hip centres, patella – its centre). In the anatomical position all rotations are identity, +Y up, +Z forward, +X
@@ -77,6 +88,7 @@ constexpr bool has_note(const BodyComposition& composition, BodyNote note) {
 struct Body {
   BodyRequest request;
   BodyComposition composition;
+  BodySize<float> size;
   /// Origin of each segment in its parent's frame, m; for the pelvis, its height over the ground when standing.
   std::array<Vec3<float>, segment_count> joint_offset_m;
   /// Centre of mass of each segment in its own frame, m.
@@ -89,15 +101,6 @@ struct Body {
   float thigh_length_m, shank_length_m;
   /// Hip centre over the ground when standing upright with straight knees, m.
   float hip_height_m;
-};
-
-/// Sizes that per-tick kernels read; all other lengths are these times a constant. (Custom limbs are in a posed
-/// person's pose, and in the scale of its muscles' paths.)
-template <class F>
-struct BodySize {
-  F height_m;
-  F mass_kg;
-  F extra_fat;  // fraction of the mass (assets/body/fat_distribution.h)
 };
 
 /// Request for a body, without its sizes and limbs.

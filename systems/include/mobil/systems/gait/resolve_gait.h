@@ -12,7 +12,10 @@ namespace mobil::inline v0_3 {
 /// three inconsistent values, a style value out of its range.
 Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request);
 
-/// Completes and checks a request for a body of that height with average proportions.
+/// Completes and checks a request for a body of those sizes.
+Result<Gait<float>> resolve_gait(const BodySize<float>& size, const GaitRequest& request);
+
+/// Completes and checks a request for a body of that height, m, with the legs of the unit body (mobil/anthropometry.h).
 Result<Gait<float>> resolve_gait(float height_m, const GaitRequest& request);
 
 }  // namespace mobil::inline v0_3

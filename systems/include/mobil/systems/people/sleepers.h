@@ -30,7 +30,7 @@ bool is_asleep(const World& world, Entity person);
 BodyRequest body_of(const Asleep<float>& asleep);
 BodySize<float> size_of(const Asleep<float>& asleep);
 /// Returns the requested gait of a steady walk.
-Gait<float> gait_of(float height_m, const SteadyWalk<float>& walk, const GaitStyle& style);
+Gait<float> gait_of(float leg_scale_m, const SteadyWalk<float>& walk, const GaitStyle& style);
 GaitStyle sleeper_style(const World& world, Entity person);
 /// Returns the last change of a sleeper; nothing after its removal from the row. `is_unsettled`: it is in progress.
 std::optional<Unsettled<float>> unsettled_of(const World& world, Entity person);

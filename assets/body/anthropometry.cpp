@@ -11,6 +11,7 @@
 #include <mobil/engine/geometry.h>
 #include "assets/body/body_scales.h"
 #include "assets/body/fat_distribution.h"
+#include "assets/body/growth.h"
 
 namespace mobil::inline v0_3 {
 
@@ -25,15 +26,30 @@ std::string out_of_range(const char* name, float value, const char* unit, float 
                      high, unit);
 }
 
+/// Returns an empty string if a person of that age can have that height.
+std::string wrong_height(const BodyRequest& request) {
+  const auto [low, high] = living_height_m(request.sex, request.age_y);
+  const auto shortest = static_cast<float>(low), tallest = static_cast<float>(high);
+  const float age = half_years(request.age_y);
+  if (age >= static_cast<float>(adult_age_y)) return out_of_range("height", request.height_m, " m", shortest, tallest);
+  if (request.height_m >= shortest && request.height_m <= tallest) return {};
+  return fmt::format("body: nobody of {} years is {:.2f} m tall; choose {:.2f}–{:.2f} m or another age", age,
+                     request.height_m, shortest, tallest);
+}
+
 /// Returns an empty string if a real body can have that height and mass.
 std::string not_active(const BodyRequest& request) {
-  const auto [low, high] = living_mass_kg(static_cast<double>(request.height_m));
+  const float age = half_years(request.age_y);
+  const bool adult = age >= static_cast<float>(adult_age_y);
+  if (std::string wrong = adult ? out_of_range("mass", request.mass_kg, " kg", 30.0F, 200.0F) : ""; !wrong.empty())
+    return wrong;
+  const auto [low, high] = living_mass_kg(static_cast<double>(request.height_m), age);
   const auto mass = static_cast<double>(request.mass_kg);
   // Limits are printed rounded inwards, so every value that a message names is accepted.
   if (mass >= low * (1 - 1e-6) && mass <= high * (1 + 1e-6)) return {};
-  return fmt::format(
-      "body: nobody of {} m weighs {} kg and lives; choose a mass of {:.1f}–{:.1f} kg, or another height",
-      request.height_m, request.mass_kg, std::ceil(10 * low) / 10, std::floor(10 * high) / 10);
+  return fmt::format("body: nobody of {}{} m weighs {} kg and lives; choose a mass of {:.1f}–{:.1f} kg, or another {}",
+                     adult ? "" : fmt::format("{} years and ", age), request.height_m, request.mass_kg,
+                     std::ceil(10 * low) / 10, std::floor(10 * high) / 10, adult ? "height" : "height or age");
 }
 
 /// A long bone whose length can be set. Everything fixed at its far end moves with it, including the kneecap.
@@ -93,15 +109,14 @@ void lengthen(const LongBone& bone, Body& body) {
 
 Result<void> check_body(const BodyRequest& request) {
   std::string wrong = out_of_range("age", request.age_y, " years", 6.0F, 95.0F);
-  if (wrong.empty()) wrong = out_of_range("height", request.height_m, " m", 1.2F, 2.2F);
-  if (wrong.empty()) wrong = out_of_range("mass", request.mass_kg, " kg", 30.0F, 200.0F);
+  if (wrong.empty() && request.sex > Sex::woman) wrong = "body: sex is neither man nor woman; choose one of them";
+  if (wrong.empty()) wrong = wrong_height(request);
+  if (wrong.empty()) wrong = not_active(request);
   if (wrong.empty()) wrong = out_of_range("endomorphy", request.biotype.endo, "", 0.1F, 12.0F);
   if (wrong.empty()) wrong = out_of_range("mesomorphy", request.biotype.meso, "", 0.1F, 12.0F);
   if (wrong.empty()) wrong = out_of_range("ectomorphy", request.biotype.ecto, "", 0.1F, 12.0F);
   if (wrong.empty() && request.constitution > Constitution::heavy)
     wrong = "body: constitution is none of thin, average, athletic, heavy; choose one of them";
-  if (wrong.empty() && request.sex > Sex::woman) wrong = "body: sex is neither man nor woman; choose one of them";
-  if (wrong.empty()) wrong = not_active(request);
   if (wrong.empty()) wrong = wrong_limb(request);
   if (!wrong.empty()) return fail(wrong);
   return {};

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "assets/body/fat_distribution.h"
+#include "assets/body/growth.h"
 #include "engine/exact_math.h"
 
 namespace mobil::inline v0_3 {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double min_mass_index = 12, max_lean_index = 36;
 constexpr double min_fat = 0.03, max_fat = 0.61;
-constexpr double min_lean_index = min_mass_index * (1 - min_fat);
 constexpr double max_mass_index = 92;
 static_assert(max_mass_index < max_lean_index / (1 - max_fat));
 
@@ -39,6 +39,17 @@ double folds_of_endomorphy(double endomorphy) {
 
 constexpr double density_at_1_mm = 1.1631, density_per_decade = 0.0632, fold_sum_per_three = 4.0 / 3;
 
+/// Returns a value that changes evenly from `at_6` at 6 years to `at_18`.
+double by_age(double age_y, double at_6, double at_18) {
+  constexpr double first_age_y = 6;
+  if (age_y >= adult_age_y) return at_18;
+  return at_6 + (at_18 - at_6) * (age_y - first_age_y) / (adult_age_y - first_age_y);
+}
+
+double min_mass_index_at(double age_y) {
+  return by_age(age_y, 10.5, min_mass_index);
+}
+
 /// Returns the volume of Handsfield's 35 muscles of one leg.
 double limb_volume_cm3(double height_m, double mass_kg) {
   return 47 * mass_kg * height_m + 1285;
@@ -52,9 +63,11 @@ double saturated(double x, double most) {
 
 }  // namespace
 
-MassRange living_mass_kg(double height_m) {
+MassRange living_mass_kg(double height_m, float age_y) {
   const double square = height_m * height_m;
-  return {std::max(30.0, min_mass_index * square), std::min(200.0, max_mass_index * square)};
+  const auto age = static_cast<double>(half_years(age_y));
+  const double low_kg = age < adult_age_y ? 12.0 : 30.0;
+  return {std::max(low_kg, min_mass_index_at(age) * square), std::min(200.0, by_age(age, 40, max_mass_index) * square)};
 }
 
 double height_weight_ratio(double height_m, double mass_kg) {
@@ -110,7 +123,8 @@ BodyComposition body_composition(const BodyRequest& request) {
   } else {
     lean = (1 - fat_share_of_mass_index(mass_index)) * mass * (1 + muscle_in_lean * (wanted - 1));
   }
-  const double fewest = std::max(min_lean_index * square, (1 - max_fat) * mass);
+  const auto age = static_cast<double>(half_years(request.age_y));
+  const double fewest = std::max(min_mass_index_at(age) * (1 - min_fat) * square, (1 - max_fat) * mass);
   const double most = std::max(fewest, std::min(max_lean_index * square, (1 - min_fat) * mass));
   if (lean > most && most == max_lean_index * square) note(BodyNote::fat_raised);
   if (lean < fewest && asked) note(BodyNote::fat_lowered);

@@ -2,7 +2,10 @@
 // Options of the body, shared by all subcommands about one person.
 
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <mobil/components/body.h>
 #include <mobil/engine/error.h>
@@ -15,7 +18,9 @@ inline constexpr std::array<std::string_view, 2> sex_name = {"man", "woman"};
 
 /// Options as text from the command line.
 struct BodyText {
-  std::string height = "1.75", mass = "75", biotype, constitution = "average", sex = "man";
+  std::optional<std::string> height, mass;  // unset: 1.75 m, 75 kg
+  std::string biotype, constitution = "average", sex = "man", age = "25";
+  bool typical = false;
 };
 
 std::vector<Option> body_options(BodyText& text);

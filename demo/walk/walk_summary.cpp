@@ -62,6 +62,8 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
                      {"mass_kg", decimal(body.mass_kg)},
                      {"biotype", {decimal(body.biotype.endo), decimal(body.biotype.meso), decimal(body.biotype.ecto)}},
                      {"constitution", constitution_name[static_cast<std::size_t>(body.constitution)]},
+                     {"sex", sex_name[static_cast<std::size_t>(body.sex)]},
+                     {"age_y", decimal(body.age_y)},
                      {"hip_height_m", decimal(person.body.hip_height_m)},
                      {"notes", body_notes(person.body)}};
   Json parameters = Json::object();

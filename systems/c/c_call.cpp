@@ -182,6 +182,7 @@ mobil_person usual() {
   person.ecto = as.biotype.ecto;
   person.constitution = static_cast<int>(as.constitution);
   person.sex = static_cast<int>(as.sex);
+  person.age_y = as.age_y;
   return person;
 }
 

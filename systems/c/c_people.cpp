@@ -48,8 +48,8 @@ void say_pace(const From& from, To& to) {
   if ((from.given & MOBIL_STEP_FREQUENCY) != 0) to.step_frequency_hz = from.step_frequency_hz;
 }
 
-// `sex` must not be in the padding of older structs.
-static_assert(sizeof(void*) != 8 || offsetof(mobil_person, sex) >= 88);
+// New fields must not be in the padding of older structs.
+static_assert(sizeof(void*) != 8 || (offsetof(mobil_person, sex) >= 88 && offsetof(mobil_person, age_y) >= 96));
 
 int request_of(mobil_sim& sim, const mobil_person& person, SpawnRequest& to) {
   Line& line = sim.line;
@@ -59,6 +59,7 @@ int request_of(mobil_sim& sim, const mobil_person& person, SpawnRequest& to) {
   if (const int code = one_of(line, person.constitution, Constitution::heavy, "constitution", to.body.constitution))
     return code;
   if (const int code = one_of(line, person.sex, Sex::woman, "sex", to.body.sex)) return code;
+  to.body.age_y = person.age_y == 0 ? usual_age_y : person.age_y;
   if (const int code = check_given(line, person.given)) return code;
   say_pace(person, to.gait);
   if (const int code = style_of(line, person.style, person.style_count, to.gait.style)) return code;
@@ -229,6 +230,7 @@ int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out) {
     to.ecto = body.biotype.ecto;
     to.constitution = static_cast<int>(body.constitution);
     to.sex = static_cast<int>(body.sex);
+    to.age_y = body.age_y;
     to.posed = is_posed(world.world(), person) ? 1 : 0;
     if (const auto gait = world.gait_request(person)) {
       to.given = MOBIL_SPEED | MOBIL_STEP_LENGTH | MOBIL_STEP_FREQUENCY;

@@ -82,7 +82,7 @@ export function typesOf(text, { structs, constants }) {
       for (const field of names) (fields[name] ??= {})[field] = comment;
     }
   }
-  const left_out = ['size', 'given', 'unused', 'style_count'];
+  const left_out = ['size', 'given', 'unused', 'unused_2', 'style_count'];
   const typeOf = ({ type, count }) => (type === 'text' ? 'string' : count ? 'ArrayLike<number>' : type === 'int' ? 'number | boolean' : 'number');
   const lines = Object.entries(structs).map(([name, of]) => {
     const rows = Object.entries(of.fields).filter(([field, { type }]) => !left_out.includes(field) && (sizes[type] || type === 'text') && type !== 'pointer')

@@ -42,6 +42,7 @@ std::vector<std::byte> commands_of(std::uint32_t tick, std::uint64_t people, boo
       const auto own = [&](std::uint64_t what) { return static_cast<float>(mix64(n ^ what << 32) % 1000) * 1e-3F; };
       BodyRequest body{.height_m = 1.70F + 0.1F * own(1), .mass_kg = 66 + 12 * own(2)};
       body.sex = n % 2 == 0 ? Sex::man : Sex::woman;
+      body.age_y = 20 + 60 * own(7);
       all.push_back(come(n, body, 1.1F + 0.5F * own(3), 60 * own(4) - 30, 60 * own(5) - 30, 6 * own(6) - 3));
     }
   }
@@ -361,6 +362,21 @@ TEST(PeopleShard, RefusesInvalidCommandsUnchanged) {
   const std::vector twice = {come(2, {}, 1, 0, 0, 0), come(2, {}, 1, 0, 0, 0)};
   ASSERT_TRUE(shard.apply(std::as_bytes(std::span(twice))));
   EXPECT_EQ(shard.people().size(), 1U) << "a number is one person's";
+}
+
+TEST(PeopleShard, KeepsAges) {
+  PeopleShard shard(0, {.shards = 1});
+  std::vector commands = {come(1, typical_body(Sex::woman, 8.5F), 1, 0, 0, 0), come(2, {}, 1, 3, 0, 0),
+                          come(3, {.age_y = 5}, 1, 6, 0, 0)};
+  commands[1].value[11] = 0;  // as recorded before ages
+  ASSERT_TRUE(shard.apply(std::as_bytes(std::span(commands))));
+  EXPECT_EQ(shard.refused(), 1U);
+  PeopleShard restored(0, {.shards = 1});
+  ASSERT_TRUE(restored.restore(*shard.save()));
+  for (const PeopleShard* one : {&shard, &restored}) {
+    EXPECT_EQ(one->simulation().person(one->find(1))->body.request.age_y, 8.5F);
+    EXPECT_EQ(one->simulation().person(one->find(2))->body.request.age_y, usual_age_y);
+  }
 }
 
 }  // namespace

@@ -125,11 +125,23 @@ TEST(BodyCommand, ImpossibleBodiesAreRefusedInOneLine) {
                   {"--height 120cm --mass 200 --out out", {"1.2 m", "30.0–132.4 kg"}},
                   {"--height 2.5 --out out", {"--height", "1.2 to 2.2 m"}},
                   {"--mass 20 --json", {"--mass", "30 to 200 kg"}},
+                  {"--age 6 --json", {"nobody of 6 years is 1.75 m tall", "0.92–1.38 m"}},
+                  {"--age 6 --height 1.8 --json", {"--height", "0.92 to 1.38 m"}},
+                  {"--age 5 --json", {"--age", "6 to 95"}},
+                  {"--typical --height 1.8 --json", {"--typical", "--height"}},
                   {"--biotype 3-5 --out out", {"--biotype", "endo-meso-ecto"}},
                   {"--constitution fat --out out", {"--constitution", "thin, average, athletic, heavy"}},
                   {"--speed 3 --out out", {"--speed"}},
                   {"--out ''", {"--out"}}},
                  folder.path);
+}
+
+TEST(BodyCommand, TypicalBodiesFollowFromSexAndAge) {
+  const Json girl = parameters("--age 10 --sex woman --typical");
+  EXPECT_EQ(girl["request"]["age_y"], 10);
+  EXPECT_EQ(girl["request"]["sex"], "woman");
+  EXPECT_NEAR(girl["request"]["height_m"].get<double>(), 1.38, 0.005);
+  EXPECT_EQ(parameters("--height 1.8")["request"]["age_y"], 25);
 }
 
 TEST(BodyCommand, ReportsAdjustments) {

@@ -276,6 +276,30 @@ TEST(Sleep, SnapshotsIncludeSleepers) {
   EXPECT_LT(bytes.size(), 64U * 400);
 }
 
+TEST(Sleep, KeepsSexAndAge) {
+  Simulation simulation(sharing());
+  std::vector<Entity> people;
+  for (const auto& [sex, age_y] : {std::pair{Sex::man, 8.5F}, {Sex::woman, 67.0F}, {Sex::man, 25.0F}})
+    people.push_back(*simulation.spawn(typical_body(sex, age_y)));
+  for (int i = 0; i < 60; ++i) simulation.tick();
+  std::vector<Person> awake;
+  for (const Entity one : people) awake.push_back(*simulation.person(one));
+  ASSERT_EQ(*simulation.set_state(people, PersonState::asleep), people.size());
+  std::vector<std::byte> bytes(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(bytes));
+  Simulation other(sharing());
+  ASSERT_TRUE(other.restore(bytes, RestoreLimits::none()));
+  ASSERT_TRUE(other.set_state(people, PersonState::full));
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    for (const Simulation* one : {&simulation, &other}) {  // asleep and woken
+      const auto person = one->person(people[i]);
+      EXPECT_EQ(person->body.request.age_y, awake[i].body.request.age_y);
+      EXPECT_EQ(person->body.request.sex, awake[i].body.request.sex);
+      EXPECT_EQ(person->body.mass_kg, awake[i].body.mass_kg);
+    }
+  }
+}
+
 TEST(Sleep, PeopleUnableToSleepStayAwake) {
   Simulation simulation(sharing());
   const Entity posed = *simulation.spawn_posed({});

@@ -11,7 +11,8 @@
 //   Essential fat, 3 %: Behnke & Wilmore, Evaluation and Regulation of Body Build and Composition, 1974.
 //   Maximum lean mass, 36 kg/m²: Kondo, Abe, Ikegawa, Kawakami & Fukunaga, Am. J. Hum. Biol. 6, 1994. Their wrestler
 //     with the largest lean mass had 35.1 (121.3 kg at 1.86 m), which they consider near the limit.
-//   Minimum mass, 12 kg/m²: James, Ferro-Luzzi & Waterlow 1988; Henry 1990 (men die at 13, women at 11).
+//   Minimum mass, 12 kg/m²: James, Ferro-Luzzi & Waterlow 1988; Henry 1990 (men die at 13, women at 11). Children: 10.5
+//     at 6 years, our choice.
 //   Skeletal muscle: Janssen, Heymsfield, Wang & Ross, J. Appl. Physiol. 89, 2000. It is 38.4 % of men's mass, half of
 //     the lean mass, with 52 % of it in the lower body. The limit of 65 % of the lean mass is our choice.
 //   Volume of leg muscles: Handsfield et al. 2014, as in mobil/muscle_table.h.
@@ -27,9 +28,17 @@ namespace mobil::inline v0_3 {
 struct MassRange {
   double low_kg, high_kg;
 };
-/// Returns the range of masses of a real body of that height: a body mass index of 12 to 92 kg/m² (maximum lean mass
-/// with maximum fat), within 30–200 kg.
-MassRange living_mass_kg(double height_m);
+/// Returns the range of masses of a real body of that height and age. Adults have a body mass index of 12 to 92 kg/m²
+/// (maximum lean mass with maximum fat), within 30–200 kg. Below 18 years the index is 10.5 to 40 at 6 years and rises
+/// evenly to the adult's, and the mass is at least 12 kg.
+MassRange living_mass_kg(double height_m, float age_y = usual_age_y);
+/// A range of statures, m.
+struct HeightRange {
+  double low_m, high_m;
+};
+/// Returns the range of statures of that sex and age: 1.2–2.2 m for adults, and 4.5 standard deviations of the CDC
+/// growth charts, in whole centimetres, below 18 years.
+HeightRange living_height_m(Sex sex, float age_y);
 
 /// Returns height over the cube root of mass, cm/kg^(1/3). `ectomorphy` rates it, with a minimum of 0.1.
 double height_weight_ratio(double height_m, double mass_kg);

@@ -55,7 +55,7 @@ Json biotype(const Biotype& b) {
 
 Json composition(const Body& body) {
   const BodyComposition& c = body.composition;
-  const auto [low, high] = living_mass_kg(static_cast<double>(body.request.height_m));
+  const auto [low, high] = living_mass_kg(static_cast<double>(body.request.height_m), body.request.age_y);
   return {
       {"source",
        "ectomorphy and endomorphy: Carter 2002; density of skinfolds: Durnin & Womersley 1974; fat of density: Siri "
@@ -239,7 +239,9 @@ std::string body_json(const Body& body) {
   json["request"] = {{"height_m", number(request.height_m)},
                      {"mass_kg", number(request.mass_kg)},
                      {"biotype", biotype(request.biotype)},
-                     {"constitution", constitution_name[static_cast<std::size_t>(request.constitution)]}};
+                     {"constitution", constitution_name[static_cast<std::size_t>(request.constitution)]},
+                     {"sex", sex_name[static_cast<std::size_t>(request.sex)]},
+                     {"age_y", number(request.age_y)}};
   json["notes"] = body_notes(body);
   json["composition"] = composition(body);
   json["standing"] = {{"source", "Drillis & Contini 1966; heel and ball: ours"},

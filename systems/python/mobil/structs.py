@@ -59,7 +59,7 @@ def _put(made: Any, field: str, value: Any, kind: Any) -> None:
 def _fields(of: Any) -> dict[str, Any]:
     """Returns the types of a struct's fields that can be set by name."""
     every = ffi.typeof(of).item.fields
-    hidden = {"size", "more_muscles", "unused"}
+    hidden = {"size", "more_muscles", "unused", "unused_2"}
     return {name: field.type for name, field in every if name not in hidden and field.type.kind != "pointer"}
 
 

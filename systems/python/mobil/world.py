@@ -108,6 +108,7 @@ class World(Owner, OldWorld):
         somatotype: npt.ArrayLike | None = None,
         constitution: str | int | Sequence[str | int] = "average",
         sex: str | int | Sequence[str | int] = "man",
+        age_y: npt.ArrayLike | None = None,
         speed_m_s: npt.ArrayLike | None = None,
         step_length_m: npt.ArrayLike | None = None,
         step_frequency_hz: npt.ArrayLike | None = None,
@@ -120,7 +121,7 @@ class World(Owner, OldWorld):
         """Spawns people, all or none, and returns their handles: `count`, or as many as the columns have. Empty columns
         spawn nobody.
 
-        somatotype: endo, meso, ecto. place: (…, 3) in the world's axes. style: by names.STYLE. muscles:
+        age_y: 6 to 95 years; adults of 25 by default. somatotype: endo, meso, ecto. place: (…, 3) in the world's axes. style: by names.STYLE. muscles:
         mobil.muscles(…). posed: True if set_poses sets their poses; walkers have a speed of 5 km/h by default.
         """
         asked = person_requests(
@@ -131,6 +132,7 @@ class World(Owner, OldWorld):
             posed,
             height_m=height_m,
             mass_kg=mass_kg,
+            age_y=age_y,
             somatotype=somatotype,
             speed_m_s=speed_m_s,
             step_length_m=step_length_m,

@@ -30,9 +30,10 @@ struct LimbLengths {
   F thigh_m, shank_m, upper_arm_m, forearm_m;
 };
 
-/// A request for a body. Ranges: age 6–95 years; height 1.2–2.2 m; mass 30–200 kg and within a real body's limits at
-/// that height (`living_mass_kg`); each part of the biotype 0.1–12; limbs 0.6–1.6 times the proportional length. Custom
-/// limbs are for posed people (mobil/retarget.h), because a walker's gait assumes proportional legs.
+/// A request for a body. Ranges: age 6–95 years; height 1.2–2.2 m, below 18 years that of the age (`living_height_m`);
+/// mass that of a real body of that height and age (`living_mass_kg`), for adults within 30–200 kg; each part of the
+/// biotype 0.1–12; limbs 0.6–1.6 times the proportional length. Custom limbs are for posed people (mobil/retarget.h),
+/// because a walker's gait assumes proportional legs. `typical_body` (mobil/anthropometry.h) makes requests from ages.
 struct BodyRequest {
   float height_m = 1.75F;
   float mass_kg = 75.0F;
@@ -63,7 +64,7 @@ struct BodyComposition {
   float height_over_cube_root_mass = 0;  // HWR, cm over kg^(1/3)
   float fat_kg = 0, lean_kg = 0;         // add up to the mass
   Biotype biotype{};                     // as used: endomorphy of that fat, ectomorphy of height and mass
-  float muscle_factor = 1;               // times the regression's muscle volumes, with constitution and mesomorphy
+  float muscle_factor = 1;               // times the regression's muscle volumes (`physique_factor`)
   std::uint8_t notes = 0;
 };
 constexpr bool has_note(const BodyComposition& composition, BodyNote note) {

@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 /* Version of this header. The library's version, mobil_interface(), must be equal or greater. */
-#define MOBIL_INTERFACE 6
+#define MOBIL_INTERFACE 7
 MOBIL_API int mobil_interface(void);               /* the library's MOBIL_INTERFACE */
 MOBIL_API const char* mobil_library_version(void); /* "0.3.0" */
 
@@ -170,7 +170,7 @@ enum { MOBIL_SPEED = 1, MOBIL_STEP_LENGTH = 2, MOBIL_STEP_FREQUENCY = 4, MOBIL_S
 /* A request for a person, in m, kg and rad; positions in the axes and the unit of mobil_options. */
 typedef struct mobil_person {
   size_t size;
-  float height_m, mass_kg; /* 1.2 to 2.2; 30 to 200, within the range of real bodies of that height */
+  float height_m, mass_kg; /* 1.2 to 2.2; 30 to 200, in the range of real bodies of that height; children: less */
   float endo, meso, ecto;  /* somatotype, 0.1 to 12; 3 4 3: derived from height and mass */
   int constitution;
   int given;                                         /* bits MOBIL_SPEED and so on; 0: 5 km/h */
@@ -179,7 +179,8 @@ typedef struct mobil_person {
   size_t style_count;                                /* further values of mobil_style have their defaults */
   float place[3], heading_rad;                       /* on the ground; the height is ignored */
   int posed, unused; /* posed 1: the host animates the skeleton by mobil_set_poses; starts at the origin */
-  int sex;           /* selects the girths of the skin; since interface 2 */
+  int sex, unused_2; /* selects the girths of the skin; since interface 2 */
+  float age_y;       /* 6 to 95 years, kept to half years; 0: 25; since interface 7 */
 } mobil_person;
 
 /* A change of walk. Values that are not `given` stay. */

@@ -1,12 +1,19 @@
 #pragma once
 // Sizes by age and sex: growth charts of children and means of adults.
 
+#include <algorithm>
+
 #include <mobil/components/body.h>
 
 namespace mobil::inline v0_3 {
 
-/// Age at which bodies are adults, years.
-inline constexpr double adult_age_y = 18;
+/// Ages at which charts and formulas of children end, and at which bodies are adults, years.
+inline constexpr double last_child_age_y = 14, adult_age_y = 18;
+
+/// Returns the weight of children's formulas in a mix with adults' ones: 1 up to 14 years, 0 from 18 on.
+constexpr double child_part(double age_y) {
+  return std::clamp((adult_age_y - age_y) / (adult_age_y - last_child_age_y), 0.0, 1.0);
+}
 
 /// Distribution of a measure: Box–Cox power, median, coefficient of variation (Cole's LMS method).
 struct Lms {

@@ -8,6 +8,7 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include "assets/body/growth.h"
 #include "engine/exact_math.h"
 
 namespace mobil::inline v0_3 {
@@ -50,11 +51,15 @@ double member_volume_m3(const Body& body, const MemberMuscle& member) {
   const double regressed = handsfield_volume_cm3(member, static_cast<double>(body.request.height_m),
                                                  static_cast<double>(body.request.mass_kg));
   const double limb_part = static_cast<double>(body.composition.muscle_factor) * (regressed - member.offset_cm3);
-  // The regression is one of adults: in small bodies psoas would have no volume.
-  constexpr double least_share = 0.5;  // of the reference body's share in the limb
   const double reference = handsfield_volume_cm3(member, reference_body_height_m, reference_body_mass_kg);
-  const double least = least_share * limb_part * reference / (reference - member.offset_cm3);
-  return 1e-6 * std::max(limb_part + member.offset_cm3, least);
+  const double usual_part = reference - member.offset_cm3;
+  // The regression is one of adults. Children have the reference body's shares of the limb, and in small adults psoas
+  // would have no volume.
+  const double young = child_part(static_cast<double>(body.request.age_y));
+  const double offset = member.offset_cm3 * (1 + young * (limb_part / usual_part - 1));
+  constexpr double least_share = 0.5;  // of the reference body's share in the limb
+  const double least = least_share * limb_part * reference / usual_part;
+  return 1e-6 * std::max(limb_part + offset, least);
 }
 
 MemberPlan plan_member(const Body& body, const MemberMuscle& member, double rest_length_m) {

@@ -205,21 +205,18 @@ void even_out(const SkinMesh& mesh, SkinPart part, const BodyForm& form, std::ve
   }
 }
 
-/// Returns kg/m³ from the share of fat (Siri 1961), a woman's of 25 years from body mass index (Gallagher et al. 2000).
+/// Returns kg/m³ from the share of fat (Siri 1961).
 double density(const Body& body) {
-  const auto index = static_cast<double>(body.composition.body_mass_index);
-  const double fat = body.request.sex == Sex::woman
-                         ? std::clamp(0.01 * (64.5 - 848 / index + 0.079 * 25), 0.08, 0.70)
-                         : static_cast<double>(body.composition.fat_kg / body.request.mass_kg);
-  return 1e3 * 4.95 / (fat + 4.50);
+  return 1e3 * 4.95 / (static_cast<double>(body.composition.fat_kg / body.request.mass_kg) + 4.50);
 }
 
-/// Returns the air in the lungs at rest, m³ (functional residual capacity at 25 years; Quanjer et al. 1993). Above the
-/// usual index it falls by 2.9 % for each kg/m² up to 30 (Jones & Nzekwu 2006: three quarters of that at 20).
+/// Returns the air in the lungs at rest, m³ (functional residual capacity, 18 to 70 years; Quanjer et al. 1993). Above
+/// the usual index it falls by 2.9 % for each kg/m² up to 30 (Jones & Nzekwu 2006: three quarters of that at 20).
 double lung_volume(const Body& body) {
-  constexpr double age = 25, usual_index = 24, last_index = 30, by_index = 0.0288;
+  constexpr double usual_index = 24, last_index = 30, by_index = 0.0288;
   const auto height = static_cast<double>(body.request.height_m),
-             index = static_cast<double>(body.composition.body_mass_index);
+             index = static_cast<double>(body.composition.body_mass_index),
+             age = static_cast<double>(std::clamp(body.request.age_y, 18.0F, 70.0F));
   const double litres = body.request.sex == Sex::woman ? 2.24 * height + 0.001 * age - 1.00  //
                                                        : 2.34 * height + 0.01 * age - 1.09;
   return 1e-3 * litres * std::exp(-by_index * (std::clamp(index, usual_index, last_index) - usual_index));

@@ -53,7 +53,7 @@ BodyRequest body_request(const World& world, Entity person) {
 }
 
 BodySize<float> body_size(const BodyRequest& request) {
-  return make_size(request, static_cast<float>(extra_fat_of(body_composition(request))));
+  return make_size(request, static_cast<float>(extra_fat_of(body_composition(request), request.sex)));
 }
 
 BodySize<float> body_size(const World& world, Entity person) {

@@ -79,8 +79,9 @@ Result<void> check_sleepers(const SavedWorld& saved, std::uint32_t table) {
   for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
     Asleep<float> asleep;
     read(row, first, asleep);
-    bool sound = is_sound(asleep.walk) && check_body(body_of(asleep)).has_value() &&
-                 asleep.extra_fat == body_size(body_of(asleep)).extra_fat;
+    // Files from before fat depended on sex keep their values.
+    bool sound = is_sound(asleep.walk) && check_body(body_of(asleep)).has_value() && asleep.extra_fat >= -0.3F &&
+                 asleep.extra_fat <= 0.6F;
     if (since != Table::no_column) {
       Unsettled<float> unsettled;
       read(row, since, unsettled);

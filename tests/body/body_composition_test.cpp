@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <mobil/anthropometry.h>
@@ -21,6 +22,28 @@ BodyRequest any_request() {
   r.biotype = *rc::gen::arbitrary<bool>() ? Biotype{part(), part(), part()} : Biotype{3, part(), 3};
   r.constitution = static_cast<Constitution>(*rc::gen::inRange(0, 4));
   return r;
+}
+BodyRequest of_any_age() {
+  const auto z = [] { return static_cast<float>(*rc::gen::inRange(-20, 21)) / 10; };
+  const Sex sex = *rc::gen::arbitrary<bool>() ? Sex::man : Sex::woman;
+  return typical_body(sex, static_cast<float>(*rc::gen::inRange(12, 191)) / 2, z(), z());
+}
+
+/// Returns Gallagher's and Deurenberg's share of fat in a person of average build, percent.
+double published_fat(const BodyRequest& r) {
+  const auto height = static_cast<double>(r.height_m), age = static_cast<double>(r.age_y);
+  const double b = static_cast<double>(r.mass_kg) / (height * height), man = r.sex == Sex::man ? 1 : 0;
+  const auto adult = [&](double y) { return 64.5 - 848 / b + 0.079 * y - 16.4 * man + 0.05 * man * y + 39 * man / b; };
+  const double child = 1.51 * b - 0.7 * age - 3.6 * man + 1.4;
+  if (age >= 18) return adult(age);
+  return age <= 14 ? child : child + (age - 14) / 4 * (adult(18) - child);
+}
+
+/// Returns the muscle of both legs, kg.
+double leg_muscle_kg(const Body& body) {
+  double m3 = 0;
+  for (const MemberMuscle& line : member_muscles()) m3 += member_volume_m3(body, line);
+  return 2 * 1060 * m3;
 }
 
 double fat_share(const BodyComposition& c) {
@@ -42,6 +65,80 @@ TEST(BodyComposition, FatOfBodyMassIndexIsGallaghers) {
   // Gallagher's table for white men of 20 to 39 years.
   for (const auto& [index, percent] : {std::pair{18.5, 8.0}, {25.0, 20.0}, {30.0, 25.0}}) {
     EXPECT_NEAR(100 * fat_share_of_mass_index(index), percent, 1.5) << index;
+  }
+}
+
+RC_GTEST_PROP(BodyComposition, FatIsThatOfSexAndAge, ()) {
+  const BodyRequest r = of_any_age();
+  const double published = published_fat(r), least = r.sex == Sex::woman ? 8 : 3;
+  if (published < least || published > 61) return;
+  RC_ASSERT(std::abs(100 * fat_share(make_body(r)->composition) - published) < 0.1);
+}
+
+TEST(BodyComposition, FatOfSkinfoldsOfWomenIsDurninAndWomersleys) {
+  // Their table for women of 16 to 29: sum of four folds, mm, and fat in percent.
+  for (const auto& [folds, percent] : {std::pair{20.0, 14.1}, {30.0, 19.5}, {40.0, 23.4}, {50.0, 26.5}, {70.0, 31.2}}) {
+    const double three = 0.75 * folds;
+    const double endomorphy = -0.7182 + 0.1451 * three - 0.00068 * std::pow(three, 2) + 0.0000014 * std::pow(three, 3);
+    EXPECT_NEAR(100 * fat_share_of_endomorphy(endomorphy, Sex::woman), percent, 0.8) << folds << " mm";
+    EXPECT_NEAR(endomorphy_of_fat_share(fat_share_of_endomorphy(endomorphy, Sex::woman), Sex::woman), endomorphy, 1e-6);
+  }
+}
+
+// The right columns of the design's table: fat by formula, leg muscle after Lee, Janssen and Maden-Wilkinson.
+TEST(BodyComposition, FatAndLegMuscleOfPeopleAreThePublishedOnes) {
+  struct Person {
+    BodyRequest body;
+    double fat_percent, leg_muscle_kg;
+  };
+  const Person people[] = {{{.height_m = 1.63F, .mass_kg = 67.8F, .sex = Sex::woman}, 33.3, 12.4},
+                           {{.height_m = 1.60F, .mass_kg = 68, .sex = Sex::woman, .age_y = 72}, 38.3, 9.7},
+                           {{.height_m = 1.756F, .mass_kg = 85.5F}, 22.1, 17.7},
+                           {{.height_m = 1.73F, .mass_kg = 82, .age_y = 72}, 27.9, 12.5},
+                           {{.height_m = 1.154F, .mass_kg = 20.7F, .age_y = 6}, 17.1, 2.88},
+                           {{.height_m = 1.38F, .mass_kg = 32.9F, .sex = Sex::woman, .age_y = 10}, 20.5, 5.2}};
+  for (const Person& person : people) {
+    const Body body = make_body(person.body).value();
+    EXPECT_NEAR(100 * fat_share(body.composition), person.fat_percent, 0.1) << person.body.age_y;
+    EXPECT_NEAR(leg_muscle_kg(body) / person.leg_muscle_kg, 1, 0.02) << person.body.age_y;
+    EXPECT_EQ(body.composition.notes, 0);
+  }
+}
+
+RC_GTEST_PROP(BodyComposition, LegsOfWomenAndEldersHaveLessMuscle, ()) {
+  BodyRequest man{.height_m = static_cast<float>(*rc::gen::inRange(1500, 1901)) / 1000};
+  man.mass_kg = static_cast<float>(*rc::gen::inRange(190, 300)) / 10 * man.height_m * man.height_m;
+  BodyRequest woman = man, old_man = man, old_woman = man;
+  woman.sex = old_woman.sex = Sex::woman;
+  old_man.age_y = old_woman.age_y = 72;
+  const auto ratio = [](const BodyRequest& a, const BodyRequest& b) {
+    return static_cast<double>(make_body(a)->composition.muscle_factor / make_body(b)->composition.muscle_factor);
+  };
+  RC_ASSERT(ratio(woman, man) > 0.90 && ratio(woman, man) < 0.92);
+  RC_ASSERT(ratio(old_man, man) > 0.72 && ratio(old_man, man) < 0.79);
+  RC_ASSERT(ratio(old_woman, woman) > 0.72 && ratio(old_woman, woman) < 0.79);
+}
+
+RC_GTEST_PROP(BodyComposition, PeopleOfAllAgesStayWithinLivingRanges, ()) {
+  BodyRequest r = of_any_age();
+  const auto [low, high] = living_mass_kg(static_cast<double>(r.height_m), r.age_y);
+  r.mass_kg = static_cast<float>(low + (high - low) * *rc::gen::inRange(0, 10001) * 1e-4);
+  const Body body = make_body(r).value();
+  const BodyComposition& c = body.composition;
+  const double height = static_cast<double>(r.height_m), lean = static_cast<double>(c.lean_kg) / (height * height);
+  RC_ASSERT(fat_share(c) > 0.0299 && fat_share(c) < 0.6101);
+  RC_ASSERT(lean < 36.001 && lean > (r.age_y < 18 ? 10.1 : 11.6));
+  RC_ASSERT(leg_muscle_kg(body) > 0);
+  RC_ASSERT(leg_muscle_kg(body) < 0.65 * 0.55 * static_cast<double>(c.lean_kg) * 1.02);
+}
+
+TEST(BodyComposition, GrowsWithoutJumps) {
+  for (const Sex sex : {Sex::man, Sex::woman}) {
+    for (float age_y = 6; age_y < 95; age_y += 0.5F) {
+      const Body now = *make_body(typical_body(sex, age_y)), then = *make_body(typical_body(sex, age_y + 0.5F));
+      EXPECT_NEAR(fat_share(then.composition), fat_share(now.composition), 0.013) << age_y;
+      EXPECT_NEAR(leg_muscle_kg(then) / leg_muscle_kg(now), 1, 0.12) << age_y;
+    }
   }
 }
 
@@ -143,7 +240,7 @@ TEST(BodyComposition, LightestBodiesHaveMinimumFat) {
 TEST(FatDistribution, MassesOfSegmentsFollowTheFatAndAddUp) {
   EXPECT_NEAR(fat_share_of_mass_index(24.5), usual_fat_share, 1e-3);
   for (double share = 0.03; share < 0.66; share += 0.01) {
-    const double extra = extra_fat(share);
+    const double extra = extra_fat(share, Sex::man);
     double sum = 0;
     for (std::size_t s = 0; s < segment_count; ++s) {
       EXPECT_GT(mass_fraction(s, extra), 0) << segment_name[s];
@@ -151,6 +248,8 @@ TEST(FatDistribution, MassesOfSegmentsFollowTheFatAndAddUp) {
     }
     EXPECT_NEAR(sum, 1, 1e-12);
   }
+  for (const auto& part : {man_fat_part, woman_fat_part})
+    EXPECT_NEAR(std::accumulate(part.begin(), part.end(), 0.0), 1, 1e-12);
   const auto trunk = [](const Body& body) {
     double sum = 0;
     for (std::size_t s = index(Segment::pelvis); s < index(Segment::C7); ++s)

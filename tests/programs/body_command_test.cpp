@@ -141,6 +141,7 @@ TEST(BodyCommand, TypicalBodiesFollowFromSexAndAge) {
   EXPECT_EQ(girl["request"]["age_y"], 10);
   EXPECT_EQ(girl["request"]["sex"], "woman");
   EXPECT_NEAR(girl["request"]["height_m"].get<double>(), 1.38, 0.005);
+  EXPECT_NEAR(girl["composition"]["fat_share"].get<double>(), 0.20, 0.01);
   EXPECT_EQ(parameters("--height 1.8")["request"]["age_y"], 25);
 }
 

@@ -46,10 +46,17 @@ BodyRequest sample_person(float height_m, float mass_kg, Sex sex = Sex::man) {
   return body;
 }
 
-/// Two men and two women of usual build, a thin and a heavy person.
-const std::array<BodyRequest, 6> people = {
-    sample_person(1.75F, 75), sample_person(1.90F, 84),  sample_person(1.65F, 62, Sex::woman),
-    sample_person(1.75F, 58), sample_person(1.75F, 105), sample_person(1.60F, 85, Sex::woman)};
+BodyRequest elder(float height_m, float mass_kg, Sex sex) {
+  BodyRequest body = sample_person(height_m, mass_kg, sex);
+  body.age_y = 72;
+  return body;
+}
+
+/// Two men and two women of usual build, a thin and a heavy person, an old man and an old woman.
+const std::array<BodyRequest, 8> people = {
+    sample_person(1.75F, 75),   sample_person(1.90F, 84),    sample_person(1.65F, 62, Sex::woman),
+    sample_person(1.75F, 58),   sample_person(1.75F, 105),   sample_person(1.60F, 85, Sex::woman),
+    elder(1.73F, 82, Sex::man), elder(1.60F, 68, Sex::woman)};
 
 /// Returns the undressed skin of one of `people` in the finest detail; made once.
 const BodySkin& finest_skin(std::size_t person) {
@@ -99,7 +106,8 @@ TEST(Skin, IsClosedAndBoundEverywhere) {
 TEST(SurfaceMesh, FinsAreDropped) {
   // A tetrahedron, and a triangle twice in the same sense. Fins: one at the tetrahedron, and two on the same vertices.
   const std::vector<std::uint32_t> kept = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 4, 5, 6, 4, 5, 6};
-  const std::vector<std::array<std::uint32_t, 3>> fins = {{7, 1, 2}, {2, 1, 7}, {3, 7, 8}, {3, 8, 7}, {8, 3, 7}, {8, 7, 3}};
+  const std::vector<std::array<std::uint32_t, 3>> fins = {{7, 1, 2}, {2, 1, 7}, {3, 7, 8},
+                                                          {3, 8, 7}, {8, 3, 7}, {8, 7, 3}};
   for (std::size_t place = 0; place <= kept.size(); place += 3) {
     std::vector<std::uint32_t> mesh = kept;
     for (const auto& fin : fins) mesh.insert(mesh.begin() + static_cast<std::ptrdiff_t>(place), fin.begin(), fin.end());
@@ -117,11 +125,11 @@ TEST(Skin, HasThePersonsMass) {
     // Without the air in the lungs (Quanjer 1993; less in the heavy), fat has 0.90 kg and all else 1.10 kg a litre
     // (Siri).
     const auto height_m = static_cast<double>(request.height_m), mass_kg = static_cast<double>(request.mass_kg),
-               index = mass_kg / (height_m * height_m);
-    const double fat_kg =
-        request.sex == Sex::woman ? mass_kg * (0.66475 - 8.48 / index) : static_cast<double>(body.composition.fat_kg);
-    const double air = (request.sex == Sex::woman ? 2.24 * height_m - 0.975 : 2.34 * height_m - 0.84) *
-                       std::pow(0.9716, std::clamp(index, 24.0, 30.0) - 24);
+               index = mass_kg / (height_m * height_m), fat_kg = static_cast<double>(body.composition.fat_kg),
+               age_y = std::min(70.0, static_cast<double>(request.age_y));
+    const double air =
+        (request.sex == Sex::woman ? 2.24 * height_m + 0.001 * age_y - 1 : 2.34 * height_m + 0.01 * age_y - 1.09) *
+        std::pow(0.9716, std::clamp(index, 24.0, 30.0) - 24);
     const double wanted = fat_kg / 0.90 + (mass_kg - fat_kg) / 1.10 + air;
     std::printf("[ skin ] %.2f m, %.0f kg: %.1f l, %+.1f %%\n", height_m, mass_kg, litres, 100 * (litres / wanted - 1));
     EXPECT_NEAR(litres / wanted, 1, 0.02);

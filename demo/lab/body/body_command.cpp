@@ -59,9 +59,10 @@ Json composition(const Body& body) {
   return {
       {"source",
        "ectomorphy and endomorphy: Carter 2002; density of skinfolds: Durnin & Womersley 1974; fat of density: Siri "
-       "1961; fat of body mass index, where no biotype was asked for: Gallagher et al. 2000; most lean mass: Kondo "
-       "et al. 1994; least mass: James et al. 1988; muscle in lean mass: Janssen et al. 2000; what constitution and "
-       "mesomorphy do to muscle, and its most in lean mass (65 %): ours"},
+       "1961; fat of body mass index, where no biotype was asked for: Gallagher et al. 2000, up to 14 years Deurenberg "
+       "et al. 1991; most lean mass: Kondo et al. 1994; least mass: James et al. 1988; muscle in lean mass: Janssen et "
+       "al. 2000; leg muscle by sex and age: Maden-Wilkinson et al. 2014; effect of constitution and mesomorphy on "
+       "muscle, its maximum in lean mass (65 %), and children's muscle: ours"},
       {"body_mass_index_kg_m2", number(c.body_mass_index)},
       {"height_over_cube_root_mass_cm_kg13", number(c.height_over_cube_root_mass)},
       {"fat_mass_kg", number(c.fat_kg)},
@@ -400,7 +401,8 @@ Subcommand body_command() {
   auto text = std::make_shared<BodyCommand>();
   Subcommand command{.name = "body"};
   command.footer =
-      "Height gives the lengths, mass the masses; both give the leg's muscles. Constitution and mesomorphy make\n"
+      "Height gives the lengths, mass the masses; both give the leg's muscles. Sex and age change fat and muscle;\n"
+      "--typical sets height and mass from them. Constitution and mesomorphy make\n"
       "muscles larger or smaller, endomorphy is fat, ectomorphy slenderness, which height and mass decide between\n"
       "themselves: where a request contradicts itself, what gave way is said in a note. What no active body weighs at\n"
       "that height is refused.\n"
@@ -409,6 +411,7 @@ Subcommand body_command() {
       "body from the front and from its right in the anatomical position.\n"
       "\n"
       "Examples: mobil body --height 1.80 --mass 80 --out out\n"
+      "          mobil body --age 8 --sex woman --typical --json | less\n"
       "          mobil body --height 165cm --mass 58 --biotype 2-3-4 --constitution thin --json | less";
   add_options(command, body_options(text->body));
   add_options(command, {{"--json", &text->json, "Print the JSON, and write and draw nothing"},

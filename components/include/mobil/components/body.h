@@ -11,8 +11,7 @@ namespace mobil::inline v0_3 {
 
 /// Requested build; `physique_factor` (mobil/body_composition.h) returns its effect on muscle volume.
 enum class Constitution : std::uint8_t { thin, average, athletic, heavy };
-/// Sex whose girths the skin has (assets/surfaces). Skeleton, masses and muscles are so far a man's of that height and
-/// mass.
+/// Sex of a body: girths of the skin, fat and muscle. Skeleton and masses are so far a man's of that height and mass.
 enum class Sex : std::uint8_t { man, woman };
 
 /// Age of a request without one, years. `build_word` stores it as 0, as in files from before ages.

@@ -179,7 +179,7 @@ typedef struct mobil_person {
   size_t style_count;                                /* further values of mobil_style have their defaults */
   float place[3], heading_rad;                       /* on the ground; the height is ignored */
   int posed, unused; /* posed 1: the host animates the skeleton by mobil_set_poses; starts at the origin */
-  int sex, unused_2; /* selects the girths of the skin; since interface 2 */
+  int sex, unused_2; /* changes skin, fat and muscle; since interface 2 */
   float age_y;       /* 6 to 95 years, kept to half years; 0: 25; since interface 7 */
 } mobil_person;
 

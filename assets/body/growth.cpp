@@ -79,12 +79,12 @@ constexpr GrowthTable girls = {{
 }};
 
 /// Adults at 30 years: mean and deviation of stature, m; median of the body mass index, kg/m², and deviation of its
-/// logarithm; stature lost at 70 years, m.
+/// logarithm.
 struct Adults {
-  double height_m, height_deviation_m, mass_index, mass_index_deviation, lost_m;
+  double height_m, height_deviation_m, mass_index, mass_index_deviation;
 };
-/// Statures and mass indices: ANSUR II and the US population, rounded; stature lost: Sorkin et al. 1999.
-constexpr Adults grown_men = {1.757, 0.069, 24.6, 0.145, 0.03}, grown_women = {1.629, 0.064, 23.6, 0.160, 0.05};
+/// Statures and mass indices: ANSUR II and the US population, rounded.
+constexpr Adults grown_men = {1.757, 0.069, 24.6, 0.145}, grown_women = {1.629, 0.064, 23.6, 0.160};
 
 }  // namespace
 
@@ -98,12 +98,17 @@ const GrowthRow& growth(Sex sex, float age_y) {
   return (sex == Sex::woman ? girls : boys)[static_cast<std::size_t>(2 * (half_years(age) - first_age_y))];
 }
 
+double lost_height_m(Sex sex, float age_y) {
+  const double at_70_m = sex == Sex::woman ? 0.05 : 0.03, older = std::fmax(0, static_cast<double>(age_y) - 30) / 40;
+  return at_70_m * older * older;
+}
+
 BodyRequest typical_body(Sex sex, float age_y, float height_z, float mass_index_z) {
   const auto age = static_cast<double>(age_y), of_height = static_cast<double>(height_z),
              of_index = static_cast<double>(mass_index_z);
   const Adults& adults = sex == Sex::woman ? grown_women : grown_men;
-  const double older = std::fmax(0, age - 30) / 40, gained = 0.0035 * (std::fmin(age, 65) - 30);
-  double height = adults.height_m + adults.height_deviation_m * of_height - adults.lost_m * older * older;
+  const double gained = 0.0035 * (std::fmin(age, 65) - 30);
+  double height = adults.height_m + adults.height_deviation_m * of_height - lost_height_m(sex, age_y);
   double mass_index = adults.mass_index * (1 + gained) * exact::exp(adults.mass_index_deviation * of_index);
   if (age < static_cast<double>(last_age_y)) {  // from 18 years on, charts and adults are mixed
     const double grown = std::fmax(0, (age - adult_age_y) / (static_cast<double>(last_age_y) - adult_age_y));

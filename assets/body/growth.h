@@ -30,4 +30,7 @@ struct GrowthRow {
 /// (Kuczmarski et al., Vital and Health Statistics 11(246), 2002; public domain).
 const GrowthRow& growth(Sex sex, float age_y);
 
+/// Returns the stature lost since 30 years, m (Sorkin, Muller & Andres, Am. J. Epidemiol. 150, 1999).
+double lost_height_m(Sex sex, float age_y);
+
 }  // namespace mobil::inline v0_3

@@ -124,7 +124,7 @@ BodyRequest typical_body(Sex sex, float age_y, float height_z, float mass_index_
   return request;
 }
 
-HeightRange living_height_m(Sex sex, float age_y) {
+StatureRange living_height_m(Sex sex, float age_y) {
   if (static_cast<double>(half_years(age_y)) >= adult_age_y) return {1.2, 2.2};
   constexpr double most_deviations = 4.5;
   const Lms& height = growth(sex, age_y).height_m;

@@ -35,7 +35,7 @@ Result<BodyRequest> read_body_options(const BodyText& text) {
   request.sex = read(choose<Sex>("--sex", text.sex, sex_name));
   request.age_y = static_cast<float>(read(read_value("--age", text.age, Quantity::ratio, 6, 95)));
   if (text.typical) {
-    if (text.height || text.mass) read.refuse("--typical sets height and mass; leave out --height and --mass, or it");
+    if (text.height || text.mass) read.refuse("--typical sets height and mass; give it without --height and --mass");
     request = typical_body(request.sex, request.age_y);
   }
   if (text.height) {

@@ -23,7 +23,6 @@ TEST(CAge, IsKeptToHalfYears) {
     ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &id), MOBIL_OK) << sim.message();
     ASSERT_EQ(mobil_get_person(sim, id, &back), MOBIL_OK);
     EXPECT_EQ(back.age_y, kept);
-    ASSERT_EQ(mobil_spawn(sim, &back, 0, 1, nullptr, &id), MOBIL_OK) << sim.message();
   }
   for (const float age_y : {0.0F, 30.0F, std::nanf(""), std::numeric_limits<float>::infinity(), -1.0F}) {
     person.age_y = age_y;  // of an adult, or no age

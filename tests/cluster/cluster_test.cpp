@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <mobil/anthropometry.h>
 #include <mobil/people_shard.h>
 #include "engine/row_hash.h"
 #include "tests/cluster/local_run.h"

@@ -41,12 +41,12 @@ struct MassRange {
 /// evenly to the adult's, and the mass is at least 12 kg.
 MassRange living_mass_kg(double height_m, float age_y = usual_age_y);
 /// A range of statures, m.
-struct HeightRange {
+struct StatureRange {
   double low_m, high_m;
 };
 /// Returns the range of statures of that sex and age: 1.2–2.2 m for adults, and 4.5 standard deviations of the CDC
 /// growth charts, in whole centimetres, below 18 years.
-HeightRange living_height_m(Sex sex, float age_y);
+StatureRange living_height_m(Sex sex, float age_y);
 
 /// Returns height over the cube root of mass, cm/kg^(1/3). `ectomorphy` rates it, with a minimum of 0.1.
 double height_weight_ratio(double height_m, double mass_kg);

@@ -402,10 +402,10 @@ Subcommand body_command() {
   Subcommand command{.name = "body"};
   command.footer =
       "Height gives the lengths, mass the masses; both give the leg's muscles. Sex and age change fat and muscle;\n"
-      "--typical sets height and mass from them. Constitution and mesomorphy make\n"
-      "muscles larger or smaller, endomorphy is fat, ectomorphy slenderness, which height and mass decide between\n"
-      "themselves: where a request contradicts itself, what gave way is said in a note. What no active body weighs at\n"
-      "that height is refused.\n"
+      "--typical sets height and mass from them. Constitution and mesomorphy make muscles larger or smaller,\n"
+      "endomorphy is fat, ectomorphy slenderness, which height and mass decide between themselves: where a request\n"
+      "contradicts itself, what gave way is said in a note. What no active body weighs at that height and age is\n"
+      "refused.\n"
       "body.json holds 48 segments (joint, length, mass, centre, inertia), the joints' limits and the leg's muscles\n"
       "(attachments, belly, fibres, pennation, tendon, section, volume), each with its source; body.png shows the\n"
       "body from the front and from its right in the anatomical position.\n"

@@ -16,7 +16,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr std::uint64_t magic = 0x31736b6c69626f6d;  // "mobilks1", little-endian
+constexpr std::uint64_t magic = 0x32736b6c69626f6d;  // "mobilks2", little-endian
 constexpr std::array sexes = {Sex::man, Sex::woman};
 
 /// The finest meshes are most of the bytes and seldom needed.

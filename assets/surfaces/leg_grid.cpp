@@ -55,7 +55,7 @@ LegGrid leg_grid(const form::BodyForm& form, const BodyComposition& composition)
 
 LegPlace leg_place(const form::LegForm& leg, const Vec& rest, double share) {
   const double s = leg.s(rest.y);
-  const double amount = share * smoothstep(first_leg_s, first_leg_s + 0.07, s) * (1 - smoothstep(1.95, 2.02, s));
+  const double amount = share * smoothstep(first_leg_s, first_leg_s + 0.07, s) * (1 - smoothstep(1.99, 2.045, s));
   if (amount <= 0) return {};
   double round = std::atan2(rest.x - leg.hip().x, rest.z - leg.hip().z) / tau;
   if (round < 0) round += 1;

@@ -15,9 +15,10 @@ class BodyForm;
 class LegForm;
 }  // namespace form
 
-/// Stations along the leg, from the waist to just above the ankle (s is 0 at the hip, 1 at the knee, 2 at the ankle). Angles run round it from the front (0) over the inner side. Points are stored station by station.
-inline constexpr std::size_t leg_stations = 28, leg_angles = 32, leg_grid_points = leg_stations * leg_angles;
-inline constexpr double first_leg_s = -0.44, last_leg_s = 1.97;
+/// Stations along the leg, from the waist to just below the ankle (s is 0 at the hip, 1 at the knee, 2 at the ankle).
+/// Angles run round it from the front (0) over the inner side. Points are stored station by station.
+inline constexpr std::size_t leg_stations = 29, leg_angles = 32, leg_grid_points = leg_stations * leg_angles;
+inline constexpr double first_leg_s = -0.44, last_leg_s = 2.03;
 
 /// Values by angle and station, m.
 struct LegGrid {

@@ -91,7 +91,8 @@ constexpr bool descends(const Sections& sections) {
 constexpr bool has_shape(const MemberMuscle& m) {
   if (m.sections.empty()) return m.drawn_above.empty() && m.drawn_below.empty() && m.not_drawn == 0;
   return m.sections.size() > 1 && m.not_drawn + 1 < m.sections.size() && descends(m.sections) &&
-         descends(m.drawn_above) && descends(m.drawn_below);
+         descends(m.drawn_above) && descends(m.drawn_below) && descends(m.sheet) &&
+         m.sheet.empty() == m.sheet_name.empty();
 }
 
 constexpr bool has_architecture(const MemberMuscle& m) {

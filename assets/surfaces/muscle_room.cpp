@@ -59,6 +59,33 @@ void cut_rays(const Vec& middle, std::span<Vec3<float>> ring, double step_m, con
   }
 }
 
+/// Returns a horizontal outline between two rings; empty above the first and below the last.
+std::vector<Vec3<float>> outline_at(std::span<const std::vector<Vec3<float>>> rings, float y) {
+  for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
+    const float above = rings[r].front().y, below = rings[r + 1].front().y;
+    if (y > above || y < below || above == below) continue;
+    const float w = (above - y) / (above - below);
+    std::vector<Vec3<float>> outline;
+    for (std::size_t i = 0; i < rings[r].size(); ++i)
+      outline.push_back((1 - w) * rings[r][i] + w * rings[r + 1][i]);
+    return outline;
+  }
+  return {};
+}
+
+bool is_inside(std::span<const Vec3<float>> outline, const Vec& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec a = to_double(outline[i]), b = to_double(outline[(i + 1) % outline.size()]);
+    if ((a.z > p.z) != (b.z > p.z) && p.x < a.x + (p.z - a.z) / (b.z - a.z) * (b.x - a.x)) inside = !inside;
+  }
+  return inside;
+}
+
+Vec flat(const Vec& v) {
+  return {v.x, 0, v.z};
+}
+
 DistanceField sampled_hip(const Body& body, const LegFrame& leg) {
   constexpr double cell_m = 0.010, around_m = 0.26, above_m = 0.42;
   const form::BodyForm form(body);
@@ -187,6 +214,28 @@ void keep_off(const LegFrame& leg, std::span<const LegSection> beneath, std::spa
     ring[i].x = static_cast<float>(axis.x - (q.l + e->lateral) * leg.unit);
     ring[i].z = static_cast<float>(axis.z + (q.a + e->anterior) * leg.unit);
   }
+}
+
+void keep_off(std::span<const std::vector<Vec3<float>>> beneath, double gap_m, std::span<Vec3<float>> ring) {
+  constexpr double step_m = 0.004, middle_step_m = 0.0005, longest_m = 0.08, middle_share = 0.25;
+  const std::vector<Vec3<float>> outline = outline_at(beneath, ring[0].y);
+  if (outline.empty()) return;
+  const Vec core = ring_middle(outline);
+  const auto has_room = [&](const Vec& p) {
+    const Vec out = flat(p - core);
+    const double far = length(out);
+    return far > gap_m && !is_inside(outline, p - (gap_m / far) * out);
+  };
+  Vec middle = ring_middle(ring);
+  const Vec from = flat(middle - core), away = (1 / std::max(length(from), 1e-9)) * from;
+  double thick = 0;
+  for (const auto& p : ring) thick = std::max(thick, dot(to_double(p) - middle, away));
+  const Vec rest = middle;
+  for (double moved = 0; moved < longest_m && !has_room(middle - (middle_share * thick) * away); moved += middle_step_m)
+    middle = rest + moved * away;
+  if (!has_room(middle)) return;
+  move_to(middle, ring);
+  cut_rays(middle, ring, step_m, has_room);
 }
 
 }  // namespace mobil::inline v0_3

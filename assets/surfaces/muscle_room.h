@@ -3,6 +3,7 @@
 // it.
 
 #include <span>
+#include <vector>
 
 #include <mobil/assets/body/leg_profile.h>
 #include <mobil/assets/muscles/leg_sections.h>
@@ -40,8 +41,11 @@ void keep_in(const SkinRoom& skin, double cover_m, std::span<Vec3<float>> ring);
 /// moved out first if its middle is within.
 void keep_out(const LegBones& bones, double gap_m, std::span<Vec3<float>> ring);
 
-/// Cuts a horizontal ring back to the outside of the muscle beneath, whose horizontal sections are given, in the same
-/// way.
+/// Cuts a horizontal ring back to the outside of a bone, whose horizontal sections are given, in the same way.
 void keep_off(const LegFrame& leg, std::span<const LegSection> beneath, std::span<Vec3<float>> ring);
+
+/// Cuts a horizontal ring back to `gap_m` outside the drawn muscle beneath, whose horizontal rings are given from above,
+/// in the same way.
+void keep_off(std::span<const std::vector<Vec3<float>>> beneath, double gap_m, std::span<Vec3<float>> ring);
 
 }  // namespace mobil::inline v0_3

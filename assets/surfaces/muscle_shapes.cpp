@@ -9,7 +9,26 @@
 
 namespace mobil::inline v0_3 {
 
-std::vector<MuscleShape> muscle_shapes(const Body& body, const LegFrame& leg) {
+namespace {
+
+/// Cuts the sheet in which a muscle ends off it.
+MuscleShape sheet_of(const MemberMuscle& row, MuscleShape& muscle) {
+  MuscleShape sheet = muscle;
+  const float from = row.sheet.back().level;
+  const auto below = std::ranges::find_if(muscle.sections, [&](const LegSection& s) { return s.level > from; });
+  sheet.name = row.sheet_name;
+  sheet.origin = muscle.insertion = Segment::thigh_right;
+  sheet.sections.assign(row.sheet.begin(), row.sheet.end());
+  sheet.sections.insert(sheet.sections.end(), below, muscle.sections.end());
+  sheet.volume_m3 = 0;
+  sheet.sheet = true;
+  muscle.sections.erase(below, muscle.sections.end());
+  return sheet;
+}
+
+}  // namespace
+
+std::vector<MuscleShape> muscle_shapes(const Body& body, const LegFrame& leg, bool with_sheets) {
   std::vector<MuscleShape> all;
   std::vector<const MemberMuscle*> row;
   for (const MemberMuscle& m : member_muscles()) {
@@ -41,6 +60,12 @@ std::vector<MuscleShape> muscle_shapes(const Body& body, const LegFrame& leg) {
                  Segment::foot_right,
                  {tendon.begin(), tendon.end()},
                  section_planes(leg, std::nullopt)});
+  for (std::size_t i = 0; with_sheets && i < row.size(); ++i) {
+    if (row[i]->sheet.empty()) continue;
+    MuscleShape sheet = sheet_of(*row[i], all[i]);
+    all[i].ends_in = all.size();
+    all.push_back(std::move(sheet));
+  }
   return all;
 }
 

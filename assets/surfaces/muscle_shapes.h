@@ -14,9 +14,9 @@ namespace mobil::inline v0_3 {
 
 inline constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 
-/// A member as drawn on the right leg, from its origin (first section) to its insertion (last), or the calcaneal
-/// tendon. It covers the shape `lies_on` and ends at the shape `cut_back_to`. `ends_in` is the tendon that continues
-/// it.
+/// A member as drawn on the right leg, from its origin (first section) to its insertion (last), the calcaneal tendon or
+/// a sheet (MemberMuscle). It covers the shape `lies_on` and ends at the shape `cut_back_to`. `ends_in` is the tendon or
+/// sheet that continues it.
 struct MuscleShape {
   std::string_view name;
   Muscle group, muscle;
@@ -25,9 +25,10 @@ struct MuscleShape {
   SectionPlanes planes;
   double volume_m3 = 0;
   std::size_t lies_on = no_muscle, cut_back_to = no_muscle, ends_in = no_muscle;
+  bool sheet = false;
 };
 
-/// Returns the single muscles in the order of member_muscles(), then the calcaneal tendon.
-std::vector<MuscleShape> muscle_shapes(const Body& body, const LegFrame& leg);
+/// Returns the single muscles in the order of member_muscles(), then the calcaneal tendon, and sheets if requested.
+std::vector<MuscleShape> muscle_shapes(const Body& body, const LegFrame& leg, bool with_sheets);
 
 }  // namespace mobil::inline v0_3

@@ -30,8 +30,8 @@ namespace {
 using namespace geometry;
 
 constexpr TubeLayout layout{36, 18, 2};
-constexpr double cover_m = 0.002, sheet_cover_m = 0.0004,
-                 bone_gap_m = 0.0012;  // of a muscle from the skin and from bones
+/// Gaps of a muscle from the skin, from bones and from the muscle beneath.
+constexpr double cover_m = 0.002, sheet_cover_m = 0.0004, bone_gap_m = 0.0012, beneath_gap_m = 0.0015;
 
 /// Kneecap of the measured man: level of its upper edge, and its centre in mm from the knee's.
 constexpr double measured_patella_top = 0.992, measured_patella_lateral = 12, measured_patella_anterior = 40;
@@ -175,10 +175,10 @@ void smooth_along(SurfaceMesh& mesh, std::size_t first, std::size_t last) {
   }
 }
 
-/// The sections of the muscle under another one, if any. One of another group is covered whole, also by a tendon: by
-/// the iliotibial tract.
+/// The drawn rings of the muscle under another one, from above, if any. One of another group is covered whole, also by a
+/// tendon: by the iliotibial tract.
 struct Beneath {
-  std::vector<LegSection> sections = {};
+  std::vector<std::vector<Vec3<float>>> rings = {};
   bool of_other_group = false;
 };
 
@@ -210,14 +210,14 @@ SurfaceMesh build(const Fitting& f, const MuscleShape& shape, std::span<const Le
                     last = layout.all_rings() - (ends_on_bone(shape, TubeEnd::insertion) ? layout.cap + 1 : 0);
   for (std::size_t r = first; r < last; ++r) {
     keep_in(skin, beneath.of_other_group ? sheet_cover_m : cover_m, ring(r));
-    if (shape.planes.horizontal && !beneath.sections.empty()) {
+    if (shape.planes.horizontal && !beneath.rings.empty()) {
       // Tendons are not cut: they continue to the end of the muscle beneath.
       const double level = leg_level(f.leg, static_cast<double>(ring(r)[0].y));
       const auto thick = beneath.of_other_group
                              ? 1.0F
                              : static_cast<float>(smoothstep(0.3, 0.7, relative_area(sections, sections, level)));
       const std::vector<Vec3<float>> uncut(ring(r).begin(), ring(r).end());
-      keep_off(f.leg, beneath.sections, ring(r));
+      keep_off(beneath.rings, beneath_gap_m, ring(r));
       for (std::size_t i = 0; i < uncut.size(); ++i) ring(r)[i] = uncut[i] + thick * (ring(r)[i] - uncut[i]);
     }
   }
@@ -303,7 +303,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
   const auto bones = hard_bones();
   const Vec patella = to_double(body.joint_offset_m[index(Segment::patella_right)]);
   const double top_mm = 18;  // from the kneecap's centre to its upper edge
-  const auto shapes = muscle_shapes(body, leg);
+  const auto shapes = muscle_shapes(body, leg, room == MuscleRoom::together);
   double usual_m3 = 0;
   for (const MuscleShape& shape : shapes) {
     if (usual_muscles()[static_cast<std::size_t>(shape.group)]) usual_m3 += shape.volume_m3;
@@ -324,19 +324,28 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
     const std::size_t n = shapes[m].lies_on;
     return n == no_muscle ? fitted(f, shapes[m], g, nullptr, 1) : fitted(f, shapes[m], g, &shapes[n], girth[n]);
   };
+  std::vector<SurfaceMesh> filled(shapes.size());
   const auto beneath = [&](std::size_t m) {
+    Beneath under;
     const std::size_t n = around ? shapes[m].cut_back_to : no_muscle;
-    return n == no_muscle ? Beneath{} : Beneath{sections_of(n, girth[n]), shapes[n].group != shapes[m].group};
+    if (n == no_muscle) return under;
+    under.of_other_group = shapes[n].group != shapes[m].group;
+    for (std::size_t r = layout.cap; r < layout.cap + layout.rings; ++r) {
+      const auto ring = std::span(filled[n].position).subspan(layout.vertex(r), layout.segments);
+      under.rings.emplace_back(ring.begin(), ring.end());
+    }
+    return under;
   };
   const auto is_drawn = [&](std::size_t m) {
     return driving_muscle(simulated, shapes[m].group, shapes[m].muscle).has_value();
   };
   // Muscles under others first.
   std::vector<bool> needed(shapes.size());
-  for (std::size_t m = 0; m < shapes.size(); ++m) {
-    if (!is_drawn(m)) continue;
-    for (const std::size_t n : {m, shapes[m].lies_on, shapes[m].cut_back_to}) {
-      if (n != no_muscle) needed[n] = true;
+  for (std::size_t m = 0; m < shapes.size(); ++m) needed[m] = is_drawn(m);
+  for (int layer = 0; layer < 2; ++layer) {
+    for (std::size_t m = 0; m < shapes.size(); ++m) {
+      for (const std::size_t n : {shapes[m].lies_on, shapes[m].cut_back_to})
+        if (needed[m] && n != no_muscle) needed[n] = true;
     }
   }
   for (const bool covering : {false, true}) {
@@ -354,6 +363,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
       constexpr double usual = 2.5, most = 8;  // the measured man's thinnest muscles are threads
       girth[m] = filling(0.25, usual);
       if (girth[m] > 0.99 * usual) girth[m] = filling(usual, most);
+      filled[m] = build(f, shapes[m], sections_of(m, girth[m]), under);
     }
   }
   std::vector<GroupSurface> all;
@@ -362,7 +372,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
     if (!is_drawn(m)) continue;
     const auto sections = sections_of(m, girth[m]);
     GroupSurface s{shapes[m].group, shapes[m].muscle, {}, {}, {}, false};
-    s.surface.mesh = build(f, shapes[m], sections, beneath(m));
+    s.surface.mesh = shapes[m].volume_m3 > 0 ? filled[m] : build(f, shapes[m], sections, beneath(m));
     s.surface.mesh.name = std::string(shapes[m].name) + "_right";
     s.surface.origin = shapes[m].origin;
     s.surface.insertion = shapes[m].insertion;
@@ -373,7 +383,13 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
       s.surface.origin_held = held_shares(TubeEnd::origin, layout, s.surface.mesh.position.size());
     if (around && ends_on_bone(shapes[m], TubeEnd::insertion))
       s.surface.insertion_held = held_shares(TubeEnd::insertion, layout, s.surface.mesh.position.size());
-    if (const std::size_t n = shapes[m].ends_in; n != no_muscle) {
+    if (shapes[m].sheet) {
+      // It moves with the muscles that it covers, or with its bones if those are not simulated.
+      const Muscle beneath_it = shapes[shapes[m].cut_back_to].group;
+      s.ligament = !driving_muscle(simulated, beneath_it, beneath_it).has_value();
+      if (!s.ligament) s.group = s.muscle = beneath_it;
+    }
+    if (const std::size_t n = shapes[m].ends_in; n != no_muscle && !shapes[n].sheet) {
       if (!tendon_end) tendon_end = build(f, shapes[n], sections_of(n, 1), {}).position.back();
       s.attachments.insertion_m = *tendon_end;
     }

@@ -98,6 +98,10 @@ struct MemberMuscle {
   std::string_view lies_on = {};      // the member that it covers and that pushes it out
   std::string_view cut_back_to = {};  // the member at which its drawn shape ends; empty: the one in `lies_on`
   bool in_calcaneal_tendon = false;   // its drawn shape continues in that tendon
+  /// Sections of a sheet that its drawn tendon ends in. It is a surface of its own on the thigh: these sections, then
+  /// those of `drawn_below` under them. The muscle alone (MuscleRoom) has all of `drawn_below` instead.
+  std::string_view sheet_name = {};
+  FixedList<LegSection, 6> sheet = {};
 };
 
 /// Returns the displacement of the published shank and foot, with all that is fixed to them, from their positions on

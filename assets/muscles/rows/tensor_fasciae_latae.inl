@@ -1,5 +1,5 @@
-// Drawn with the iliotibial tract down to Gerdy's tubercle. No measured surface has it: its sections are placed by hand
-// outside of vastus lateralis.
+// The iliotibial tract runs from the greater trochanter to Gerdy's tubercle. No measured surface has it: its sections
+// are placed by hand outside of vastus lateralis.
 {.name = "tensor_fasciae_latae",
  .group = Muscle::tensor_fasciae_latae,
  .origin = Segment::pelvis,
@@ -47,4 +47,12 @@
      {1.04F, 46, 9, 8, 1.7F, 14},
      {1.095F, 34, 15, 6, 2, 24},
  },
- .cut_back_to = "vastus_lateralis"},
+ .cut_back_to = "vastus_lateralis",
+ .sheet_name = "iliotibial_tract",
+ .sheet = {
+     {-0.07F, 58, -16, 18, 1.3F, 0},
+     {0.0F, 66, -14, 23, 1.3F, 0},
+     {0.06F, 70, -10, 24, 1.3F, 0},
+     {0.16F, 72, 3, 23, 1.3F, 4},
+     {0.25F, 77, 13, 20, 1.3F, 4},
+ }},

@@ -226,6 +226,7 @@ void keep_off(std::span<const std::vector<Vec3<float>>> beneath, double gap_m, s
     const double far = length(out);
     return far > gap_m && !is_inside(outline, p - (gap_m / far) * out);
   };
+  // The middle moves out until a quarter of the ring's outer half beneath it has room.
   Vec middle = ring_middle(ring);
   const Vec from = flat(middle - core), away = (1 / std::max(length(from), 1e-9)) * from;
   double thick = 0;

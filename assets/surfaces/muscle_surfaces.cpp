@@ -31,7 +31,7 @@ using namespace geometry;
 
 constexpr TubeLayout layout{36, 18, 2};
 /// Gaps of a muscle from the skin, from bones and from the muscle beneath.
-constexpr double cover_m = 0.002, sheet_cover_m = 0.0004, bone_gap_m = 0.0012, beneath_gap_m = 0.0015;
+constexpr double cover_m = 0.002, sheet_cover_m = 0.0004, bone_gap_m = 0.0012, beneath_gap_m = 0.0005;
 
 /// Kneecap of the measured man: level of its upper edge, and its centre in mm from the knee's.
 constexpr double measured_patella_top = 0.992, measured_patella_lateral = 12, measured_patella_anterior = 40;
@@ -175,11 +175,11 @@ void smooth_along(SurfaceMesh& mesh, std::size_t first, std::size_t last) {
   }
 }
 
-/// The drawn rings of the muscle under another one, from above, if any. One of another group is covered whole, also by a
-/// tendon: by the iliotibial tract.
+/// The muscle under another one, if any: the sections of one of the same group, or the drawn rings, from above, of one
+/// of another group. The latter is covered whole, also by a tendon: by the iliotibial tract.
 struct Beneath {
+  std::vector<LegSection> sections = {};
   std::vector<std::vector<Vec3<float>>> rings = {};
-  bool of_other_group = false;
 };
 
 /// Builds a muscle's mesh. A muscle alone is cut back only to the measured bones.
@@ -209,15 +209,15 @@ SurfaceMesh build(const Fitting& f, const MuscleShape& shape, std::span<const Le
   const std::size_t first = ends_on_bone(shape, TubeEnd::origin) ? layout.cap + 1 : 0,
                     last = layout.all_rings() - (ends_on_bone(shape, TubeEnd::insertion) ? layout.cap + 1 : 0);
   for (std::size_t r = first; r < last; ++r) {
-    keep_in(skin, beneath.of_other_group ? sheet_cover_m : cover_m, ring(r));
-    if (shape.planes.horizontal && !beneath.rings.empty()) {
+    keep_in(skin, beneath.rings.empty() ? cover_m : sheet_cover_m, ring(r));
+    if (!beneath.rings.empty()) {
+      keep_off(beneath.rings, beneath_gap_m, ring(r));
+    } else if (shape.planes.horizontal && !beneath.sections.empty()) {
       // Tendons are not cut: they continue to the end of the muscle beneath.
       const double level = leg_level(f.leg, static_cast<double>(ring(r)[0].y));
-      const auto thick = beneath.of_other_group
-                             ? 1.0F
-                             : static_cast<float>(smoothstep(0.3, 0.7, relative_area(sections, sections, level)));
+      const auto thick = static_cast<float>(smoothstep(0.3, 0.7, relative_area(sections, sections, level)));
       const std::vector<Vec3<float>> uncut(ring(r).begin(), ring(r).end());
-      keep_off(beneath.rings, beneath_gap_m, ring(r));
+      keep_off(f.leg, beneath.sections, ring(r));
       for (std::size_t i = 0; i < uncut.size(); ++i) ring(r)[i] = uncut[i] + thick * (ring(r)[i] - uncut[i]);
     }
   }
@@ -329,7 +329,10 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet
     Beneath under;
     const std::size_t n = around ? shapes[m].cut_back_to : no_muscle;
     if (n == no_muscle) return under;
-    under.of_other_group = shapes[n].group != shapes[m].group;
+    if (shapes[n].group == shapes[m].group) {
+      under.sections = sections_of(n, girth[n]);
+      return under;
+    }
     for (std::size_t r = layout.cap; r < layout.cap + layout.rings; ++r) {
       const auto ring = std::span(filled[n].position).subspan(layout.vertex(r), layout.segments);
       under.rings.emplace_back(ring.begin(), ring.end());

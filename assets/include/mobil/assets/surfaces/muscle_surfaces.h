@@ -33,11 +33,11 @@ std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, M
 /// to the skin of mean people (mobil/assets/body/leg_profile.h), growing it to its volume.
 enum class MuscleRoom : std::uint8_t { alone, together };
 
-/// Returns the single muscles that `simulated` ones drive, in the order of member_muscles(), then the calcaneal tendon
-/// and the patellar ligament. They are of the right side in world axes, the body standing in the anatomical position at
-/// x = z = 0, m; closed, wound outwards, not yet bound. Each follows its measured path (muscle_table.h) on this body's
-/// bones. Its girth encloses the muscle's volume, growing away from the bone. Takes a tenth of a second, the first call
-/// a second more.
+/// Returns the single muscles that `simulated` ones drive, in the order of member_muscles(), then the calcaneal tendon,
+/// the iliotibial tract and the patellar ligament. They are of the right side in world axes, the body standing in the
+/// anatomical position at x = z = 0, m; closed, wound outwards, not yet bound. Each follows its measured path
+/// (muscle_table.h) on this body's bones. Its girth encloses the muscle's volume, growing away from the bone. Takes a
+/// tenth of a second, the first call a second more.
 std::vector<GroupSurface> make_muscle_surfaces(const Body& body, const MuscleSet& simulated = usual_muscles(),
                                                MuscleRoom room = MuscleRoom::together);
 

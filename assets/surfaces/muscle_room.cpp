@@ -66,8 +66,7 @@ std::vector<Vec3<float>> outline_at(std::span<const std::vector<Vec3<float>>> ri
     if (y > above || y < below || above == below) continue;
     const float w = (above - y) / (above - below);
     std::vector<Vec3<float>> outline;
-    for (std::size_t i = 0; i < rings[r].size(); ++i)
-      outline.push_back((1 - w) * rings[r][i] + w * rings[r + 1][i]);
+    for (std::size_t i = 0; i < rings[r].size(); ++i) outline.push_back((1 - w) * rings[r][i] + w * rings[r + 1][i]);
     return outline;
   }
   return {};

@@ -44,8 +44,8 @@ void keep_out(const LegBones& bones, double gap_m, std::span<Vec3<float>> ring);
 /// Cuts a horizontal ring back to the outside of a bone or muscle whose horizontal sections are given, in the same way.
 void keep_off(const LegFrame& leg, std::span<const LegSection> beneath, std::span<Vec3<float>> ring);
 
-/// Cuts a horizontal ring back to `gap_m` outside the drawn muscle beneath, whose horizontal rings are given from above,
-/// in the same way.
+/// Cuts a horizontal ring back to `gap_m` outside the drawn muscle beneath, whose horizontal rings are given from
+/// above, in the same way.
 void keep_off(std::span<const std::vector<Vec3<float>>> beneath, double gap_m, std::span<Vec3<float>> ring);
 
 }  // namespace mobil::inline v0_3

@@ -15,8 +15,8 @@ namespace mobil::inline v0_3 {
 inline constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 
 /// A member as drawn on the right leg, from its origin (first section) to its insertion (last), the calcaneal tendon or
-/// a sheet (MemberMuscle). It covers the shape `lies_on` and ends at the shape `cut_back_to`. `ends_in` is the tendon or
-/// sheet that continues it.
+/// a sheet (MemberMuscle). It covers the shape `lies_on` and ends at the shape `cut_back_to`. `ends_in` is the tendon
+/// or sheet that continues it.
 struct MuscleShape {
   std::string_view name;
   Muscle group, muscle;

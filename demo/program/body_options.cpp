@@ -24,9 +24,10 @@ std::vector<Option> body_options(BodyText& text) {
        "Body mass, 30kg to 200kg, by default 75kg, in the range of real bodies of that height and age", "Body"},
       {"--biotype", &text.biotype, "Heath-Carter endo-meso-ecto, like 2-5-3", "Body"},
       {"--constitution", &text.constitution, "thin, average, athletic or heavy", "Body", words_of(constitution_name)},
-      {"--sex", &text.sex, "man or woman, for the skin, fat and muscle", "Body", words_of(sex_name)},
+      {"--sex", &text.sex, "man or woman: proportions, fat, muscle, skin and manner of walking", "Body",
+       words_of(sex_name)},
       {"--age", &text.age, "Age, 6 to 95 years, in half years", "Body"},
-      {"--typical", &text.typical, "Set the median height and mass of that sex and age", "Body"}};
+      {"--typical", &text.typical, "Set the median height and mass, and the usual speed, of that sex and age", "Body"}};
 }
 
 Result<BodyRequest> read_body_options(const BodyText& text) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include <mobil/anthropometry.h>
 #include <mobil/assets/export/recorded_axes.h>
 #include <mobil/bvh_writer.h>
 #include <mobil/gl_writer.h>
@@ -14,6 +15,7 @@
 #include <mobil/mujoco_writer.h>
 #include <mobil/muscle_table.h>
 #include <mobil/opensim_writer.h>
+#include <mobil/systems/gait/resolve_gait.h>
 #include <mobil/usd_writer.h>
 #include <mobil/x3d_writer.h>
 #include "demo/program/muscle_options.h"
@@ -165,6 +167,7 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--speed", &text.speed, "Walking speed (5km/h if no gait option is given)", gait},
       {"--step-length", &text.step_length, "Heel to opposite heel; any two of the three determine the third", gait},
       {"--step-frequency", &text.step_frequency, "Steps per second, or 110steps/min", gait},
+      {"--barefoot", &text.barefoot, "Walk without shoes, which changes a step length that is left out", gait},
       {"--set", &text.set, "NAME=VALUE: a gait parameter of --list-parameters, like toe_out_deg=12; repeat for more",
        gait},
       {"--list-parameters", &text.list_parameters, "Print names, ranges and meanings for --set, and exit", gait},
@@ -272,6 +275,15 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
     options.gait.step_length_m = options.ground.tread_m;
     constexpr float usual_hz = 1.8F;  // of people on stairs
     if (!options.gait.speed_m_s && !options.gait.step_frequency_hz) options.gait.step_frequency_hz = usual_hz;
+  }
+  options.gait.style = usual_style(options.body);
+  const bool no_pace = !options.gait.speed_m_s && !options.gait.step_length_m && !options.gait.step_frequency_hz;
+  if (text.body.typical && no_pace) options.gait.speed_m_s = usual_speed_m_s(options.body);
+  if (text.barefoot && !text.script.empty()) read.refuse("--barefoot: steps of a script are in shoes; remove --script");
+  if (const auto body = make_body(options.body); body && text.barefoot) {
+    const auto walked = resolve_gait(*body, options.gait, Footwear::barefoot);  // errors come when the walk begins
+    if (walked && walked->speed_m_s > 0)
+      options.gait = {.speed_m_s = walked->speed_m_s, .step_length_m = walked->step_length_m, .style = walked->style};
   }
   for (const auto& assignment : text.set) {
     if (auto done = set_gait_parameter(assignment, options.gait.style); !done)

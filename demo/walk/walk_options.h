@@ -79,7 +79,7 @@ struct WalkText {
   std::string eye_distance = "63mm";
   std::vector<std::string> set, exports;
   std::string script, ground = "level", cycle, axes = usual_axes;
-  bool list_parameters = false, scale_speed = false, no_forces = false, tuned = false, inertia = false;
+  bool list_parameters = false, barefoot = false, scale_speed = false, no_forces = false, tuned = false, inertia = false;
   bool skin = false, skin_anatomy = false, fat = false, contact = false, frames = false, video = false, stereo = false,
        root_motion = false, in_place = false;
 };

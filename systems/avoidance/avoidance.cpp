@@ -79,7 +79,7 @@ static AvoidanceState<float> first_course(const World& world, const AvoidanceOpt
   const LevelWalk asked = level_walk(gait, world.get<Footing>(person).value_or(Footing<float>{}));
   course.speed_m_s = asked.speed_m_s;
   course.heading_rad = gait.heading_rad;
-  course.usual = 1;
+  course.usual = static_cast<float>(usual_step_factor(age_of(world.get<Physique>(person)->build)));
   if (asked.speed_m_s > 0) {
     const auto usual = resolve_gait(size.leg_scale_m, {.speed_m_s = asked.speed_m_s});
     if (usual) course.usual = asked.step_length_m / usual->step_length_m;

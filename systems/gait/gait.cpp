@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <mobil/anthropometry.h>
+#include <mobil/usual_gait.h>
 #include "assets/gait/step_lookup.h"
 
 namespace mobil::inline v0_3 {
@@ -34,8 +35,10 @@ double speed_of(double wanted, Of of) {
   return high;
 }
 
+/// A walker's legs, and the factor on the table's usual step length.
 struct LegSizes {
   float height_m, scale_m, leg_m, hips_m;
+  double step_factor = usual_step_factor(usual_age_y);
 };
 
 Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
@@ -48,6 +51,7 @@ Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
   const double height = of.height_m, leg = of.leg_m;
   const double scale = std::sqrt(leg / 0.90);
   const double hips = of.hips_m;
+  const auto usual_length = [&](double speed_m_s) { return of.step_factor * usual_length_at(speed_m_s, hips); };
   const auto& [speed_asked, length_asked, frequency_asked, style] = request;
 
   if (speed_asked && *speed_asked == 0.0F && !length_asked && !frequency_asked)
@@ -70,12 +74,12 @@ Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
     speed = speed_asked ? *speed_asked : *length_asked * *frequency_asked;
     length = speed / *frequency_asked;
   } else if (length_asked || frequency_asked) {
-    speed = length_asked ? speed_of(*length_asked, [&](double v) { return usual_length_at(v, hips); })
-                         : speed_of(*frequency_asked, [&](double v) { return v / usual_length_at(v, hips); });
+    speed = length_asked ? speed_of(*length_asked, [&](double v) { return usual_length(v); })
+                         : speed_of(*frequency_asked, [&](double v) { return v / usual_length(v); });
     length = length_asked ? static_cast<double>(*length_asked) : speed / *frequency_asked;
   } else {
     speed = speed_asked ? *speed_asked : 5.0 / 3.6;
-    length = usual_length_at(speed, hips);
+    length = usual_length(speed);
   }
 
   const double frequency = speed / length;
@@ -101,15 +105,17 @@ Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
 
 }  // namespace
 
-Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
-  return resolve({body.request.height_m, body.size.leg_scale_m, body.thigh_length_m + body.shank_length_m, body.hip_height_m}, request);
+Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request, Footwear footwear) {
+  return resolve({body.request.height_m, body.size.leg_scale_m, body.thigh_length_m + body.shank_length_m,
+                  body.hip_height_m, usual_step_factor(body.request.age_y, footwear)},
+                 request);
 }
 
-Result<Gait<float>> resolve_gait(const BodySize<float>& size, const GaitRequest& request) {
+Result<Gait<float>> resolve_gait(const BodySize<float>& size, const GaitRequest& request, float age_y) {
   const double scale = size.leg_scale_m;
   const auto scaled = [&](double part) { return static_cast<float>(part * scale); };
   return resolve({size.height_m, size.leg_scale_m, scaled(fraction::thigh) + scaled(fraction::shank),
-                  scaled(fraction::hip_height)},
+                  scaled(fraction::hip_height), usual_step_factor(age_y)},
                  request);
 }
 

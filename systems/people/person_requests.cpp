@@ -89,7 +89,7 @@ GaitRequest request_of(const Gait<float>& gait) {
 }
 
 Result<Gait<float>> next_gait(const AskedBody& now, const GaitRequest& request) {
-  auto gait = resolve_gait(now.size, request);
+  auto gait = resolve_gait(now.size, request, now.age_y);
   if (!gait) return gait;
   const Gait<float>& before = now.gait;
   gait->heading_rad = before.heading_rad;
@@ -117,10 +117,12 @@ std::optional<AskedBody> asked_body(const World& world, Entity person) {
   if (is_asleep(world, person)) {
     const Asleep<float> asleep = *world.get<Asleep>(person);
     const BodySize<float> size = size_of(asleep);
-    return AskedBody{size, gait_of(size.leg_scale_m, asleep.walk, sleeper_style(world, person))};
+    return AskedBody{size, gait_of(size.leg_scale_m, asleep.walk, sleeper_style(world, person)),
+                     age_of(asleep.build)};
   }
   const auto gait = world.get<Gait>(person);
-  return gait ? std::optional(AskedBody{*world.get<BodySize>(person), *gait}) : std::nullopt;
+  if (!gait) return std::nullopt;
+  return AskedBody{*world.get<BodySize>(person), *gait, age_of(world.get<Physique>(person)->build)};
 }
 
 Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change) {

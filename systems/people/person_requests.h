@@ -35,10 +35,11 @@ Physique<float> physique(const BodyRequest& request);
 
 /// Returns the requested gait of a walker, awake or asleep; nothing for a stale handle or a posed person.
 std::optional<Gait<float>> gait_of(const World& world, Entity person);
-/// A walker's body size and requested gait.
+/// A walker's body size, requested gait and age.
 struct AskedBody {
   BodySize<float> size;
   Gait<float> gait;
+  float age_y;
 };
 /// Returns them for a walker, awake or asleep; nothing for a stale handle or a posed person.
 std::optional<AskedBody> asked_body(const World& world, Entity person);

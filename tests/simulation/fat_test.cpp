@@ -84,8 +84,14 @@ TEST(Fat, SwingsAsAMassOnASpring) {
 }
 
 TEST(Fat, IsThickerInHeavierPeople) {
-  const auto usual = fat_thickness_m({1.75F, 75, 0});
-  const auto heavy = fat_thickness_m({1.75F, 110, 0.2F}), thin = fat_thickness_m({1.75F, 55, -0.08F});
+  const auto thickness_m = [](float mass_kg, float extra_fat) {
+    BodySize<float> size{};
+    size.height_m = 1.75F;
+    size.mass_kg = mass_kg;
+    size.extra_fat = extra_fat;
+    return fat_thickness_m(size);
+  };
+  const auto usual = thickness_m(75, 0), heavy = thickness_m(110, 0.2F), thin = thickness_m(55, -0.08F);
   for (std::size_t r = 0; r < fat_regions; ++r) {
     EXPECT_NEAR(usual[r], fat_points[r].thickness_m, 1e-4F);
     EXPECT_GT(heavy[r], 1.5F * usual[r]);

@@ -69,8 +69,8 @@ struct GaitStyleOf {
 using GaitStyle = GaitStyleOf<float>;
 
 /// A request for a walk. Any two of speed (m/s), step length (m) and step frequency (steps/s) determine the third. If
-/// only one is set, the others are those of people with that leg length (assets/gait). If none is set, the speed is 5
-/// km/h. Three must agree within 1 %. A speed of 0 requests standing.
+/// only one is set, the others are those of people of that leg length and age in shoes (mobil/usual_gait.h). If none is
+/// set, the speed is 5 km/h. `usual_style` and `usual_speed_m_s` (mobil/usual_gait.h) return those of a sex and age. Three must agree within 1 %. A speed of 0 requests standing.
 struct GaitRequest {
   std::optional<float> speed_m_s{}, step_length_m{}, step_frequency_hz{};
   GaitStyle style{};

@@ -1,6 +1,6 @@
 // Lengths of people of both sexes and all ages.
 //
-// AdultLengths: powers of height and mass, fitted to the measured subjects of ANSUR II (Gordon et al., 2012 Anthropometric
+// Adults: powers of height and mass, fitted to the measured subjects of ANSUR II (Gordon et al., 2012 Anthropometric
 // Survey of U.S. Army Personnel, NATICK/TR-15/007; public). Children: an adult's proportions at 18 years times factors
 // by age; legs from the Berkeley Guidance Study (Tuddenham & Snyder, Univ. Calif. Publ. Child Dev. 1, 1954) and the
 // subjects of Pinzone, Schwartz, Thomason & Baker (Gait & Posture 40, 2014), shoulders from the former. Our assumption:
@@ -33,17 +33,17 @@ struct AdultLengths {
 /// Distance of the shoulder joints over the biacromial breadth.
 constexpr double joints_of_breadth = 0.845;
 constexpr AdultLengths lengths_of_men = {1.7562,
-                        85.52,
-                        {joints_of_breadth * 0.4166, 0.391, 0.121},
-                        {0.3354, 1.025, 0.019},
-                        {0.2680, 1.041, -0.002},
-                        {0.2385, 0.854, -0.089}};
+                                         85.52,
+                                         {joints_of_breadth * 0.4166, 0.391, 0.121},
+                                         {0.3354, 1.025, 0.019},
+                                         {0.2680, 1.041, -0.002},
+                                         {0.2385, 0.854, -0.089}};
 constexpr AdultLengths lengths_of_women = {1.6285,
-                          67.76,
-                          {joints_of_breadth * 0.3656, 0.563, 0.082},
-                          {0.3112, 1.035, 0.039},
-                          {0.2415, 1.076, 0.038},
-                          {0.2329, 0.557, -0.018}};
+                                           67.76,
+                                           {joints_of_breadth * 0.3656, 0.563, 0.082},
+                                           {0.3112, 1.035, 0.039},
+                                           {0.2415, 1.076, 0.038},
+                                           {0.2329, 0.557, -0.018}};
 
 constexpr double first_factor_y = 6, apart_y = 2;
 using ByAge = std::array<double, 7>;  // at 6, 8 … 18 years
@@ -51,9 +51,9 @@ struct ChildFactors {
   ByAge leg, shoulders;
 };
 constexpr ChildFactors factors_of_boys = {{0.940, 0.968, 0.988, 1.012, 1.013, 1.005, 1},
-                               {0.962, 0.953, 0.946, 0.946, 0.954, 0.981, 1}};
+                                          {0.962, 0.953, 0.946, 0.946, 0.954, 0.981, 1}};
 constexpr ChildFactors factors_of_girls = {{0.948, 0.978, 0.997, 1.016, 1.006, 1.001, 1},
-                                {0.985, 0.984, 0.989, 0.984, 0.981, 0.994, 1}};
+                                           {0.985, 0.984, 0.989, 0.984, 0.981, 0.994, 1}};
 constexpr ByAge arms = {0.965, 0.9725, 0.98, 0.99, 1, 1, 1}, heads = {0.90, 0.92, 0.94, 0.96, 0.9733, 0.9867, 1};
 
 double at_age(const ByAge& factors, double age_y) {

@@ -24,7 +24,8 @@ HWY_INLINE Vec3<float> single(const Vec3<double>& v) {
 
 HWY_INLINE WideVec centre_of(const WideScales& scale, const Pose<Lanes<float>>& pose, std::size_t segment) {
   return load(pose.position_m[segment]) +
-         rotate(load(pose.rotation[segment]), scaled(single(unit_body.centre_of_mass[segment]), scale, segment_groups[segment]));
+         rotate(load(pose.rotation[segment]),
+                scaled(single(unit_body.centre_of_mass[segment]), scale, segment_groups[segment]));
 }
 
 /// Returns the angular velocity between two orientations of a segment, in its own axes.

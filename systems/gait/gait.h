@@ -12,8 +12,8 @@
 
 namespace mobil::inline v0_3 {
 
-/// Returns the step table's usual length for legs of that scale (BodySize) at a speed, m (assets/gait/README.md). It has
-/// no factor of age or shoes (usual_step_factor). 0 at a speed of 0.
+/// Returns the step table's usual length for legs of that scale (BodySize) at a speed, m (assets/gait/README.md). It
+/// has no factor of age or shoes (usual_step_factor). 0 at a speed of 0.
 float usual_length_m(float leg_scale_m, float speed_m_s);
 
 /// Returns the lowest speed other than 0 that can be requested for a walker of that scale, m/s.

@@ -7,9 +7,9 @@
 #define MOBIL_SYSTEMS_KINEMATICS_WIDE_INL_H_
 #endif
 
+#include "assets/body/body_scales.h"
 #include "assets/gait/step_curves-inl.h"
 #include "engine/wide_geometry-inl.h"
-#include "assets/body/body_scales.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
@@ -23,9 +23,9 @@ struct WideScales {
   Wide of[length_groups];
 
   HWY_INLINE explicit WideScales(const BodySize<Lanes<float>>& size)
-      : of{load(size.height_m), load(size.leg_scale_m), load(size.leg_scale_m), load(size.trunk_scale_m),
-           load(size.height_m), load(size.shoulders_scale_m), load(size.upper_arm_scale_m),
-           load(size.forearm_scale_m)} {
+      : of{load(size.height_m),          load(size.leg_scale_m),    load(size.leg_scale_m),
+           load(size.trunk_scale_m),     load(size.height_m),       load(size.shoulders_scale_m),
+           load(size.upper_arm_scale_m), load(size.forearm_scale_m)} {
     const Wide &height = of[0], off_leg = height - of[1], off_trunk = height - of[3];
     of[4] = height + (off_leg * head_per_leg + off_trunk * head_per_trunk);
   }

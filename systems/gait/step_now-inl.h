@@ -33,8 +33,7 @@ HWY_NOINLINE inline PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& pla
   m.tilt = pelvis_tilt(plan, w, eased);
   m.turn = turn_yzx(m.rotation, -m.list, m.tilt - static_cast<float>(neutral_tilt));
   for (std::size_t side = 0; side < 2; ++side)
-    m.hip[side] =
-        rotate(m.turn, scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], hips));
+    m.hip[side] = rotate(m.turn, scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], hips));
   return m;
 }
 

@@ -3,7 +3,9 @@
 #include "engine/fetch_ahead.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstring>
 #include <initializer_list>
 
 #include <mobil/anthropometry.h>
@@ -23,6 +25,7 @@
 #include "systems/gait/kinematics.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/people/ground_forces.h"
+#include "systems/people/person_requests.h"
 #include "systems/people/pose_measures.h"
 
 namespace mobil::inline v0_3 {
@@ -120,8 +123,12 @@ Result<void> check_walker_rows(const SavedWorld& saved, std::uint32_t table) {
                      age_of(build)};
     if (limbs != Table::no_column)
       body.limbs = {number(limbs), number(limbs + 1), number(limbs + 2), number(limbs + 3)};
-    if (check_body(body)) continue;
-    return damaged("a person's body");
+    if (!check_body(body)) return damaged("a person's body");
+    const BodySize<float> made = body_size(body);
+    std::array<std::uint32_t, sizeof(made) / sizeof(std::uint32_t)> words;
+    std::memcpy(words.data(), &made, sizeof(made));
+    for (std::uint32_t w = 0; w < words.size(); ++w)
+      if (saved.word(table, row, size + w) != words[w]) return damaged("a person's sizes");
   }
   return {};
 }

@@ -117,8 +117,7 @@ std::optional<AskedBody> asked_body(const World& world, Entity person) {
   if (is_asleep(world, person)) {
     const Asleep<float> asleep = *world.get<Asleep>(person);
     const BodySize<float> size = size_of(asleep);
-    return AskedBody{size, gait_of(size.leg_scale_m, asleep.walk, sleeper_style(world, person)),
-                     age_of(asleep.build)};
+    return AskedBody{size, gait_of(size.leg_scale_m, asleep.walk, sleeper_style(world, person)), age_of(asleep.build)};
   }
   const auto gait = world.get<Gait>(person);
   if (!gait) return std::nullopt;

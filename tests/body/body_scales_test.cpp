@@ -35,7 +35,8 @@ RC_GTEST_PROP(BodyScales, ColumnReachesTheStatureAndLegsTheGround, ()) {
   RC_ASSERT(std::fabs(crown - static_cast<double>(request.height_m)) < 1e-6);
   const double sole = height_of(*body, foot_right) + static_cast<double>(body->heel_m.y);
   RC_ASSERT(std::fabs(sole) < 1e-6);
-  for (const float scale : group_scales(body->size)) RC_ASSERT(scale > 0.7F * request.height_m && scale < 1.5F * request.height_m);
+  for (const float scale : group_scales(body->size))
+    RC_ASSERT(scale > 0.7F * request.height_m && scale < 1.5F * request.height_m);
 }
 
 /// Means of people of one sex, m: classes about percentiles of stature and of mass index, of the odd-numbered subjects
@@ -46,12 +47,12 @@ struct Measured {
   double height, mass_kg, acromion, c7, biacromial, upper_arm, forearm, hand;
 };
 constexpr Measured ansur[] = {
-    {Sex::man, 1.7562, 85.28, 1.4407, 1.5171, 0.4152, 0.3351, 0.2677, 0.1931},  // mean
-    {Sex::man, 1.6494, 75.10, 1.3449, 1.4191, 0.4002, 0.3132, 0.2509, 0.1828},  // percentile 5
-    {Sex::man, 1.7540, 85.06, 1.4379, 1.5149, 0.4136, 0.3344, 0.2674, 0.1929},  // percentile 50
-    {Sex::man, 1.8681, 95.37, 1.5387, 1.6180, 0.4319, 0.3583, 0.2846, 0.2036},  // percentile 95
-    {Sex::man, 1.7594, 70.04, 1.4386, 1.5159, 0.4050, 0.3352, 0.2673, 0.1919},  // mass index percentile 10
-    {Sex::man, 1.7592, 102.12, 1.4510, 1.5238, 0.4241, 0.3353, 0.2690, 0.1948},  // mass index percentile 90
+    {Sex::man, 1.7562, 85.28, 1.4407, 1.5171, 0.4152, 0.3351, 0.2677, 0.1931},    // mean
+    {Sex::man, 1.6494, 75.10, 1.3449, 1.4191, 0.4002, 0.3132, 0.2509, 0.1828},    // percentile 5
+    {Sex::man, 1.7540, 85.06, 1.4379, 1.5149, 0.4136, 0.3344, 0.2674, 0.1929},    // percentile 50
+    {Sex::man, 1.8681, 95.37, 1.5387, 1.6180, 0.4319, 0.3583, 0.2846, 0.2036},    // percentile 95
+    {Sex::man, 1.7594, 70.04, 1.4386, 1.5159, 0.4050, 0.3352, 0.2673, 0.1919},    // mass index percentile 10
+    {Sex::man, 1.7592, 102.12, 1.4510, 1.5238, 0.4241, 0.3353, 0.2690, 0.1948},   // mass index percentile 90
     {Sex::woman, 1.6300, 67.51, 1.3363, 1.3971, 0.3656, 0.3115, 0.2414, 0.1811},  // mean
     {Sex::woman, 1.5274, 58.69, 1.2453, 1.3050, 0.3517, 0.2866, 0.2266, 0.1710},  // percentile 5
     {Sex::woman, 1.6255, 66.49, 1.3315, 1.3919, 0.3664, 0.3107, 0.2413, 0.1809},  // percentile 50
@@ -69,7 +70,8 @@ TEST(BodyScales, MeetMeasuredAdults) {
     const Body body = *make_body(request);
     const auto along = [&](Segment s) { return -static_cast<double>(body.joint_offset_m[index(s)].y); };
     const auto meets = [&](double length, double measured, double within, const char* what) {
-      EXPECT_NEAR(length / measured, 1, within * percent) << what << " of " << of.height << " m, " << of.mass_kg << " kg";
+      EXPECT_NEAR(length / measured, 1, within * percent)
+          << what << " of " << of.height << " m, " << of.mass_kg << " kg";
     };
     meets(height_of(body, upper_arm_right), of.acromion, 1.5, "shoulder height");
     meets(0.5 * (height_of(body, C7) + height_of(body, C6)), of.c7, 1, "height of C7");

@@ -116,7 +116,7 @@ std::vector<Vec3<float>> read_places(BakeReader& in, std::size_t count) {
   return values;
 }
 
-/// Reads the skin of a build. All builds have the height of skin_body, and so its standing pose.
+/// Reads the skin of a build.
 BodySkin read_skin(BakeReader& in, Sex sex, SkinDetail detail, const SkinMesh& mesh) {
   BodySkin skin;
   skin.sex = sex;
@@ -125,7 +125,11 @@ BodySkin read_skin(BakeReader& in, Sex sex, SkinDetail detail, const SkinMesh& m
   skin.normal = read_places(in, mesh.vertex.size());
   for (auto* const grid : {&skin.leg.base, &skin.leg.fat})
     for (float& number : *grid) number = in.take<float>();
-  skin.standing = standing_pose(*make_body(skin_body(sex)));
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    skin.standing.rotation[s] = {0, 0, 0, 1};
+    Vec3<float>& joint = skin.standing.position_m[s];
+    for (float* const number : {&joint.x, &joint.y, &joint.z}) *number = in.take<float>();
+  }
   return skin;
 }
 
@@ -194,6 +198,8 @@ std::vector<std::byte> BodySkins::bake() const {
     for (const auto* const values : {&skin->rest, &skin->normal}) out(flat(*values), 3 * values->size());
     for (const auto* const grid : {&skin->leg.base, &skin->leg.fat})
       for (const float number : *grid) out.put(number);
+    for (const Vec3<float>& joint : skin->standing.position_m)
+      for (const float number : {joint.x, joint.y, joint.z}) out.put(number);
   }
   return sealed(out, magic, find_maker());
 }

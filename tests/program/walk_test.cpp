@@ -16,6 +16,7 @@
 #include <mobil/components/gait.h>
 #include <mobil/components/muscle.h>
 #include <mobil/muscle_table.h>
+#include <mobil/usual_gait.h>
 #include "assets/gait/step_lookup.h"
 #include "demo/walk/walk_tables.h"
 #include "tests/labels.h"
@@ -313,7 +314,7 @@ TEST(Walk, SetParametersAreInTheSummaryAndTheWalk) {
   for (const GaitParameter& p : gait_parameters) {
     const double expected = p.name.starts_with("arm_back") || p.name.starts_with("arm_forward") ? 0
                             : p.name == "toe_out_deg"                                           ? 12
-                                                      : static_cast<double>(GaitStyle{}.*p.value);
+                                                      : static_cast<double>(usual_style({}).*p.value);
     EXPECT_NEAR(parameters.at(std::string(p.name)).get<double>(), expected, 1e-6 * std::abs(expected)) << p.name;
   }
   const auto swing = [](const Csv& motion) {
@@ -330,7 +331,7 @@ TEST(Walk, SetParametersAreInTheSummaryAndTheWalk) {
 TEST(Walk, ScriptWithoutChangesChangesNothing) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "same.csv") << "time_s,parameter,value\n0,heading,0\n0.4,toe_out_deg,6\n0.4,heading,0\n"
-                                             "0.6,pelvis_list_deg,4\n5,stop,\n";
+                                             "0.6,pelvis_list_deg,3.5\n5,stop,\n";
   const auto file = (folder.path / "same.csv").string();
   const Walk scripted("--speed 1.3 --seconds 1.5 --script '" + file + "'"), plain("--speed 1.3 --seconds 1.5");
   for (std::size_t i = 0; i < plain.motion->rows.size(); ++i) {  // the step can be solved again

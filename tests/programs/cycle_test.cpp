@@ -14,6 +14,7 @@
 #include <mobil/simulation.h>
 #include <mobil/systems/muscles/person.h>
 #include <mobil/systems/poses/roots.h>
+#include <mobil/usual_gait.h>
 #include "tests/files/export_fixture.h"
 #include "tests/labels.h"
 #include "tests/program/program.h"
@@ -81,7 +82,7 @@ TEST(Cycle, LastKeyIsTheFirstOfAnyGaitWithSkinAndMuscles) {
 TEST(Cycle, RootIsTheLibrarysAndThePelvisIsRelativeToIt) {
   const Written written("--cycle 1 --root-motion");
   const Viewer viewer = written.glb();
-  const GaitRequest gait{.speed_m_s = static_cast<float>(5 / 3.6)};
+  const GaitRequest gait{.speed_m_s = static_cast<float>(5 / 3.6), .style = usual_style({})};
   Simulation asked;
   const float stride_s = 2 / asked.person(asked.spawn(BodyRequest{}, gait).value())->gait.step_frequency_hz;
   const std::size_t keys = keys_of(viewer), frames = keys - 1;

@@ -13,6 +13,7 @@
 
 #include <mobil/pose_writer.h>
 #include <mobil/simulation.h>
+#include <mobil/usual_gait.h>
 #include "tests/files/export_fixture.h"
 #include "tests/labels.h"
 #include "tests/program/program.h"
@@ -66,7 +67,7 @@ TEST(FileAxes, PosesOfTheLibraryInTheSameAxesAreThoseOfTheFile) {
   const Written turned("walk --quiet --method none --speed 1.3m/s --seconds 0.5 --skin --axes y_up_z_back --out out");
   const Viewer viewer = turned.glb("out/walk.glb");
   Simulation simulation;
-  const Entity person = simulation.spawn(BodyRequest{}, {.speed_m_s = 1.3F}).value();
+  const Entity person = simulation.spawn(BodyRequest{}, {.speed_m_s = 1.3F, .style = usual_style({})}).value();
   PoseWriter writer;
   for (std::size_t f = 0; f < 15; ++f) {
     simulation.tick(f == 0 ? 1 : 2);

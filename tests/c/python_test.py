@@ -36,7 +36,7 @@ class Walks(unittest.TestCase):
     def test_a_walk_is_that_of_the_program(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run(
-                [PROGRAM, "walk", "--height", "1.8", "--mass", "80", "--speed", "1.39", "--seconds", "2", "--out", folder],
+                [PROGRAM, *"walk --height 1.8 --mass 80 --speed 1.39 --seconds 2 --set pelvis_list_deg=4".split(), "--out", folder],
                 check=True,
                 stdout=subprocess.DEVNULL,
             )

@@ -129,7 +129,7 @@ Result<Body> make_body(const BodyRequest& request) {
   body.request.age_y = half_years(request.age_y);
   body.composition = body_composition(request);
   const double extra = extra_fat_of(body.composition, request.sex);
-  body.size = make_size(request, static_cast<float>(extra));
+  body.size = make_size(body.request, static_cast<float>(extra));
   // Masses are whole multiples of the body mass's last bit, so that they add up in any order without rounding.
   const double quantum = std::ldexp(1.0, std::ilogb(request.mass_kg) - 23);
   double rest = request.mass_kg;

@@ -142,5 +142,14 @@ TEST(Growth, AgesAreKeptToHalfYears) {
   EXPECT_TRUE(is_refused(make_body({.height_m = 1.1F, .mass_kg = 30, .age_y = 17.8F}), "1.2–2.2 m"));
 }
 
+TEST(Growth, BodiesOfAnAgeAreThoseOfTheNearestHalfYear) {
+  BodyRequest exact = typical_body(Sex::woman, 12.5F), near = exact;
+  near.age_y = 12.4F;
+  const BodySize<float> a = make_body(exact)->size, b = make_body(near)->size;
+  EXPECT_EQ(a.leg_scale_m, b.leg_scale_m);
+  EXPECT_EQ(a.trunk_scale_m, b.trunk_scale_m);
+  EXPECT_EQ(a.shoulders_scale_m, b.shoulders_scale_m);
+}
+
 }  // namespace
 }  // namespace mobil::growth_test

@@ -127,7 +127,7 @@ Result<Body> make_body(const BodyRequest& request) {
   Body body{};
   body.request = request;
   body.request.age_y = half_years(request.age_y);
-  body.composition = body_composition(request);
+  body.composition = body_composition(body.request);
   const double extra = extra_fat_of(body.composition, request.sex);
   body.size = make_size(body.request, static_cast<float>(extra));
   // Masses are whole multiples of the body mass's last bit, so that they add up in any order without rounding.

@@ -66,6 +66,9 @@ HWY_INLINE WideVec fma(const Wide& s, const WideVec& a, const WideVec& b) {
 HWY_INLINE WideVec select(const WideMask& m, const WideVec& yes, const WideVec& no) {
   return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
+HWY_INLINE WideQuat select(const WideMask& m, const WideQuat& yes, const WideQuat& no) {
+  return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z), select(m, yes.w, no.w)};
+}
 
 /// Returns the rotation b followed by a.
 MOBIL_WIDE_INLINE WideQuat operator*(const WideQuat& a, const WideQuat& b) {

@@ -10,8 +10,8 @@
 #include <mobil/body_composition.h>
 #include <mobil/engine/geometry.h>
 #include "assets/body/body_scales.h"
-#include "assets/body/fat_distribution.h"
 #include "assets/body/growth.h"
+#include "assets/body/segment_masses.h"
 
 namespace mobil::inline v0_3 {
 
@@ -66,13 +66,29 @@ struct LongBone {
 const std::array<LongBone, 4>& long_bones() {
   using enum Segment;
   static const std::array<LongBone, 4> bones = {{
-      {"thigh", thigh_right, {shank_right, patella_right}, fraction::thigh, &BodySize<float>::leg_scale_m,
+      {"thigh",
+       thigh_right,
+       {shank_right, patella_right},
+       fraction::thigh,
+       &BodySize<float>::leg_scale_m,
        &LimbLengths<float>::thigh_m},
-      {"shank", shank_right, {foot_right}, fraction::shank, &BodySize<float>::leg_scale_m,
+      {"shank",
+       shank_right,
+       {foot_right},
+       fraction::shank,
+       &BodySize<float>::leg_scale_m,
        &LimbLengths<float>::shank_m},
-      {"upper arm", upper_arm_right, {forearm_right}, fraction::upper_arm, &BodySize<float>::upper_arm_scale_m,
+      {"upper arm",
+       upper_arm_right,
+       {forearm_right},
+       fraction::upper_arm,
+       &BodySize<float>::arm_scale_m,
        &LimbLengths<float>::upper_arm_m},
-      {"forearm", forearm_right, {hand_right}, fraction::forearm, &BodySize<float>::forearm_scale_m,
+      {"forearm",
+       forearm_right,
+       {hand_right},
+       fraction::forearm,
+       &BodySize<float>::arm_scale_m,
        &LimbLengths<float>::forearm_m},
   }};
   return bones;
@@ -80,7 +96,7 @@ const std::array<LongBone, 4>& long_bones() {
 
 std::string wrong_limb(const BodyRequest& request) {
   if (!has_own_limbs(request)) return {};
-  const BodySize<float> size = make_size(request, 0);
+  const BodySize<float> size = make_size(request, 0.2F);
   constexpr double least = 0.6, most = 1.6;
   for (const LongBone& bone : long_bones()) {
     const auto asked = static_cast<double>(request.limbs.*bone.length_m);
@@ -128,8 +144,8 @@ Result<Body> make_body(const BodyRequest& request) {
   body.request = request;
   body.request.age_y = half_years(request.age_y);
   body.composition = body_composition(body.request);
-  const double extra = extra_fat_of(body.composition, request.sex);
-  body.size = make_size(body.request, static_cast<float>(extra));
+  const auto fat_share = static_cast<float>(fat_share_of(body.composition));
+  body.size = make_size(body.request, fat_share);
   // Masses are whole multiples of the body mass's last bit, so that they add up in any order without rounding.
   const double quantum = std::ldexp(1.0, std::ilogb(request.mass_kg) - 23);
   double rest = request.mass_kg;
@@ -139,7 +155,7 @@ Result<Body> make_body(const BodyRequest& request) {
     body.centre_of_mass_m[s] = to_float(scaled(unit_body.centre_of_mass[s], scales, segment_groups[s]));
     body.tip_m[s] = to_float(scaled(unit_body.tip[s], scales, segment_groups[s]));
     if (s == index(Segment::pelvis)) continue;
-    const double mass = quantum * std::round(mass_fraction(s, extra) * request.mass_kg / quantum);
+    const double mass = quantum * std::round(mass_fraction(body.size, s) * request.mass_kg / quantum);
     body.mass_kg[s] = static_cast<float>(mass);
     rest -= mass;
   }

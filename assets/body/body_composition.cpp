@@ -191,9 +191,9 @@ BodyComposition body_composition(const BodyRequest& request) {
   return made;
 }
 
-double extra_fat_of(const BodyComposition& composition, Sex sex) {
+double fat_share_of(const BodyComposition& composition) {
   const auto fat = static_cast<double>(composition.fat_kg), lean = static_cast<double>(composition.lean_kg);
-  return extra_fat(fat / (fat + lean), sex);
+  return fat / (fat + lean);
 }
 
 std::vector<std::string> body_notes(const Body& body) {

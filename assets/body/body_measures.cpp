@@ -1,7 +1,13 @@
 #include <mobil/assets/body/body_measures.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+
+#include <mobil/assets/body/between.h>
+#include "assets/body/body_scales.h"
+#include "assets/body/growth.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -46,14 +52,71 @@ constexpr std::array<Power, 23> women = {{
     {&M::foot_breadth, 95.8, 0.19, 0.16},
 }};
 
-}  // namespace
+/// A measure's change in ten years at equal height and mass. Those of breadths and depths that were not measured meet
+/// the girths.
+struct Change {
+  double BodyMeasures::*measure;
+  double man, woman;
+};
+constexpr std::array<Change, 11> changes = {{{&M::waist_girth, 0.0207, 0.0131},
+                                             {&M::waist_depth, 0.0336, 0.0176},
+                                             {&M::waist_breadth, 0.0116, 0.0100},
+                                             {&M::buttock_girth, -0.0052, 0.0006},
+                                             {&M::buttock_depth, -0.0052, 0.0006},
+                                             {&M::hip_breadth, -0.0024, 0.0022},
+                                             {&M::thigh_girth, -0.0147, -0.0037},
+                                             {&M::calf_girth, -0.0081, -0.0110},
+                                             {&M::chest_girth, 0.0097, 0.0131},
+                                             {&M::chest_depth, 0.0097, 0.0131},
+                                             {&M::neck_girth, 0.0064, 0.0060}}};
 
-BodyMeasures body_measures(const BodyRequest& request) {
+/// Girths of heads at 6, 8 … 16 years relative to the adult's.
+constexpr std::array<double, 7> heads_of_boys = {0.929, 0.941, 0.951, 0.963, 0.976, 0.988, 1},
+                                heads_of_girls = {0.938, 0.953, 0.967, 0.978, 0.987, 0.995, 1};
+
+BodyMeasures of_powers(const BodyRequest& request) {
   BodyMeasures measures{};
   const double height = static_cast<double>(request.height_m) / 1.75, mass = static_cast<double>(request.mass_kg) / 75;
   for (const auto& [measure, mm, by_height, by_mass] : request.sex == Sex::woman ? women : men)
     measures.*measure = 1e-3 * mm * std::pow(height, by_height) * std::pow(mass, by_mass);
   return measures;
+}
+
+/// Changes an adult's measures at a child's height and mass to a child's.
+void make_childs(const BodyRequest& request, BodyMeasures& m) {
+  const double age = request.age_y, waist = 1 + 0.014 * std::max(0.0, 16 - age);
+  for (double BodyMeasures::*measure : {&M::waist_girth, &M::waist_breadth, &M::waist_depth}) m.*measure *= waist;
+  BodyRequest adult = request;
+  adult.age_y = static_cast<float>(adult_age_y);
+  m.shoulder_breadth *=
+      static_cast<double>(make_size(request, 0).shoulders_scale_m / make_size(adult, 0).shoulders_scale_m);
+  const GrowthRow& usual = growth(request.sex, adult.age_y);
+  adult.height_m = static_cast<float>(usual.height_m.median);
+  adult.mass_kg = static_cast<float>(usual.mass_index.median) * adult.height_m * adult.height_m;
+  const BodyMeasures grown = of_powers(adult);
+  const auto& heads = request.sex == Sex::woman ? heads_of_girls : heads_of_boys;
+  const auto [k, t] = form::between(heads.size(), age, [](std::size_t i) { return 6 + 2.0 * static_cast<double>(i); });
+  const double head = std::lerp(heads[k], heads[k + 1], t), still = std::min(1.0, (adult_age_y - age) / 2);
+  for (double BodyMeasures::*measure : {&M::head_breadth, &M::head_length})
+    m.*measure = std::lerp(m.*measure, head * grown.*measure, still);
+}
+
+}  // namespace
+
+BodyMeasures body_measures(const BodyRequest& request) {
+  constexpr double first_y = 18, last_y = 65;
+  BodyMeasures measures = of_powers(request);
+  const double decades = (std::clamp(static_cast<double>(request.age_y), first_y, last_y) - usual_age_y) / 10;
+  for (const auto& [measure, man, woman] : changes)
+    measures.*measure *= 1 + decades * (request.sex == Sex::woman ? woman : man);
+  if (static_cast<double>(request.age_y) < adult_age_y) make_childs(request, measures);
+  return measures;
+}
+
+BodyMeasures scaled(const BodyMeasures& measures, double by) {
+  auto all = std::bit_cast<std::array<double, sizeof(BodyMeasures) / sizeof(double)>>(measures);
+  for (double& measure : all) measure *= by;
+  return std::bit_cast<BodyMeasures>(all);
 }
 
 }  // namespace mobil::inline v0_3

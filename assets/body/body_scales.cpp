@@ -11,10 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <mobil/anthropometry.h>
 #include "assets/body/growth.h"
+#include "assets/body/segment_masses.h"
 #include "engine/exact_math.h"
 
 namespace mobil::inline v0_3 {
@@ -68,6 +70,13 @@ double length_m(const PowerLaw& law, const AdultLengths& of, double height_m, do
          exact::pow(mass_kg / of.mass_kg, law.of_mass);
 }
 
+/// Height of the hips over the stature in adults of the reference height, over that of the unit body: 0.516 (ANSUR II
+/// 0.513 in men, 0.519 in women; de Leva 0.514). Taller adults have longer legs for their height.
+constexpr double adult_leg = 0.516 / fraction::hip_height, leg_power = 0.16;
+double leg_scale_m(const AdultLengths& of, double height_m) {
+  return adult_leg * height_m * exact::pow(height_m / of.height_m, leg_power);
+}
+
 /// Lengths of a person, m.
 struct Lengths {
   double leg_scale, shoulders, upper_arm, forearm, neck_and_head;
@@ -77,7 +86,8 @@ Lengths adult_lengths(const AdultLengths& of, const BodyRequest& request) {
   const double mass = request.mass_kg;
   const double height = static_cast<double>(request.height_m) + lost_height_m(request.sex, request.age_y);
   const auto length = [&](const PowerLaw& law) { return length_m(law, of, height, mass); };
-  return {height, length(of.shoulders), length(of.upper_arm), length(of.forearm), length(of.neck_and_head)};
+  return {leg_scale_m(of, height), length(of.shoulders), length(of.upper_arm), length(of.forearm),
+          length(of.neck_and_head)};
 }
 
 /// A child's lengths vary about those of the median child of that age as an adult's do about the reference.
@@ -94,34 +104,46 @@ Lengths child_lengths(const AdultLengths& of, const ChildFactors& factors, const
     return factor * length_m(law, of, then_m / now_m * height, then_kg / now_kg * static_cast<double>(request.mass_kg));
   };
   const double size = now_m / then_m, arm = size * at_age(arms, age);
-  return {at_age(factors.leg, age) * height, length(of.shoulders, size * at_age(factors.shoulders, age)),
+  return {adult_leg * at_age(factors.leg, age) * height, length(of.shoulders, size * at_age(factors.shoulders, age)),
           length(of.upper_arm, arm), length(of.forearm, arm), length(of.neck_and_head, at_age(heads, age))};
 }
 
 }  // namespace
 
-BodySize<float> make_size(const BodyRequest& request, float extra_fat) {
+BodySize<float> make_size(const BodyRequest& request, float fat_share) {
   const bool is_man = request.sex == Sex::man;
-  if (is_man && request.age_y == usual_age_y) {
-    const float h = request.height_m;
-    return {h, request.mass_kg, extra_fat, h, h, h, h, h};
-  }
   const AdultLengths& of = is_man ? lengths_of_men : lengths_of_women;
-  const Lengths is = static_cast<double>(request.age_y) < adult_age_y
-                         ? child_lengths(of, is_man ? factors_of_boys : factors_of_girls, request)
-                         : adult_lengths(of, request);
+  const auto age = static_cast<double>(half_years(request.age_y));
+  const Lengths is = age < adult_age_y ? child_lengths(of, is_man ? factors_of_boys : factors_of_girls, request)
+                                       : adult_lengths(of, request);
+  const GroupMasses masses = group_masses(request, static_cast<double>(fat_share));
+  const auto mass = [&](MassGroup group) { return static_cast<float>(masses[static_cast<std::size_t>(group)]); };
   // Neck and head, which begin in the middle of C7, leave the rest to the trunk.
   constexpr double c7 = column_height(Segment::C7), neck = 0.5 * (c7 + column_height(Segment::C6));
   const double head = is.neck_and_head / (1 - neck), hips = fraction::hip_height * is.leg_scale;
-  const double trunk = (static_cast<double>(request.height_m) - hips - (1 - c7) * head) / (c7 - fraction::hip_height);
-  return {request.height_m,
-          request.mass_kg,
-          extra_fat,
-          static_cast<float>(is.leg_scale),
-          static_cast<float>(trunk),
-          static_cast<float>(is.shoulders / (2 * fraction::shoulder_half_spacing)),
-          static_cast<float>(is.upper_arm / fraction::upper_arm),
-          static_cast<float>(is.forearm / fraction::forearm)};
+  BodySize<float> size{};
+  size.height_m = request.height_m;
+  size.mass_kg = request.mass_kg;
+  size.fat_share = fat_share;
+  size.leg_scale_m = static_cast<float>(is.leg_scale);
+  size.trunk_scale_m = static_cast<float>((static_cast<double>(request.height_m) - hips - (1 - c7) * head) /
+                                          (c7 - fraction::hip_height));
+  size.shoulders_scale_m = static_cast<float>(is.shoulders / (2 * fraction::shoulder_half_spacing));
+  size.arm_scale_m = static_cast<float>((is.upper_arm + is.forearm) / (fraction::upper_arm + fraction::forearm));
+  size.head_mass = mass(MassGroup::head);
+  size.upper_trunk_mass = mass(MassGroup::upper_trunk);
+  size.middle_trunk_mass = mass(MassGroup::middle_trunk);
+  size.upper_arm_mass = mass(MassGroup::upper_arm);
+  size.forearm_mass = mass(MassGroup::forearm);
+  size.thigh_mass = mass(MassGroup::thigh);
+  size.shank_mass = mass(MassGroup::shank);
+  size.foot_mass = mass(MassGroup::foot);
+  size.woman = is_man ? 0.0F : 1.0F;
+  size.child = static_cast<float>(std::clamp((16 - age) / 9, 0.0, 1.0));
+  // Curvature of the thoracic column grows by 20° from 50 to 100 years in women; half of that in men is assumed.
+  constexpr double per_year_rad = 0.4 * std::numbers::pi / 180;
+  size.stoop_rad = static_cast<float>((is_man ? 0.5 : 1.0) * per_year_rad * std::max(age - 50, 0.0));
+  return size;
 }
 
 }  // namespace mobil::inline v0_3

@@ -10,7 +10,7 @@ using namespace geometry;
 Vec3<double> segment_inertia_kg_m2(const Body& body, Segment segment) {
   const std::size_t s = index(segment);
   const auto thick = static_cast<double>(group_scales(body.size)[static_cast<std::size_t>(segment_groups[s].z)]);
-  return (static_cast<double>(body.mass_kg[s]) / unit_body.mass_fraction[s] * thick * thick) * unit_inertia[s];
+  return (static_cast<double>(body.mass_kg[s]) * thick * thick) * unit_inertia[s];
 }
 
 Vec3<double> joint_centre_m(const Body& body, Segment segment) {

@@ -121,7 +121,7 @@ std::string sole_elements(std::string_view name, const Eigen::Vector3d& from, co
 
 std::string foot_elements(const Body& body, Segment segment) {
   const Segment right = right_of(segment);
-  const double radius = fraction::toe_joint_height * static_cast<double>(body.request.height_m);
+  const double radius = fraction::toe_joint_height * static_cast<double>(body.size.leg_scale_m);
   const std::string name = fmt::format("sole_{}", segment_name[index(segment)]);
   if (right == Segment::foot_right)
     return sole_elements(name, widened(body.heel_m) + Eigen::Vector3d(0, 0, radius), widened(body.ball_m), radius);

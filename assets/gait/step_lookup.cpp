@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -84,7 +85,7 @@ double usual_step_length(float at) {
   return usual_step(at).step_length * std::sqrt(beyond);
 }
 
-TabledStep tabled_step(float at, float step_length) {
+TabledStep tabled_step(float at, float step_length, const StepMix& mix) {
   const Blend b = speed_blend(at);
   TabledStep out{usual_of(b), {}};
   constexpr auto least = static_cast<float>(table::length.front()), most = static_cast<float>(table::length.back());
@@ -93,10 +94,17 @@ TabledStep tabled_step(float at, float step_length) {
   while (l + 2 < table::length_count && times > static_cast<float>(table::length[l + 1])) ++l;
   const auto low = static_cast<float>(table::length[l]), high = static_cast<float>(table::length[l + 1]);
   const float part = (times - low) / (high - low);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const float shorter = b.walks * b.weight[k] * (1 - part), longer = b.walks * b.weight[k] * part;
-    const TabledShape &x = step_shapes[b.node[k]][l], &y = step_shapes[b.node[k]][l + 1];
-    for (std::size_t i = 0; i < step_shape::size; ++i) out.shape[i] += shorter * x[i] + longer * y[i];
+  const float grown = 1 - mix.child;
+  const std::pair<StepKind, float> kinds[] = {
+      {StepKind::man, grown * (1 - mix.woman)}, {StepKind::woman, grown * mix.woman}, {StepKind::child, mix.child}};
+  for (const auto& [kind, kind_part] : kinds) {
+    if (kind_part == 0) continue;
+    const StepShapes& shapes = step_shapes(kind);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const float weight = kind_part * b.walks * b.weight[k], shorter = weight * (1 - part), longer = weight * part;
+      const TabledShape &x = shapes[b.node[k]][l], &y = shapes[b.node[k]][l + 1];
+      for (std::size_t i = 0; i < step_shape::size; ++i) out.shape[i] += shorter * x[i] + longer * y[i];
+    }
   }
   return out;
 }

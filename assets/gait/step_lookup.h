@@ -16,7 +16,11 @@ struct TabledStep {
 /// Returns the step at `speed` over √(g · leg), the leg from hip to ground, and step `length` over the leg. Between
 /// nodes it is a Catmull–Rom cubic in speed and linear in step length over the usual one. Below the slowest node it is
 /// linear to standing at 0; beyond the fastest, and beyond the table's step lengths, it stays at their ends.
-TabledStep tabled_step(float speed, float length);
+/// A mix blends the table of men with those of women and of children, with these weights.
+struct StepMix {
+  float woman = 0, child = 0;
+};
+TabledStep tabled_step(float speed, float length, const StepMix& mix = {});
 
 /// Adds to a shape the changes by a walk's posture at that speed: the given units of each effect of step_styles.h,
 /// linear between nodes.

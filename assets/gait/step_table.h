@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include <mobil/components/step_shape.h>
 
@@ -25,7 +26,17 @@ struct StepGiven {
 /// A shape with the lengths of a body of height 1 m.
 using TabledShape = std::array<float, step_shape::size>;
 
+/// Bodies for which steps are fitted: the typical man and woman of 25 years, and child of 7 years.
+enum class StepKind : std::uint8_t { man, woman, child };
+inline constexpr std::size_t step_kinds = 3;
+
+/// Shapes by speed and step length.
+using StepShapes = std::array<std::array<TabledShape, step_table::length_count>, step_table::speed_count>;
+
 extern const std::array<StepGiven, step_table::speed_count> step_given;
-extern const std::array<std::array<TabledShape, step_table::length_count>, step_table::speed_count> step_shapes;
+extern const StepShapes step_shapes_man, step_shapes_woman, step_shapes_child;
+inline const StepShapes& step_shapes(StepKind kind) {
+  return kind == StepKind::woman ? step_shapes_woman : kind == StepKind::child ? step_shapes_child : step_shapes_man;
+}
 
 }  // namespace mobil::inline v0_3

@@ -49,7 +49,6 @@ GaitStyle usual_style(const BodyRequest& body) {
   style.arm_back_deg *= arms;
   style.arm_forward_deg *= arms;
   style.trunk_lean_deg += static_cast<float>(old);
-  style.toe_off_knee_deg -= static_cast<float>(2 * old);
   return style;
 }
 

@@ -80,9 +80,9 @@ std::span<const LegSection> fibula_sections() {
 LegFrame leg_frame(const Body& body) {
   const Vec pelvis = to_double(body.joint_offset_m[index(Segment::pelvis)]);
   const Vec hip = pelvis + to_double(body.joint_offset_m[index(Segment::thigh_right)]);
-  const auto height = static_cast<double>(body.request.height_m), thigh = static_cast<double>(body.thigh_length_m);
-  const double above = has_own_limbs(body.request) ? fraction::thigh * height : thigh;
-  return {hip, thigh, static_cast<double>(body.shank_length_m), above, height / reference_height_mm};
+  const auto size = static_cast<double>(body.size.leg_scale_m), thigh = static_cast<double>(body.thigh_length_m);
+  const double above = has_own_limbs(body.request) ? fraction::thigh * size : thigh;
+  return {hip, thigh, static_cast<double>(body.shank_length_m), above, size / reference_height_mm};
 }
 
 Vec3<double> leg_point(const LegFrame& leg, double level, double lateral_mm, double anterior_mm) {

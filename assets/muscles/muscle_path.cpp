@@ -84,9 +84,9 @@ LegScale<double> leg_scale(double thigh_m, double shank_m) {
 
 LegScale<double> leg_scale(const Body& body) {
   auto scale = leg_scale(static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m));
-  // With custom limb lengths, bones keep the thickness that follows from the height, and pelvis and feet their size.
+  // With custom limb lengths, bones keep the thickness that follows from the usual leg, and pelvis and feet their size.
   if (has_own_limbs(body.request)) {
-    const double usual_m = (fraction::thigh + fraction::shank) * static_cast<double>(body.request.height_m);
+    const double usual_m = (fraction::thigh + fraction::shank) * static_cast<double>(body.size.leg_scale_m);
     scale.across = usual_m / published_leg::leg_m;
   }
   return scale;

@@ -103,21 +103,20 @@ void extrapolate(Projected& fine, const Projected& coarse) {
 }
 
 /// Makes the modes (except for the first `lifts`) orthonormal in the mass, each a sum of itself and those before it.
-/// Keeps as many as possible.
+/// Leaves out those that the mesh cannot represent.
 void make_orthonormal(Projected& p, Columns& fields, Index lifts) {
   const Index all = fields.cols();
   MatrixXd turn = MatrixXd::Zero(all, all);  // upper triangular
   turn.topLeftCorner(lifts, lifts).setIdentity();
   Index kept = lifts;
-  for (; kept < all; ++kept) {
-    Eigen::VectorXd v = Eigen::VectorXd::Unit(all, kept);
+  for (Index from = lifts; from < all; ++from) {
+    Eigen::VectorXd v = Eigen::VectorXd::Unit(all, from);
     for (int round = 0; round < 2; ++round) {
       const Eigen::VectorXd pull = product(p.mass, v);
       for (Index c = lifts; c < kept; ++c) v -= turn.col(c).dot(pull) * turn.col(c);
     }
     const double square = v.dot(product(p.mass, v));
-    if (!(square > 0.01 * p.mass(kept, kept))) break;  // the coarse mesh cannot represent this one
-    turn.col(kept) = v / std::sqrt(square);
+    if (square > 0.01 * p.mass(from, from)) turn.col(kept++) = v / std::sqrt(square);
   }
   const MatrixXd used = turn.leftCols(kept), across = transposed(used);
   for (MatrixXd* const m : {&p.mass, &p.a, &p.b, &p.c, &p.foundation, &p.tension}) {

@@ -1,5 +1,6 @@
 #include <mobil/assets/surfaces/body_form.h>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <vector>
@@ -19,8 +20,9 @@ constexpr double middle_m = -0.02, neck_middle_m = -0.05;
 using namespace geometry;
 
 BodyForm::BodyForm(const Body& body, const TrunkFit& fit, bool shod)
-    : size_(static_cast<double>(body.request.height_m) / 1.75),
+    : scale_(form_scale(body)),
       sex_(body.request.sex),
+      soft_(sex_ == Sex::woman ? 1 : scale_.young),
       trunk_(body, body_measures(body.request), fit),
       leg_(body, body_measures(body.request), shod, fit.thighs),
       arm_(body, body_measures(body.request)) {}
@@ -34,26 +36,31 @@ Vec BodyForm::turned(const Vec& p, const Vec& about, double angle) {
 BodyForm::Parts BodyForm::parts(const Vec& p) const {
   const Vec q{-std::abs(p.x), p.y, p.z};
   Parts parts{far_m, far_m, far_m, far_m};
-  if (p.y > 0.78 * size_ && q.x > -trunk_.reach()) parts.trunk = trunk_.distance(p);
-  if (p.y > lowest_head * size_) parts.head = size_ * head_distance((1 / size_) * p, sex_);
-  if (p.y < 1.12 * size_) parts.leg = leg_.distance(in_leg(q));
-  if (q.x < -0.08 * size_ && p.y > 0.70 * size_) parts.arm = arm_.distance(in_arm(q));
+  if (p.y > scale_.height(0.78) && q.x > -trunk_.reach()) parts.trunk = trunk_.distance(p);
+  parts.head = head(p);
+  if (p.y < scale_.height(1.12)) parts.leg = leg_.distance(in_leg(q));
+  if (q.x < -0.08 * scale_.size && p.y > scale_.height(0.70)) parts.arm = arm_.distance(in_arm(q));
   return parts;
 }
 
-double BodyForm::united(const Parts& part) {
-  double d = smooth_union(part.trunk, part.head, head_blend_m);
-  d = smooth_union(d, part.leg, leg_blend_m);
-  return smooth_union(d, part.arm, arm_blend_m);
+double BodyForm::head(const Vec& p) const {
+  if (p.y <= scale_.height(lowest_head)) return far_m;
+  return std::min(scale_.head, scale_.head_wide) * head_distance(scale_.in_head(p), soft_);
+}
+
+double BodyForm::united(const Parts& part) const {
+  double d = smooth_union(part.trunk, part.head, scale_.unit * head_blend_m);
+  d = smooth_union(d, part.leg, scale_.unit * leg_blend_m);
+  return smooth_union(d, part.arm, scale_.unit * arm_blend_m);
 }
 
 double BodyForm::rest_distance(const Vec& p) const {
-  return smooth_union(armless_distance(p), arm_.distance({-std::abs(p.x), p.y, p.z}), arm_blend_m);
+  return smooth_union(armless_distance(p), arm_.distance({-std::abs(p.x), p.y, p.z}), scale_.unit * arm_blend_m);
 }
 
 double BodyForm::armless_distance(const Vec& p) const {
   Parts part{trunk_.distance(p), leg_.distance({-std::abs(p.x), p.y, p.z}), far_m, far_m};
-  if (p.y > lowest_head * size_) part.head = size_ * head_distance((1 / size_) * p, sex_);
+  part.head = head(p);
   return united(part);
 }
 
@@ -70,7 +77,7 @@ double BodyForm::armless_radius(const Vec& from, const Vec& direction, double lo
 double BodyForm::girth(double y) const {
   constexpr int rays = 60;
   constexpr double longest_m = 0.6;
-  const Vec from{0, y, size_ * (y > 1.46 * size_ ? neck_middle_m : middle_m)};
+  const Vec from{0, y, scale_.size * (y > scale_.height(1.46) ? neck_middle_m : middle_m)};
   // From the back round the right side to the front. A tape spans hollows, so points inside it are left out.
   std::vector<std::array<double, 2>> tape;
   for (int i = 0; i <= rays; ++i) {

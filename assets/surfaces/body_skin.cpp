@@ -8,7 +8,11 @@
 #include <utility>
 
 #include <mobil/anthropometry.h>
+#include <mobil/body_composition.h>
 #include <mobil/engine/interrupt.h>
+#include "assets/body/body_scales.h"
+#include "assets/body/growth.h"
+#include "assets/surfaces/carried_skin.h"
 #include "assets/surfaces/coarser_surface.h"
 #include "assets/surfaces/form_mesh.h"
 #include "assets/surfaces/surface_mesh.h"
@@ -154,15 +158,15 @@ void fit_girths(const Body& body, double over, TrunkFit& fit) {
   const std::array<Place, 3> places = {{{1.057, m.waist_girth, &TrunkFit::waist},
                                         {1.287, m.chest_girth, &TrunkFit::chest},
                                         {1.515, m.neck_girth, &TrunkFit::neck}}};
-  constexpr int rounds = 4;
+  constexpr int rounds = 8;
   for (int round = 0; round < rounds; ++round) {
     const BodyForm form(body, fit);
     const auto fitted = [over](double now, double girth, double wanted) {
       return std::clamp(now * over * wanted / girth, min_fit, max_fit);
     };
-    for (const auto& [y_m, girth, by] : places) fit.*by = fitted(fit.*by, form.girth(y_m * form.size()), girth);
+    for (const auto& [y_m, girth, by] : places) fit.*by = fitted(fit.*by, form.girth(form.scale().height(y_m)), girth);
     double hips = 0;  // at their widest
-    for (const double y_m : {0.885, 0.905, 0.925}) hips = std::max(hips, form.girth(y_m * form.size()));
+    for (const double y_m : {0.885, 0.905, 0.925}) hips = std::max(hips, form.girth(form.scale().height(y_m)));
     fit.hips = fitted(fit.hips, hips, m.buttock_girth);
     if (fit.hips <= min_fit) fit.thighs = std::clamp(fit.thighs * over * m.buttock_girth / hips, min_thighs, 1.0);
   }
@@ -171,15 +175,17 @@ void fit_girths(const Body& body, double over, TrunkFit& fit) {
 /// Returns the shared surface on the form of another body, by way of bodies between the two.
 std::vector<Vec> drawn_onto(const SkinMesh& mesh, const Body& body, const TrunkFit& fit, bool shod) {
   constexpr int stages = 4;
-  std::vector<Vec> place = mesh.place;
+  std::vector<Vec> place = carried_skin(mesh, body.request.sex, body);
   const double size = static_cast<double>(body.request.height_m / skin_body(Sex::man).height_m);
-  for (Vec& p : place) p = size * p;
-  const auto usual_kg = static_cast<double>(skin_body(Sex::man).mass_kg) * size * size;
+  // Adults' girths grow less than their heights, children's about as much.
+  const auto usual_kg = static_cast<double>(skin_body(Sex::man).mass_kg) * size * size *
+                        std::lerp(1.0, size, child_part(static_cast<double>(body.request.age_y)));
   for (int stage = 1; stage <= stages; ++stage) {
     const double share = static_cast<double>(stage) / stages;
-    BodyRequest between = body.request;
-    between.mass_kg = static_cast<float>(usual_kg + share * (static_cast<double>(body.request.mass_kg) - usual_kg));
-    const BodyForm form(stage == stages ? body : *make_body(between), part_of(fit, share), shod);
+    Body between = body;
+    between.request.mass_kg =
+        static_cast<float>(usual_kg + share * (static_cast<double>(body.request.mass_kg) - usual_kg));
+    const BodyForm form(stage == stages ? body : between, part_of(fit, share), shod);
     for (Vec& p : place) p = onto_surface(form, p, stage == stages ? 2 : 1);
   }
   return place;
@@ -212,13 +218,18 @@ double density(const Body& body) {
 
 /// Returns the air in the lungs at rest, m³ (functional residual capacity, 18 to 70 years; Quanjer et al. 1993). Above
 /// the usual index it falls by 2.9 % for each kg/m² up to 30 (Jones & Nzekwu 2006: three quarters of that at 20).
+/// Children's grow with the cube of height, our assumption.
 double lung_volume(const Body& body) {
   constexpr double usual_index = 24, last_index = 30, by_index = 0.0288;
   const auto height = static_cast<double>(body.request.height_m),
              index = static_cast<double>(body.composition.body_mass_index),
              age = static_cast<double>(std::clamp(body.request.age_y, 18.0F, 70.0F));
-  const double litres = body.request.sex == Sex::woman ? 2.24 * height + 0.001 * age - 1.00  //
-                                                       : 2.34 * height + 0.01 * age - 1.09;
+  const auto litres_at = [&](double tall) {
+    return body.request.sex == Sex::woman ? 2.24 * tall + 0.001 * age - 1.00 : 2.34 * tall + 0.01 * age - 1.09;
+  };
+  constexpr double grown = 1.75;
+  const double litres = std::lerp(litres_at(height), litres_at(grown) * std::pow(height / grown, 3),
+                                  child_part(static_cast<double>(body.request.age_y)));
   return 1e-3 * litres * std::exp(-by_index * (std::clamp(index, usual_index, last_index) - usual_index));
 }
 
@@ -232,14 +243,28 @@ double enclosed_volume(const std::vector<std::uint32_t>& triangle, const std::ve
 }
 
 SkinBuild skin_build(const BodyRequest& body, float index_step) {
-  constexpr float min_index = 13.5F, max_index = 64.5F, max_kg = 200;
-  const float index = body.mass_kg / (body.height_m * body.height_m);
-  const int step = static_cast<int>(std::clamp(std::round(index / index_step), std::ceil(min_index / index_step),
-                                               std::floor(max_index / index_step)));
-  const float tall = skin_body(body.sex).height_m;
-  BodyRequest usual{.height_m = tall, .mass_kg = std::min(index_step * static_cast<float>(step) * tall * tall, max_kg)};
-  usual.sex = body.sex;
-  return {step, usual};
+  constexpr float min_index = 13.5F, max_index = 64.5F, first_adult_y = 17, child_step_y = 2, adult_step_y = 15,
+                  oldest_y = 85;
+  const float age = body.age_y < first_adult_y
+                        ? child_step_y * std::round(body.age_y / child_step_y)
+                        : std::clamp(usual_age_y + adult_step_y * std::round((body.age_y - usual_age_y) / adult_step_y),
+                                     usual_age_y, oldest_y);
+  const auto age_y = static_cast<int>(age);
+  const auto tall = static_cast<double>(build_body(body.sex, age_y, min_index).height_m);
+  const float heaviest = std::min(max_index, static_cast<float>(living_mass_kg(tall, age).high_kg / (tall * tall))),
+              index = body.mass_kg / (body.height_m * body.height_m);
+  const int step = static_cast<int>(
+      std::clamp(std::round(index / index_step), std::ceil(min_index / index_step), std::floor(heaviest / index_step)));
+  return {age_y, step, build_body(body.sex, age_y, index_step * static_cast<float>(step))};
+}
+
+BodyRequest build_body(Sex sex, int age_y, float body_mass_index) {
+  BodyRequest body = skin_body(sex);
+  body.age_y = static_cast<float>(age_y);
+  if (static_cast<double>(body.age_y) < adult_age_y)
+    body.height_m = static_cast<float>(growth(sex, body.age_y).height_m.median);
+  body.mass_kg = body_mass_index * body.height_m * body.height_m;
+  return body;
 }
 
 const SkinMesh& skin_mesh(Sex sex, SkinDetail detail) {
@@ -263,7 +288,7 @@ TrunkFit fit_trunk(const Body& body) {
   };
   // Means of a survey do not describe one body, so girths and volume can each be slightly off. The places between those
   // where girths are measured take up the rest. Volume is nearly linear in such small changes.
-  constexpr double may = 0.015, trial = 1.05;
+  constexpr double may = 0.012, trial = 1.05;  // the mesh adds 0.7 %
   TrunkFit fit;
   const double usual = volume(1, fit), sense = wanted > usual ? 1 : -1, need = sense * (wanted - usual);
   const double over = 1 + sense * may, gain = sense * (volume(over, fit) - usual);

@@ -13,21 +13,16 @@ namespace mobil::inline v0_3::bones {
 
 using namespace geometry;
 
-Proportions proportions(const Body& body) {
+Proportions proportions() {
+  constexpr double mm = reference_height_mm, thigh = mm * fraction::thigh, shank = mm * fraction::shank;
   Proportions p{};
-  const double mm = reference_height_mm / static_cast<double>(body.request.height_m);
   for (std::size_t s = 0; s < segment_count; ++s) {
-    p.joint[s] = mm * to_double(body.joint_offset_m[s]);
-    p.tip[s] = mm * to_double(body.tip_m[s]);
+    p.joint[s] = mm * unit_body.joint_offset[s];
+    p.tip[s] = mm * unit_body.tip[s];
     const std::size_t parent = index(segment_parent[s]);
     p.world[s] = s == parent ? p.joint[s] : p.world[parent] + p.joint[s];
   }
-  p.leg = leg_frame(body);
-  p.leg.hip = {0, 0, 0};
-  p.leg.thigh_length *= mm;
-  p.leg.above *= mm;
-  p.leg.shank_length *= mm;
-  p.leg.unit = 1;
+  p.leg = {{0, 0, 0}, thigh, shank, thigh, 1};
   return p;
 }
 

@@ -17,7 +17,8 @@ struct Proportions {
   std::array<Vec3<double>, segment_count> world;       // origin in the world, standing on legs in proportion
   LegFrame leg;                                        // hip at the origin, unit 1
 };
-Proportions proportions(const Body& body);
+/// Returns the unit body at reference_height_mm.
+Proportions proportions();
 
 inline constexpr Vec3<double> forward{0, 0, 1}, up{0, 1, 0}, down{0, -1, 0}, across{1, 0, 0};
 

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include <mobil/anthropometry.h>
+#include <mobil/assets/surfaces/form_scale.h>
 #include <mobil/engine/geometry.h>
+#include "assets/body/body_scales.h"
 #include "assets/surfaces/bone_shapes.h"
 #include "assets/surfaces/bone_surfaces_arm.h"
 #include "assets/surfaces/bone_surfaces_leg.h"
@@ -56,24 +58,36 @@ std::vector<BoneSurface> drawn_bones(const Proportions& p) {
 }  // namespace
 
 const std::vector<BoneSurface>& usual_bones() {
-  static const std::vector<BoneSurface> bones = drawn_bones(bones::proportions(*make_body({})));
+  static const std::vector<BoneSurface> bones = drawn_bones(bones::proportions());
   return bones;
 }
 
-double bone_stretch(const Body& body, Segment segment) {
-  static const Body usual = *make_body({});
-  const auto share = [&](const Body& b) {
-    return static_cast<double>(value_of(limb_lengths(b), segment, b.request.height_m) / b.request.height_m);
-  };
-  return share(body) / share(usual);
+Vec3<double> bone_scale(const Body& body, Segment segment) {
+  const auto scales = group_scales(body.size);
+  AxisGroups groups = segment_groups[index(segment)];
+  if (segment == Segment::pelvis) groups = {LengthGroup::hips, LengthGroup::leg, LengthGroup::leg};
+  if (segment >= Segment::T12 && segment <= Segment::T1) groups.x = LengthGroup::shoulders;
+  const Vec size = scaled({1, 1, 1}, scales, groups);
+  Vec scale{size.x / reference_height_mm, size.y / reference_height_mm, size.z / reference_height_mm};
+  if (segment >= Segment::C7 && segment <= Segment::head)
+    scale.x = scale.z = 1.75 / reference_height_mm * form::form_scale(body).head_wide;
+  if (has_own_limbs(body.request)) {
+    BodyRequest usual = body.request;
+    usual.limbs = {};
+    const auto length = [&](const Body& b) { return static_cast<double>(value_of(limb_lengths(b), segment, 1)); };
+    scale.y *= length(body) / length(*make_body(usual));
+  }
+  return scale;
 }
 
 std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
   std::vector<BoneSurface> all = usual_bones();
   for (BoneSurface& bone : all) {
-    scale(bone.mesh, static_cast<double>(body.request.height_m) / reference_height_mm);
-    const auto stretch = static_cast<float>(bone_stretch(body, bone.segment));
-    for (auto& p : bone.mesh.position) p.y *= stretch;
+    const Vec by = bone_scale(body, bone.segment);
+    for (auto& p : bone.mesh.position) {
+      const Vec at = to_double(p);
+      p = to_float(Vec{by.x * at.x, by.y * at.y, by.z * at.z});
+    }
   }
   return all;
 }

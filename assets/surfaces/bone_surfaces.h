@@ -10,10 +10,10 @@ namespace mobil::inline v0_3 {
 
 /// Returns the closed surfaces of each segment's bones, one a bone, in the order of `Segment`, each in its segment's
 /// frame, m, wound outwards. The left ones mirror the right ones. Joints are the body's, the shapes between them scale
-/// with stature. Ribs are fixed to their vertebrae, the sternum to T4, the scapula to the clavicle, the fibula to the
-/// shank. Names of pairs end in _right and _left. Proportions of the pelvis and the leg are measured (see
-/// leg_sections.h), the others are drawn after anatomical plates. Bodies with usual proportions share shapes, which
-/// take a second at first use.
+/// with their segment (`bone_scale`). Ribs are fixed to their vertebrae, the sternum to T4, the scapula to the
+/// clavicle, the fibula to the shank. Names of pairs end in _right and _left. Proportions of the pelvis and the leg are
+/// measured (see leg_sections.h), the others are drawn after anatomical plates. Bodies with usual proportions share
+/// shapes, which take a second at first use.
 std::vector<BoneSurface> make_bone_surfaces(const Body& body);
 
 /// Returns the surfaces of a body in usual proportions, in mm of a man of reference_height_mm. The first call takes a
@@ -28,7 +28,9 @@ constexpr float value_of(const LimbLengths<float>& limbs, Segment segment, float
   if (segment == forearm_right || segment == forearm_left) return limbs.forearm_m;
   return otherwise;
 }
-/// Returns the factor on a segment's length along its axis, relative to usual proportions.
-double bone_stretch(const Body& body, Segment segment);
+/// Returns the scale of a segment's bones along the axes of its frame, m per mm of that man. It is the segment's own.
+/// Ribs are as broad as the shoulders, skull and neck as the skin's head. The pelvis has the legs' scale, and is
+/// as broad as the distance of the hips.
+Vec3<double> bone_scale(const Body& body, Segment segment);
 
 }  // namespace mobil::inline v0_3

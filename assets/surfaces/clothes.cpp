@@ -22,9 +22,9 @@ Where where(const BodyForm& form, const Vec& p) {
   const double size = form.size();
   const Vec right{-std::abs(p.x), p.y, p.z}, arm = form.in_arm(right);
   Where at{};
-  at.p = (1 / size) * Vec{-right.x, p.y, p.z};
+  at.p = form.scale().usual({-right.x, p.y, p.z});
   const bool on_arm = right.x < -0.17 * size && std::abs(arm.x - form.arm().shoulder().x) < 0.11 * size;
-  at.down_arm = on_arm ? (form.arm().shoulder().y - arm.y) / size : -1;
+  at.down_arm = on_arm ? (form.arm().shoulder().y - arm.y) / form.scale().arm : -1;
   at.sex = form.sex();
   at.down_leg = form.leg().s(form.in_leg(right).y);
   return at;

@@ -33,10 +33,10 @@ const LegBones::Shapes& LegBones::shapes() {
   return all;
 }
 
-LegBones::LegBones(const Body& body) : m_per_mm_(static_cast<double>(body.request.height_m) / reference_height_mm) {
+LegBones::LegBones(const Body& body) {
   const Pose<float> standing = standing_pose(body);
   for (std::size_t s = 0; s < segment_count; ++s)
-    place_.push_back({to_double(standing.position_m[s]), bone_stretch(body, static_cast<Segment>(s))});
+    place_.push_back({to_double(standing.position_m[s]), bone_scale(body, static_cast<Segment>(s))});
 }
 
 const LegBones::Shape& LegBones::shape(Segment segment) {
@@ -45,12 +45,12 @@ const LegBones::Shape& LegBones::shape(Segment segment) {
 
 Vec LegBones::in_shape(Segment segment, const Vec& at) const {
   const Place& own = place_[index(segment)];
-  const Vec from = (1 / m_per_mm_) * (at - own.joint_m);
-  return {from.x, from.y / own.stretch, from.z};
+  const Vec from = at - own.joint_m, &by = own.m_per_mm;
+  return {(1 / by.x) * from.x, (1 / by.y) * from.y, (1 / by.z) * from.z};
 }
 
 double LegBones::distance(Segment segment, const Vec& at) const {
-  return m_per_mm_ * mobil::distance(shape(segment).field, in_shape(segment, at));
+  return m_per_mm(segment).x * mobil::distance(shape(segment).field, in_shape(segment, at));
 }
 
 Vec LegBones::outward(Segment segment, const Vec& at) const {
@@ -62,13 +62,13 @@ Vec LegBones::outward(Segment segment, const Vec& at) const {
 Vec LegBones::nearest(Segment segment, const Vec& to) const {
   const Place& own = place_[index(segment)];
   const Vec at = nearest_point(shape(segment).mesh, in_shape(segment, to));
-  return own.joint_m + m_per_mm_ * Vec{at.x, own.stretch * at.y, at.z};
+  return own.joint_m + Vec{own.m_per_mm.x * at.x, own.m_per_mm.y * at.y, own.m_per_mm.z * at.z};
 }
 
 bool LegBones::can_touch(Segment segment, const Vec& centre, double radius) const {
   const DistanceField& field = shape(segment).field;
   const Vec at = in_shape(segment, centre), corner = field.corner;
-  const double reach = radius / m_per_mm_ - field.band;  // the field is wider than the bone by its band
+  const double reach = radius / m_per_mm(segment).x - field.band;  // the field is wider than the bone by its band
   const auto is_near = [&](double p, double low, int count) {
     return p > low - reach && p < low + field.cell * count + reach;
   };

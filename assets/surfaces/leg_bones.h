@@ -30,9 +30,8 @@ class LegBones {
   /// Returns the distances from a segment's bones, mm in a man of reference_height_mm, in the segment's frame. The
   /// segment is one of these bones', L3 or the toes.
   static const DistanceField& field(Segment segment) { return shape(segment).field; }
-  double m_per_mm() const { return m_per_mm_; }
-  /// Returns the factor on a segment's length along its axis, relative to usual proportions.
-  double stretch(Segment segment) const { return place_[index(segment)].stretch; }
+  /// Returns a segment's `bone_scale`.
+  const Vec3<double>& m_per_mm(Segment segment) const { return place_[index(segment)].m_per_mm; }
 
  private:
   struct Shape {
@@ -45,11 +44,9 @@ class LegBones {
   static const Shape& shape(Segment segment);
 
   struct Place {
-    Vec3<double> joint_m;
-    double stretch;
+    Vec3<double> joint_m, m_per_mm;
   };
   std::vector<Place> place_;  // of every segment
-  double m_per_mm_;
 };
 
 }  // namespace mobil::inline v0_3

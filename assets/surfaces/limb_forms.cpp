@@ -1,5 +1,6 @@
 #include <mobil/assets/surfaces/limb_forms.h>
 
+#include <algorithm>
 #include <array>
 
 #include <mobil/anthropometry.h>
@@ -17,16 +18,17 @@ Vec joint(const Body& body, Segment segment) {
 }  // namespace
 
 LegForm::LegForm(const Body& body, const BodyMeasures& m, bool shod, double hip_part)
-    : hip_(joint(body, Segment::thigh_right)),
+    : unit_(form_scale(body).unit),
+      hip_(joint(body, Segment::thigh_right)),
       knee_y_(joint(body, Segment::shank_right).y),
       shank_m_(knee_y_ - joint(body, Segment::foot_right).y),
-      dome_m_(0.150 * static_cast<double>(body.request.height_m) / 1.75),
-      long_(m.foot_length / 0.2686),
-      wide_(m.foot_breadth / 0.1001),
+      dome_m_(0.150 * static_cast<double>(body.size.leg_scale_m) / 1.75),
+      long_(m.foot_length / 0.2686 / unit_),
+      wide_(m.foot_breadth / 0.1001 / unit_),
       profile_(m),
       shod_(shod),
       hip_part_(hip_part) {
-  const double high = joint(body, Segment::foot_right).y / (0.039 * 1.75);
+  const double high = joint(body, Segment::foot_right).y / (0.039 * 1.75) / unit_;
   // From the heel to the ball: forward from the ankle, half breadth, lowest and highest point, inward; mm.
   constexpr std::array<std::array<double, 5>, 9> sections = {{{-46, 27, 2, 76, 0},
                                                               {-34, 31, 0, 86, 0},
@@ -83,7 +85,7 @@ double LegForm::distance(const Vec& p) const {
   } else if (top > 0) {
     d = from_line - r * std::sqrt(1 - top * top);
   }
-  constexpr double into_foot_m = 0.06;
+  const double into_foot_m = 0.06 * unit_;
   if (const double below = y(LegProfile::last_s) - p.y; below > 0) {
     // Except for the tendons to the heel and to the instep, which run straight.
     const double behind = smoothstep(0.6, 0.95, -std::cos(turn)), before = smoothstep(0.6, 0.95, std::cos(turn));
@@ -91,29 +93,34 @@ double LegForm::distance(const Vec& p) const {
     d = from_line - r * (1 - narrower * std::min(below / into_foot_m, 1.0));
     if (below > into_foot_m) d = std::hypot(std::max(d, 0.0), below - into_foot_m);
   }
-  if (p.y > 0.25) return d;
+  if (p.y > 0.25 * unit_) return d;
   // Ankle bones, the outer one lower and further back.
-  const double ankle = y(2);
-  d = smooth_union(d, ellipsoid(p, {hip_.x - 0.031 * wide_, ankle + 0.004, -0.010}, {0.011, 0.017, 0.014}), 0.018);
-  d = smooth_union(d, ellipsoid(p, {hip_.x + 0.030 * wide_, ankle + 0.013, 0.004}, {0.011, 0.017, 0.014}), 0.018);
-  return smooth_union(d, foot({x, p.y, p.z}), 0.022);
+  const Vec at = (1 / unit_) * p;  // in the foot's unit
+  const double ankle = y(2) / unit_, middle = hip_.x / unit_;
+  d /= unit_;
+  d = smooth_union(d, ellipsoid(at, {middle - 0.031 * wide_, ankle + 0.004, -0.010}, {0.011, 0.017, 0.014}), 0.018);
+  d = smooth_union(d, ellipsoid(at, {middle + 0.030 * wide_, ankle + 0.013, 0.004}, {0.011, 0.017, 0.014}), 0.018);
+  return unit_ * smooth_union(d, foot({x / unit_, at.y, at.z}), 0.022);
 }
 
-ArmForm::ArmForm(const Body& body, const BodyMeasures& m)
-    : shoulder_(joint(body, Segment::upper_arm_right)), wide_(m.hand_breadth / 0.0867) {
-  const double elbow = shoulder_.y - joint(body, Segment::forearm_right).y;
-  length_m_ = shoulder_.y - joint(body, Segment::hand_right).y;
-  hand_m_ = 0.108 * static_cast<double>(body.request.height_m);
+ArmForm::ArmForm(const Body& body, const BodyMeasures& own)
+    : unit_(form_scale(body).unit), shoulder_(joint(body, Segment::upper_arm_right)) {
+  const BodyMeasures m = scaled(own, 1 / unit_);
+  wide_ = m.hand_breadth / 0.0867;
+  const double elbow = (shoulder_.y - joint(body, Segment::forearm_right).y) / unit_;
+  length_m_ = (shoulder_.y - joint(body, Segment::hand_right).y) / unit_;
+  hand_m_ = 0.108 * static_cast<double>(body.size.arm_scale_m) / unit_;
   const double fore = length_m_ - elbow, biceps = m.biceps_girth / tau, forearm = m.forearm_girth / tau,
                wrist = m.wrist_girth / tau;
   const double deltoid = 1.10 * biceps;
   // Towards the trunk it is as wide as it is thick, outward it extends to the breadth of the shoulders.
-  const double inward = deltoid - 0.006, outward = 0.5 * m.shoulder_breadth + shoulder_.x - 0.004;
+  const double inward = deltoid - 0.006, outward = 0.5 * m.shoulder_breadth + shoulder_.x / unit_ - 0.004;
   const double across = 0.5 * (inward + outward), middle = 0.5 * (inward - outward);
+  const double slope = std::clamp(across / 0.065, 1.0, 1.18);  // broad shoulders fall off more gently
   ring_ = {{-0.022, 0.46 * across, 0.52 * deltoid, 0.006 + 0.5 * middle, 0},
            {-0.002, 0.84 * across, 0.90 * deltoid, 0.006 + middle, 0},
-           {0.032, 1.00 * across, 1.07 * deltoid, middle, 0},
-           {0.080, 0.98 * across, 1.03 * deltoid, middle, 0.001},
+           {0.032 * slope * slope, 1.00 * across, 1.07 * deltoid, middle, 0},
+           {0.080 * slope * slope, 0.98 * across, 1.03 * deltoid, middle, 0.001},
            {0.40 * elbow, 0.98 * biceps, 1.09 * biceps, -0.001, 0.003},
            {0.62 * elbow, 0.91 * biceps, 1.04 * biceps, 0, 0.005},
            {elbow - 0.045, 0.83 * biceps, 0.84 * biceps, 0, 0.002},
@@ -171,10 +178,10 @@ double ArmForm::hand(const Vec& q) const {
 }
 
 double ArmForm::distance(const Vec& p) const {
-  const double along = shoulder_.y - p.y;
-  const double d = tube(ring_, along, p.x - shoulder_.x, p.z - shoulder_.z);
-  if (along < length_m_ - 0.06) return d;
-  return smooth_union(d, hand({shoulder_.x - p.x, along - length_m_, p.z - shoulder_.z}), 0.015);
+  const Vec from = (1 / unit_) * (p - shoulder_);
+  const double along = -from.y, d = tube(ring_, along, from.x, from.z);
+  if (along < length_m_ - 0.06) return unit_ * d;
+  return unit_ * smooth_union(d, hand({-from.x, along - length_m_, from.z}), 0.015);
 }
 
 }  // namespace mobil::inline v0_3::form

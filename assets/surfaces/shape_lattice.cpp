@@ -89,7 +89,7 @@ const Body& reference_body() {
   return body;
 }
 
-/// Returns the surfaces' vertices, in the muscle's frame.
+/// Returns the surfaces' vertices in the muscle's frame, of a belly of the reference sizes.
 std::vector<Vec> outline(const MusclePlan& plan) {
   static const std::vector<GroupSurface> surfaces =
       make_muscle_surfaces(reference_body(), muscle_members(), MuscleRoom::alone);
@@ -98,7 +98,11 @@ std::vector<Vec> outline(const MusclePlan& plan) {
   for (const GroupSurface& s : surfaces) {
     const bool own = s.muscle == plan.muscle || s.group == plan.muscle;
     if (!own || !is_single_muscle(s.muscle)) continue;  // tendons and ligaments have no mesh
-    for (const auto& p : s.surface.mesh.position) points.push_back(rotated(into_frame, to_double(p) - plan.start_m));
+    for (const auto& p : s.surface.mesh.position) {
+      const Vec at = rotated(into_frame, to_double(p) - plan.start_m);
+      const auto across = static_cast<double>(plan.scale.across), along = static_cast<double>(plan.scale.along);
+      points.push_back({at.x / across, at.y / across, at.z / along});
+    }
   }
   return points;
 }
@@ -205,14 +209,15 @@ void fill(double volume_m3, double length_m, Stations& stations) {
 LatticeStations shape_lattice(Muscle muscle) {
   const MusclePlan plan = make_muscle_plan(reference_body(), muscle).value();
   const std::vector<Vec> points = outline(plan);
-  const double spacing = plan.belly_length_m / last_station;
+  const double belly_m = reference_belly_m(muscle), spacing = belly_m / last_station;
   Stations stations = follow(points, spacing);
   if (is_single_muscle(muscle)) {
-    straighten(plan.belly_length_m, stations);
-    fill(plan.volume_m3, plan.belly_length_m, stations);
+    straighten(belly_m, stations);
+    const auto across = static_cast<double>(plan.scale.across), along = static_cast<double>(plan.scale.along);
+    fill(plan.volume_m3 / (across * across * along), belly_m, stations);
   } else {
     surround(points, spacing, stations);
-    straighten(plan.belly_length_m, stations);
+    straighten(belly_m, stations);
   }
   return stations_of(stations);
 }

@@ -8,6 +8,7 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/engine/geometry.h>
+#include "assets/surfaces/carried_skin.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -184,12 +185,14 @@ Region region_of(const SkinMesh& mesh, const std::uint32_t* corner) {
 
 SkinAtlas make_atlas(Sex sex, SkinDetail detail) {
   const SkinMesh& mesh = skin_mesh(sex, detail);
-  const BodyForm form(*make_body(skin_body(sex)));
+  const Body man = *make_body(skin_body(Sex::man));
+  const BodyForm form(man);
+  const std::vector<Vec> places = sex == Sex::man ? mesh.place : carried_skin(mesh, sex, man);
   SkinAtlas atlas;
   std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;
   for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
     const std::uint32_t* const corner = &mesh.triangle[t];
-    const Vec &a = mesh.place[corner[0]], b = mesh.place[corner[1]], c = mesh.place[corner[2]];
+    const Vec &a = places[corner[0]], b = places[corner[1]], c = places[corner[2]];
     const Vec twice = cross(b - a, c - a), middle = (1.0 / 3) * (a + b + c);
     const Vec normal = length(twice) > 0 ? normalised(twice) : Vec{0, 1, 0};
     const SkinChart chart = chart_of(region_of(mesh, corner), middle, normal);

@@ -39,25 +39,27 @@ double exponent_of(double half, double deep, double length_m) {
 
 }  // namespace
 
-TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, const TrunkFit& fit)
-    : size_(static_cast<double>(body.request.height_m) / 1.75),
-      shoulder_(to_double(standing_pose(body).position_m[index(Segment::upper_arm_right)])),
-      woman_(body.request.sex == Sex::woman) {
+TrunkForm::TrunkForm(const Body& body, const BodyMeasures& own, const TrunkFit& fit)
+    : scale_(form_scale(body)),
+      size_(scale_.size / scale_.unit),
+      shoulder_((1 / scale_.unit) * to_double(standing_pose(body).position_m[index(Segment::upper_arm_right)])) {
+  const BodyMeasures m = scaled(own, 1 / scale_.unit);
+  const auto womanly = [this](double man, double woman) { return std::lerp(man, woman, scale_.womanly); };
   const double hip = 0.5 * fit.hips * m.hip_breadth, waist = 0.5 * fit.waist * m.waist_breadth,
                chest = 0.5 * fit.chest * m.chest_breadth;
   const double wide = 1.08 * chest, neck = fit.neck * m.neck_girth / (2 * std::numbers::pi);
   // The chest below the shoulders is as broad as they are.
-  const double broad = 0.5 * (woman_ ? 0.598 : 0.572) * m.shoulder_breadth;
+  const double broad = 0.5 * womanly(0.572, 0.598) * m.shoulder_breadth;
   // Women's chests are measured over the bust: below it, 0.92 of the girth and a smaller depth are used.
-  const double bust = 0.16 * m.chest_depth;
+  const double bust = womanly(0, 0.16) * m.chest_depth;
   // Depth beyond that of a man of 1.75 m and 75 kg.
   const double buttock = 0.5 * (fit.hips * m.buttock_depth - 0.2267), belly = fit.waist * m.waist_depth - 0.2119,
-               breast = fit.chest * (m.chest_depth - (woman_ ? bust : 0)) - 0.2346;
+               breast = fit.chest * (m.chest_depth - bust) - 0.2346;
   // Relative to the breadth at the navel; a belly makes the waist less pronounced.
-  const double natural_waist = (woman_ ? 0.93 : 0.985) + 0.04 * std::clamp(belly / 0.07, 0.0, 1.0);
+  const double natural_waist = womanly(0.985, 0.93) + 0.04 * std::clamp(belly / 0.07, 0.0, 1.0);
   const double at_waist = exponent_of(waist, 0.5 * fit.waist * m.waist_depth, fit.waist * m.waist_girth);
-  const double at_chest = exponent_of(wide, 0.5 * fit.chest * (m.chest_depth - (woman_ ? bust : 0)),
-                                      fit.chest * m.chest_girth * (woman_ ? 0.92 : 1));
+  const double at_chest =
+      exponent_of(wide, 0.5 * fit.chest * (m.chest_depth - bust), fit.chest * m.chest_girth * womanly(1, 0.92));
   // The back is behind the spines of the vertebrae.
   section_ = {
       {0.835, 0.045, -0.050, 0.020, 2},
@@ -89,7 +91,7 @@ TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, const TrunkFit& fi
   }
   reach_ = 0.34 * size_;
   for (Section& section : section_) {
-    section.y *= size_;
+    section.y = height(section.y);
     reach_ = std::max(reach_, section.half + 0.10);
   }
   breast_front_ = 0.026 + 0.6 * breast;
@@ -98,7 +100,7 @@ TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, const TrunkFit& fi
   round_ = (fit.hips * m.buttock_depth) / 0.2267;
   chest_wide_ = chest / 0.1398;
   buttock_ = buttock;
-  if (woman_) breast_m_ = bust / 0.040;  // relative to the usual size
+  breast_m_ = bust / 0.040;  // relative to the usual size
 }
 
 double TrunkForm::sections(const Vec& p) const {
@@ -115,44 +117,44 @@ double TrunkForm::sections(const Vec& p) const {
   return beyond > 0 ? std::hypot(std::max(d, 0.0), beyond) : std::max(d, beyond);
 }
 
-double TrunkForm::distance(const Vec& p) const {
+double TrunkForm::distance(const Vec& at) const {
+  const Vec p = (1 / scale_.unit) * at;
+  const auto place = [this](double x, double y, double z) { return Vec{size_ * x, height(y), size_ * z}; };
   const Vec q{-std::abs(p.x), p.y, p.z};
   double d = sections(p);
   // From the neck to the shoulder; chest muscle, shoulder blade, buttock.
   d = smooth_union(d,
-                   capsule(q, size_ * Vec{-0.030, 1.466, -0.066}, shoulder_ + Vec{0.022, -0.020, -0.018},
+                   capsule(q, place(-0.030, 1.466, -0.066), shoulder_ + Vec{0.022, -0.020, -0.018},
                            0.042 * std::sqrt(full_), 0.046 * std::sqrt(full_)),
                    0.035);
-  d = smooth_union(d, capsule(q, size_ * Vec{-0.050, 1.446, -0.030}, shoulder_ + Vec{0.004, -0.022, 0}, 0.038, 0.046),
-                   0.03);
+  d = smooth_union(d, capsule(q, place(-0.050, 1.446, -0.030), shoulder_ + Vec{0.004, -0.022, 0}, 0.038, 0.046), 0.03);
   // Bones that show in thin people: rib cage, spines of the shoulder blades, crests of the pelvis, collar bones.
-  d = smooth_union(d, ellipsoid(p, size_ * Vec{0, 1.262, -0.031}, size_ * Vec{0.137, 0.175, 0.1075}), 0.02);
-  d = smooth_union(d, capsule(q, size_ * Vec{-0.075, 1.432, -0.110}, size_ * Vec{-0.155, 1.454, -0.070}, 0.022, 0.020),
-                   0.03);
-  d = smooth_union(d, ellipsoid(q, size_ * Vec{-0.112, 1.013, 0.042}, size_ * Vec{0.022, 0.032, 0.022}), 0.045);
-  d = smooth_union(d, capsule(q, size_ * Vec{-0.022, 1.426, 0.034}, size_ * Vec{-0.105, 1.440, 0.030}, 0.009, 0.013),
-                   0.045);
-  if (woman_) {
-    const double b = breast_m_;
+  d = smooth_union(d, ellipsoid(p, place(0, 1.262, -0.031), size_ * Vec{0.137, 0.175, 0.1075}), 0.02);
+  d = smooth_union(d, capsule(q, place(-0.075, 1.432, -0.110), place(-0.155, 1.454, -0.070), 0.022, 0.020), 0.03);
+  d = smooth_union(d, ellipsoid(q, place(-0.112, 1.013, 0.042), size_ * Vec{0.022, 0.032, 0.022}), 0.045);
+  d = smooth_union(d, capsule(q, place(-0.022, 1.426, 0.034), place(-0.105, 1.440, 0.030), 0.009, 0.013), 0.045);
+  const double man =
+      smooth_union(d, ellipsoid(q, {-0.074 * chest_wide_, height(1.322), breast_front_}, {0.084, 0.058, 0.052}), 0.05);
+  if (const double b = breast_m_; b > 0) {
     d = smooth_union(
         d,
-        ellipsoid(q, {-0.078 * chest_wide_, 1.262 * size_, breast_front_ + 0.040}, {0.060 * b, 0.062 * b, 0.056 * b}),
+        ellipsoid(q, {-0.078 * chest_wide_, height(1.262), breast_front_ + 0.040}, {0.060 * b, 0.062 * b, 0.056 * b}),
         0.035);
-    d = smooth_union(d, ellipsoid(q, {-0.074 * chest_wide_, 1.330 * size_, breast_front_}, {0.070, 0.060, 0.050}),
+    d = smooth_union(d, ellipsoid(q, {-0.074 * chest_wide_, height(1.330), breast_front_}, {0.070, 0.060, 0.050}),
                      0.06);
+    d = std::lerp(man, d, scale_.womanly);
   } else {
-    d = smooth_union(d, ellipsoid(q, {-0.074 * chest_wide_, 1.322 * size_, breast_front_}, {0.084, 0.058, 0.052}),
-                     0.05);
+    d = man;
   }
-  d = smooth_union(d, ellipsoid(q, {-0.080 * chest_wide_, 1.352 * size_, -blade_back_}, {0.058, 0.088, 0.036}), 0.05);
+  d = smooth_union(d, ellipsoid(q, {-0.080 * chest_wide_, height(1.352), -blade_back_}, {0.058, 0.088, 0.036}), 0.05);
   d = smooth_union(
-      d, ellipsoid(q, {-0.078, 0.905 * size_, -0.060 - buttock_}, {0.078 * std::sqrt(round_), 0.088, 0.070 * round_}),
+      d, ellipsoid(q, {-0.078, height(0.905), -0.060 - buttock_}, {0.078 * std::sqrt(round_), 0.088, 0.070 * round_}),
       0.05);
-  return d;
+  return scale_.unit * d;
 }
 
-double head_distance(const Vec& p, Sex sex) {
-  const bool woman = sex == Sex::woman;
+double head_distance(const Vec& p, double soft) {
+  const auto softer = [soft](double man, double woman) { return std::lerp(man, woman, soft); };
   const Vec q{std::abs(p.x), p.y, p.z};
   // Skull, face, jaw.
   double d = ellipsoid(q, {0, 1.656, -0.009}, {0.0775, 0.094, 0.1000});
@@ -160,14 +162,14 @@ double head_distance(const Vec& p, Sex sex) {
   d = smooth_union(d, ellipsoid(q, {0, 1.690, 0.014}, {0.0680, 0.056, 0.0710}), 0.020);
   d = smooth_union(d, ellipsoid(q, {0, 1.604, 0.020}, {0.0625, 0.080, 0.0670}), 0.040);
   d = smooth_union(
-      d, capsule(q, {0.047, 1.580, 0.004}, {0.012, 1.540, 0.064}, woman ? 0.0155 : 0.0180, woman ? 0.0140 : 0.0165),
+      d, capsule(q, {0.047, 1.580, 0.004}, {0.012, 1.540, 0.064}, softer(0.0180, 0.0155), softer(0.0165, 0.0140)),
       0.034);
   d = smooth_union(d, ellipsoid(q, {0, 1.538, 0.077}, {0.019, 0.014, 0.0130}), 0.024);
   d = smooth_union(d, ellipsoid(q, {0.047, 1.611, 0.047}, {0.021, 0.016, 0.024}), 0.026);  // cheekbone
   d = smooth_union(d, ellipsoid(q, {0.036, 1.583, 0.042}, {0.023, 0.027, 0.028}), 0.030);  // cheek
   d = smooth_union(d, ellipsoid(q, {0, 1.576, 0.068}, {0.034, 0.027, 0.0215}), 0.026);     // teeth
   d = smooth_union(
-      d, capsule(q, {0.013, 1.6545, 0.0870}, {0.045, 1.6545, 0.0700}, woman ? 0.0065 : 0.0080, woman ? 0.0060 : 0.0070),
+      d, capsule(q, {0.013, 1.6545, 0.0870}, {0.045, 1.6545, 0.0700}, softer(0.0080, 0.0065), softer(0.0070, 0.0060)),
       0.018);                                                                                         // brow
   d = smooth_difference(d, ellipsoid(q, {0.0320, 1.6335, 0.0960}, {0.0190, 0.0115, 0.0140}), 0.016);  // eye's socket
   // Lids, closed over the eye: the upper one reaches over the lower.
@@ -175,7 +177,7 @@ double head_distance(const Vec& p, Sex sex) {
                lower = ellipsoid(q, {0.0320, 1.6325, 0.0722}, {0.0150, 0.0110, 0.0122});
   d = smooth_union(d, smooth_union(upper, lower, 0.0006), 0.004);
   // Nose: bridge, tip, wings.
-  double nose = capsule(q, {0, 1.646, 0.0865}, {0, 1.604, 0.1030}, woman ? 0.0060 : 0.0068, woman ? 0.0078 : 0.0090);
+  double nose = capsule(q, {0, 1.646, 0.0865}, {0, 1.604, 0.1030}, softer(0.0068, 0.0060), softer(0.0090, 0.0078));
   nose = smooth_union(nose, ellipsoid(q, {0, 1.5975, 0.1060}, {0.0105, 0.0090, 0.0100}), 0.010);
   nose = smooth_union(nose, ellipsoid(q, {0.0115, 1.5950, 0.0945}, {0.0080, 0.0075, 0.0110}), 0.008);
   d = smooth_union(d, nose, 0.013);

@@ -150,8 +150,9 @@ Subcommand crowd_command() {
   auto text = std::make_shared<CrowdText>();
   Subcommand command{.name = "crowd"};
   command.footer =
-      "People differ in height (mean 1.72 m, deviation 0.09), body mass index (24, 3), build, speed\n"
-      "(1.35 m/s, 0.15) and style. They start anywhere on a square with 2.5 m2 per person. Four times a\n"
+      "People are 6 to 90 years old, of both sexes, alone, in pairs and in families of three to five.\n"
+      "They differ in stature, mass, speed and style. Members of a party walk side by side, at the usual\n"
+      "speed of the slowest. They start anywhere on a square with 2.5 m2 per person. Four times a\n"
       "minute they turn, change speed, or stop and start again. A person's body and actions depend only\n"
       "on --seed and the person's number. The same seed gives the same state_hash for any number of\n"
       "threads, except with --budget, where methods depend on the measured time.\n"

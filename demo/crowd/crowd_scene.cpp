@@ -174,12 +174,15 @@ Result<void> CrowdScene::come(std::span<const std::uint32_t> slots) {
   for (std::size_t i = 0; i < slots.size(); ++i) {
     CrowdWalker& walker = walkers_[slots[i]];
     walker = {.number = walker.number, .place = walker.place};
-    const CrowdPlace place = crowd_place(request_.seed, walker.number);
-    walker.x_m = place.across * static_cast<float>(side_m_);
-    walker.z_m = place.along * static_cast<float>(side_m_);
-    walker.heading_rad = place.heading_rad;
     const auto person = crowd_walker(request_.seed, walker.number, walker.draw);
     if (!person) return tl::unexpected(person.error());
+    walker.party_place = static_cast<std::uint8_t>(walker.number - person->party_first);
+    walker.usual_m_s = *person->gait.speed_m_s;
+    const CrowdPlace place = crowd_place(request_.seed, walker.party());
+    const CrowdOffset beside = crowd_abreast(walker.party_place, person->party_size, place.heading_rad);
+    walker.x_m = place.across * static_cast<float>(side_m_) + beside.x_m;
+    walker.z_m = place.along * static_cast<float>(side_m_) + beside.z_m;
+    walker.heading_rad = place.heading_rad;
     SpawnRequest& request = requests_[i];
     request = {.body = person->body, .gait = person->gait};
     request.x_m = walker.x_m;

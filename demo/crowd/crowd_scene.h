@@ -72,11 +72,14 @@ struct CrowdWalker {
   std::uint64_t number = 0;
   std::uint32_t place = 0;                  // in the list of the whole crowd
   float x_m = 0, z_m = 0, heading_rad = 0;  // position, at most a second old; requested heading
+  float usual_m_s = 0;                      // the party's speed
   std::uint32_t changes = 0;                // number of past changes
   std::int32_t next = -1, before = -1;      // list of walkers whose change is due in the same tick
   std::uint16_t due = 0;                    // ring index of that tick
-  std::uint8_t draw = 0;
+  std::uint8_t draw = 0, party_place = 0;
   bool near = false, stopped = false, returning = false;
+
+  std::uint64_t party() const { return number - party_place; }  // number of its first member
 };
 
 /// Forwards to the default memory resource and counts the bytes in use.

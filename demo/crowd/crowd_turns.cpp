@@ -22,7 +22,7 @@ constexpr float stays = 0.9F;  // factor on the squared distance of people who a
 /// Schedules the walker's next change.
 void CrowdScene::plan(std::size_t slot) {
   CrowdWalker& walker = walkers_[slot];
-  const float after_s = crowd_change(request_.seed, walker.number, walker.changes, walker.stopped).after_s;
+  const float after_s = crowd_change(request_.seed, walker.party(), walker.changes, walker.stopped).after_s;
   const auto ticks = static_cast<std::uint32_t>(std::lround(static_cast<double>(after_s) / simulation_->tick_s()));
   walker.due =
       static_cast<std::uint16_t>((simulation_->ticks() + std::clamp<std::uint32_t>(ticks, 1, ring - 1)) % ring);
@@ -47,19 +47,16 @@ Result<void> CrowdScene::head_for(const CrowdWalker& walker, float heading_rad) 
   return simulation_->avoidance().set_desired_velocity({&wish, 1});
 }
 
-/// Applies the walker's next change. The person's usual speed replaces one that is impossible for body and style.
+/// Applies the next change of the walker's party. The usual speed replaces one that is impossible for body and style.
 Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decisions) {
-  const CrowdChange change = crowd_change(request_.seed, walker.number, walker.changes++, walker.stopped);
+  CrowdChange change = crowd_change(request_.seed, walker.party(), walker.changes++, walker.stopped, walker.usual_m_s);
   if (change.speed_m_s >= 0) {
-    GaitRequest gait = crowd_person(request_.seed, walker.number, walker.draw).gait;
-    const float usual_m_s = *gait.speed_m_s;
-    gait.speed_m_s = change.speed_m_s;
-    if (!simulation_->set_gait(walker.entity, gait)) {
-      gait.speed_m_s = usual_m_s;
-      if (auto done = simulation_->set_gait(walker.entity, gait); !done) return done;
+    if (!simulation_->change_gait(walker.entity, {.speed_m_s = change.speed_m_s})) {
+      change.speed_m_s = walker.usual_m_s;
+      if (auto done = simulation_->change_gait(walker.entity, {.speed_m_s = change.speed_m_s}); !done) return done;
     }
     if (request_.effects.avoidance) {
-      const DesiredVelocity wish = {walker.entity, *gait.speed_m_s, walker.heading_rad};
+      const DesiredVelocity wish = {walker.entity, change.speed_m_s, walker.heading_rad};
       if (auto done = simulation_->avoidance().set_desired_velocity({&wish, 1}); !done) return done;
     }
     walker.stopped = change.speed_m_s == 0;
@@ -102,7 +99,7 @@ Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
       walker.returning = false;
       continue;
     }
-    CrowdRandom random(request_.seed, walker.number, return_stream);
+    CrowdRandom random(request_.seed, walker.party(), return_stream);
     const float x_m = random.even(-0.5F, 0.5F) * half_m, z_m = random.even(-0.5F, 0.5F) * half_m;
     const float heading_rad = std::atan2(x_m - walker.x_m, z_m - walker.z_m);
     if (walker.returning && std::abs(std::remainder(heading_rad - walker.heading_rad, whole_turn)) < aims) continue;

@@ -4,17 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <mobil/anthropometry.h>
 #include <mobil/systems/gait/resolve_gait.h>
+#include "demo/scene/crowd_parties.h"
 #include "demo/scene/scatter.h"
 
 namespace mobil {
 namespace {
 
-// streams of a person; lower numbers are draws of body and gait
-constexpr std::uint64_t place_stream = 0x10000, change_stream = 0x20000, sex_stream = 0x50000;
+// Streams of a person, one for each quantity. Those of body and style have room for draws.
+constexpr std::uint64_t place_stream = 0x10000, change_stream = 0x20000;
+constexpr std::uint64_t mass_stream = 0x1040000, biotype_stream = 0x1050000, constitution_stream = 0x1060000,
+                        speed_stream = 0x1070000, style_stream = 0x1080000;
 constexpr float turning_deg = 50, turn_part = 0.5F, stop_part = 0.125F;
 
 }  // namespace
@@ -46,25 +50,40 @@ std::size_t CrowdRandom::below(std::size_t count) {
   return static_cast<std::size_t>(next() % count);
 }
 
-float crowd_speed(CrowdRandom& random) {
-  return random.bell(1.35F, 0.15F);
+float crowd_speed(CrowdRandom& random, float usual_m_s) {
+  return usual_m_s * std::exp(random.bell(0, 0.10F));
+}
+
+/// Returns the correlation of the standard scores of stature and body mass index: that of children of the Berkeley
+/// Child Guidance Study, 0 for adults.
+static float height_with_mass_index(float age_y) {
+  return age_y < 12 ? std::lerp(0.38F, 0.33F, (age_y - 6) / 6)
+                    : std::max(0.0F, std::lerp(0.33F, 0.0F, (age_y - 12) / 6));
 }
 
 CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t draw) {
-  CrowdRandom random(seed, number, draw);
+  const CrowdMember one = crowd_member(seed, number);
+  const auto stream = [&](std::uint64_t of) { return CrowdRandom(seed, one.drawn, of + draw); };
   CrowdPerson person;
-  person.body.height_m = random.bell(1.72F, 0.09F);
-  person.body.mass_kg = random.bell(24, 3) * person.body.height_m * person.body.height_m;
-  person.body.biotype = {random.bell(3, 0.7F), random.bell(4, 0.7F), random.bell(3, 0.7F)};
-  // Half are women, but fewer of the tall people.
-  constexpr float between_m = 1.72F, spread_m = 0.04F;
-  const float man = 1 / (1 + std::exp((between_m - person.body.height_m) / spread_m));
-  person.body.sex = CrowdRandom(seed, number, sex_stream).even(0, 1) < man ? Sex::man : Sex::woman;
-  person.body.constitution = static_cast<Constitution>(std::min(3, static_cast<int>(random.even(0, 4))));
-  person.gait.speed_m_s = crowd_speed(random);
+  person.party_first = one.party_first;
+  person.party_size = one.party_size;
+  const float r = height_with_mass_index(one.age_y), cut = one.age_y < 18 ? 2.0F : 2.5F;
+  const float mass_z = r * one.height_z + std::sqrt(1 - r * r) * stream(mass_stream).bell(0, 1);
+  person.body = typical_body(one.sex, one.age_y, one.height_z, std::clamp(mass_z, -cut, cut));
+  CrowdRandom biotype = stream(biotype_stream), style = stream(style_stream);
+  person.body.biotype = {biotype.bell(3, 0.7F), biotype.bell(4, 0.7F), biotype.bell(3, 0.7F)};
+  person.body.constitution = static_cast<Constitution>(stream(constitution_stream).below(constitutions));
+  float speed_m_s = std::numeric_limits<float>::max();
+  for (std::uint64_t k = one.party_first; k < one.party_first + one.party_size; ++k) {
+    const CrowdMember member = crowd_member(seed, k);
+    CrowdRandom random(seed, member.drawn, speed_stream);
+    speed_m_s = std::min(speed_m_s, crowd_speed(random, usual_speed_m_s({.sex = member.sex, .age_y = member.age_y})));
+  }
+  person.gait.speed_m_s = speed_m_s;
+  person.gait.style = usual_style(person.body);
   for (const GaitParameter& parameter : gait_parameters) {
     float& value = person.gait.style.*parameter.value;
-    value = std::clamp(value * random.even(0.9F, 1.1F), parameter.low, parameter.high);
+    value = std::clamp(value * style.even(0.9F, 1.1F), parameter.low, parameter.high);
   }
   // A variation by a tenth would make half of the crowd walk with knees bent by 30 to 50°.
   constexpr float part_of_it = 0.05F;
@@ -90,13 +109,22 @@ CrowdPlace crowd_place(std::uint64_t seed, std::uint64_t number) {
   return {across, along, random.even(-std::numbers::pi_v<float>, std::numbers::pi_v<float>)};
 }
 
-CrowdChange crowd_change(std::uint64_t seed, std::uint64_t number, std::uint32_t k, bool stopped) {
+CrowdOffset crowd_abreast(std::uint32_t place, std::uint32_t party_size, float heading_rad) {
+  constexpr std::uint32_t most = 3;
+  constexpr float beside_m = 0.75F, behind_m = 1.0F;
+  const std::uint32_t row = place / most, in_row = std::min(most, party_size - row * most);
+  const float left_m = beside_m * (static_cast<float>(place % most) - 0.5F * static_cast<float>(in_row - 1));
+  const float ahead_m = -behind_m * static_cast<float>(row), s = std::sin(heading_rad), c = std::cos(heading_rad);
+  return {left_m * c + ahead_m * s, ahead_m * c - left_m * s};
+}
+
+CrowdChange crowd_change(std::uint64_t seed, std::uint64_t number, std::uint32_t k, bool stopped, float usual_m_s) {
   CrowdRandom random(seed, number, change_stream + k);
   CrowdChange change;
   change.after_s = stopped ? random.even(2, 8) : k == 0 ? random.even(0, 15) : random.even(4, 26);
   const float what = random.even(0, 1);
   if (stopped || what >= stop_part + turn_part) {
-    change.speed_m_s = crowd_speed(random);
+    change.speed_m_s = crowd_speed(random, usual_m_s);
   } else if (what < stop_part) {
     change.speed_m_s = 0;
   } else {

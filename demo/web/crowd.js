@@ -12,10 +12,14 @@ function random(seed) {
   return () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) / 2 ** 32;
 }
 
-/** Returns a random body: fields of a request. */
+/** Returns a random adult of 18 to 75 years: fields of a request. Statures and body mass indices are those of
+ *  typical_body (mobil/anthropometry.h). */
 function body(next) {
-  const sex = Math.floor(2 * next()), height_m = (sex ? 1.52 : 1.63) + 0.28 * next();
-  return { sex, height_m, mass_kg: height_m ** 2 * (20 + 7 * next()), constitution: Math.floor(4 * next()) };
+  const z = () => { let sum = -6; for (let i = 0; i < 12; ++i) sum += next(); return Math.max(-2.5, Math.min(2.5, sum)); };
+  const sex = Math.floor(2 * next()), age_y = 18 + 57 * next(), older = Math.max(0, (age_y - 30) / 40) ** 2;
+  const height_m = sex ? 1.629 + 0.064 * z() - 0.05 * older : 1.757 + 0.069 * z() - 0.03 * older;
+  const index = (sex ? 23.6 : 24.6) * (1 + 0.0035 * (Math.min(age_y, 65) - 30)) * Math.exp((sex ? 0.160 : 0.145) * z());
+  return { sex, age_y, height_m, mass_kg: index * height_m ** 2, constitution: Math.floor(4 * next()) };
 }
 
 /** Returns requests of `count` people on both sides of a walker at x = 0 who heads along z. */

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <mobil/anthropometry.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/components/compact.h>
 #include <mobil/components/footing.h>
@@ -11,6 +12,7 @@
 #include <mobil/components/sleep.h>
 #include <mobil/forces.h>
 #include <mobil/systems/people/step_log.h>
+#include <mobil/usual_gait.h>
 #include "systems/c/c_call.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
@@ -146,6 +148,28 @@ int mobil_style(int number, mobil_style_number* out) {
   if (number < 0 || at >= gait_parameters.size()) return MOBIL_MISSING;
   const GaitParameter& p = gait_parameters[at];
   *out = {p.name.data(), p.unit.data(), p.meaning.data(), p.low, p.high, GaitStyle{}.*p.value};
+  return MOBIL_OK;
+}
+
+int mobil_typical_person(int sex, float age_y, float height_z, float mass_index_z, float* style, size_t room,
+                         mobil_person* person) {
+  if (person == nullptr || sex < MOBIL_MAN || sex > MOBIL_WOMAN) return MOBIL_REFUSED;
+  if (person->size < offsetof(mobil_person, age_y) + sizeof(float)) return MOBIL_STRUCT;
+  if (style != nullptr && room > gait_parameters.size()) return MOBIL_REFUSED;
+  const BodyRequest body = typical_body(static_cast<Sex>(sex), age_y, height_z, mass_index_z);
+  if (!check_body(body)) return MOBIL_REFUSED;
+  person->sex = sex;
+  person->age_y = body.age_y;
+  person->height_m = body.height_m;
+  person->mass_kg = body.mass_kg;
+  person->given |= MOBIL_SPEED;
+  person->speed_m_s = usual_speed_m_s(body);
+  if (style == nullptr) return MOBIL_OK;
+  const GaitStyle usual = usual_style(body);
+  for (std::size_t i = 0; i < room; ++i) style[i] = usual.*gait_parameters[i].value;
+  person->given |= MOBIL_STYLE;
+  person->style = style;
+  person->style_count = room;
   return MOBIL_OK;
 }
 

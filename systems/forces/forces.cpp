@@ -287,7 +287,7 @@ HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMo
 }
 
 HWY_INLINE Wide mass_of_rod(const BodySize<Lanes<float>>& size, const forces::Rod& rod) {
-  return load(size.mass_kg) * fma(load(size.extra_fat), wide(rod.mass_per_extra_fat), wide(rod.mass));
+  return load(size.mass_kg) * load(size.*rod.mass);
 }
 
 /// Computes hip, knee and ankle moments of one leg, from the foot up.

@@ -22,8 +22,11 @@ constexpr std::size_t step_parts = 20;
 /// Returns the displacement of the centre of pressure per acceleration of the hips: height of the centre of mass over
 /// gravity, s².
 HWY_INLINE Wide pendulum(const LegSize& size) {
-  constexpr float centre = 0.56F, above = 0.115F;  // of mass, of the height; its part that grows with the upper body
-  return fma(size.upper - size.leg, wide(above / gravity_f), size.leg * (centre / gravity_f));
+  // Centres of thigh, shank and foot below the hips, of the unit body's height.
+  constexpr float thigh = 0.106F, shank = 0.352F, foot = 0.505F, hips = static_cast<float>(fraction::hip_height);
+  const Wide below = 2.0F * fma(size.thigh_mass, wide(thigh), fma(size.shank_mass, wide(shank), size.foot_mass * foot));
+  const Wide above = planar_mass(size, planar_points - 1) * above_hips(size, &UpperBodyMotion::above);
+  return fma(above, size.upper, (hips - below) * size.leg) * (1.0F / gravity_f);
 }
 
 /// Returns the lateral centre of pressure of a steady walk of that shape, from a pendulum on the hips' path.
@@ -81,11 +84,11 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
     planar_figure(plan, size, u, phase[k % 2], waves[k % 2], along, figure[k % 3]);
     if (k == 0) continue;
     const PlanarFigure& last = figure[(k + 2) % 3];
-    const PlanarMotion now = planar_motion(last, figure[k % 3], size.upper, per_apart);
+    const PlanarMotion now = planar_motion(last, figure[k % 3], size, per_apart);
     if (k > 1) {
       const std::size_t i = k - 1;
       Wide centre = wide(0.0F);
-      for (std::size_t j = 0; j < planar_points; ++j) centre = fma(wide(planar_mass(j)), last.forward[j], centre);
+      for (std::size_t j = 0; j < planar_points; ++j) centre = fma(planar_mass(size, j), last.forward[j], centre);
       const Wide lift = max(fma(now.rising - before.rising, per_apart, wide(gravity_f)), min_lift * gravity_f);
       ahead.at[i] = fma(wide(gravity_f), centre, (now.turning - before.turning) * per_apart) / lift;
       const Wide& p = phase[i % 2];

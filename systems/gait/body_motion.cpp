@@ -2,7 +2,6 @@
 #define HWY_TARGET_INCLUDE __BASE_FILE__
 #include <hwy/foreach_target.h>
 
-#include "assets/body/fat_distribution.h"
 #include "assets/body/segment_inertia.h"
 #include "engine/exact_math.h"
 #include "systems/gait/body_motion.h"
@@ -14,9 +13,7 @@ namespace mobil::inline v0_3::HWY_NAMESPACE {
 
 constexpr float gravity_m_s2 = 9.81F;
 /// Share of the toes in the mass of a foot with its toes.
-constexpr auto toes_of_foot = static_cast<float>(
-    unit_body.mass_fraction[index(Segment::toes_right)] /
-    (unit_body.mass_fraction[index(Segment::toes_right)] + unit_body.mass_fraction[index(Segment::foot_right)]));
+constexpr auto toes_of_foot = static_cast<float>(unit_body.mass_share[index(Segment::toes_right)]);
 
 HWY_INLINE Vec3<float> single(const Vec3<double>& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -40,7 +37,8 @@ HWY_INLINE WideVec turning(const WideQuat& a, const WideQuat& b, const Wide& per
 void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
                   const Pose<Lanes<float>>& after, float apart_s, BodyMotion<Lanes<float>>& motion) {
   const WideScales scale(size);
-  const Wide extra = load(size.extra_fat), zero = wide(0.0F);
+  const WideMasses masses(size);
+  const Wide zero = wide(0.0F);
   const Wide per2 = wide(1.0F / (apart_s * apart_s)), per = wide(1.0F / apart_s), per_half = wide(2.0F / apart_s);
   auto bend = [&](const WideVec& a, const WideVec& b, const WideVec& c) {
     const WideVec d = (c - b) - (b - a);
@@ -49,9 +47,7 @@ void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
   WideVec force = {zero, zero, zero}, moment = force;
   Wide centre_height = zero;
   for (std::size_t s = 0; s < segment_count; ++s) {
-    const double usual = unit_body.mass_fraction[s], more = mass_per_extra_fat(s);
-    const Wide of_usual = fma(extra, wide(static_cast<float>(more / usual)), wide(1.0F));
-    const Wide mass = of_usual * static_cast<float>(usual);
+    const Wide mass = masses[mass_group[s]] * static_cast<float>(unit_body.mass_share[s]);
     const WideVec r = centre_of(scale, now, s);
     WideVec a = bend(centre_of(scale, before, s), r, centre_of(scale, after, s));
     a.y = a.y + gravity_m_s2;
@@ -59,7 +55,7 @@ void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
     const WideQuat q0 = load(before.rotation[s]), q1 = load(now.rotation[s]), q2 = load(after.rotation[s]);
     const WideVec first = turning(q0, q1, per_half), second = turning(q1, q2, per_half);
     const Wide& thick = scale[segment_groups[s].z];
-    const WideVec inertia = scaled(single(unit_inertia[s]), of_usual * thick * thick);
+    const WideVec inertia = scaled(single(unit_inertia[s]), mass * thick * thick);
     const WideVec spin = {0.5F * (first.x + second.x), 0.5F * (first.y + second.y), 0.5F * (first.z + second.z)};
     const WideVec whirl = cross(spin, WideVec{inertia.x * spin.x, inertia.y * spin.y, inertia.z * spin.z});
     const WideVec own = {fma(inertia.x, (second.x - first.x) * per, whirl.x),

@@ -45,8 +45,7 @@ void fat_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pos
   }
   const WideMask swings = goes_on & (known > 1.5F);
   const Wide none = wide(0.0F);
-  constexpr auto share = static_cast<float>(usual_fat_share);
-  const Wide fat_kg = load(size.mass_kg) * (share + (1 - share) * load(size.extra_fat));  // as in fat_thickness_m
+  const Wide fat_kg = load(size.mass_kg) * load(size.fat_share);
   const Wide over_usual = fat_kg / (usual_fat_index * load(size.height_m) * load(size.height_m));
   Swing swing{};
   for (std::size_t r = 0; r < fat_regions; ++r) {
@@ -79,8 +78,7 @@ HWY_EXPORT(fat_block);
 }
 
 std::array<float, fat_regions> fat_thickness_m(const BodySize<float>& size) {
-  constexpr auto share = static_cast<float>(usual_fat_share);
-  const float fat_kg = size.mass_kg * (share + (1 - share) * size.extra_fat);
+  const float fat_kg = size.mass_kg * size.fat_share;
   const float over_usual = fat_kg / (usual_fat_index * size.height_m * size.height_m);
   std::array<float, fat_regions> thickness{};
   for (std::size_t r = 0; r < fat_regions; ++r)

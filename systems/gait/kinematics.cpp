@@ -95,23 +95,47 @@ HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQ
   return direction;
 }
 
+/// Part of the stoop by which a vertebra is turned forward. The thoracic column bends by all of it between T12 and T1.
+/// The lumbar column bends back, as much as keeps the shoulders above the hips.
+constexpr float stoop_part(std::size_t segment) {
+  constexpr float forward = 0.62F, back = 0.38F;
+  constexpr auto low = static_cast<float>(index(Segment::L5)), middle = static_cast<float>(index(Segment::T12)),
+                 top = static_cast<float>(index(Segment::T1));
+  const auto s = static_cast<float>(segment);
+  return s <= middle ? -back * (s - low + 1) / (middle - low + 1)
+                     : (s - middle) / (top - middle) * (forward + back) - back;
+}
+/// Returns a small rotation about x, accurate to 1e-6 up to 0.4 rad.
+HWY_INLINE WideQuat bent_by(const Wide& angle) {
+  const Wide half = 0.5F * angle, squared = half * half;
+  return {half * fma(squared, fma(squared, wide(1.0F / 120), wide(-1.0F / 6)), wide(1.0F)), wide(0.0F), wide(0.0F),
+          fma(squared, fma(squared, wide(1.0F / 24), wide(-0.5F)), wide(1.0F))};
+}
+
 /// Poses the column from sacrum to head, with a small rotation between neighbouring vertebrae. The pelvis' rotation is
-/// undone and, up to the shoulders, reversed. From there to the head, in the walking plane, it is undone again.
-HWY_NOINLINE void pose_column(const WideQuat& facing, const Wide& turned_back, const Wide& lean,
-                              const Skeleton& skeleton) {
+/// undone and, up to the shoulders, reversed. From there to the head, in the walking plane, it is undone again. Returns
+/// the rotation of the shoulders without the stoop.
+HWY_NOINLINE WideQuat pose_column(const WideQuat& facing, const Wide& turned_back, const Wide& lean, const Wide& stoop,
+                                  const Skeleton& skeleton) {
   constexpr std::size_t first = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
   const WideQuat base = skeleton.rotation(Segment::pelvis);
   const WideQuat chest = facing * (turn_y(turned_back) * turn_x(lean));
+  const WideMask stoops = stoop > 0.0F;
+  const bool any_stoops = any(stoops);
+  const auto bent = [&](const WideQuat& q, std::size_t s) {
+    return any_stoops ? select(stoops, q * bent_by(stoop * stoop_part(s)), q) : q;
+  };
   for (std::size_t s = first; s <= shoulders; ++s) {
     constexpr ColumnParts parts = column_parts();
     const auto part = static_cast<float>(parts[s - first]);
-    const WideQuat turned = part_way(base, chest, wide(part));
-    skeleton.hang(static_cast<Segment>(s), turned);
+    skeleton.hang(static_cast<Segment>(s), bent(part_way(base, chest, wide(part)), s));
   }
+  const WideQuat shoulder = bent(chest, shoulders);
   for (std::size_t s = shoulders + 1; s <= head; ++s) {
     const float part = static_cast<float>(s - shoulders) / static_cast<float>(head - shoulders);
-    skeleton.hang(static_cast<Segment>(s), part_way(chest, facing, wide(part)));
+    skeleton.hang(static_cast<Segment>(s), part_way(shoulder, facing, wide(part)));
   }
+  return chest;
 }
 
 /// Parameters common to both arms.
@@ -119,8 +143,9 @@ struct ArmParameters {
   Wide back, forward, elbow_back, elbow_forward, abduction, pronation, fingers;
 };
 
-/// Poses one arm. `ahead` is the position of the opposite leg in its range, 0 back to 1 forward.
-HWY_NOINLINE void pose_arm(const ArmParameters& arm_manner, const Wide& ahead, std::size_t side,
+/// Poses one arm. `ahead` is the position of the opposite leg in its range, 0 back to 1 forward. `chest` is the
+/// shoulders' rotation without the stoop, from which the arm swings.
+HWY_NOINLINE void pose_arm(const ArmParameters& arm_manner, const Wide& ahead, const WideQuat& chest, std::size_t side,
                            const Skeleton& skeleton, JointAngles<Lanes<float>>& angles) {
   using enum Segment;
   auto of = [&](Segment s) { return on_side(s, side); };
@@ -129,10 +154,9 @@ HWY_NOINLINE void pose_arm(const ArmParameters& arm_manner, const Wide& ahead, s
   const Wide elbow = fma(ahead, arm_manner.elbow_forward - arm_manner.elbow_back, arm_manner.elbow_back);
   const Wide pronation = arm_manner.pronation * -out;
 
-  const WideQuat trunk = skeleton.rotation(T1);
-  skeleton.hang(of(clavicle_right), trunk);
+  skeleton.hang(of(clavicle_right), skeleton.rotation(T1));
   // Part of the pronation is an inward rotation of the upper arm.
-  const WideQuat arm = trunk * (turn_z(arm_manner.abduction * out) * (turn_x(-shoulder) * turn_y(0.3F * pronation)));
+  const WideQuat arm = chest * (turn_z(arm_manner.abduction * out) * (turn_x(-shoulder) * turn_y(0.3F * pronation)));
   skeleton.hang(of(upper_arm_right), arm);
   const WideQuat forearm = arm * (turn_x(-elbow) * turn_y(0.7F * pronation));
   skeleton.hang(of(forearm_right), forearm);
@@ -180,7 +204,9 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   fetch();
   Wide lean = harmonics(now.shape, step_shape::trunk, 3, now.waves);
   if (footing != nullptr) lean = lean + now.lean;
-  pose_column(facing, -posture(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation, lean, skeleton);
+  const WideQuat chest =
+      pose_column(facing, -posture(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation, lean,
+                  load(size.stoop_rad), skeleton);
   const ArmParameters arms = {posture(from.arm_back, to.arm_back, eased),
                               posture(from.arm_forward, to.arm_forward, eased),
                               posture(from.elbow_back, to.elbow_back, eased),
@@ -192,7 +218,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const Wide per_range = 1.0F / max(posture(from.leg_forward, to.leg_forward, eased) - leg_back, 1e-3F);
   for (std::size_t side = 0; side < 2; ++side) {
     fetch();
-    pose_arm(arms, (leg[1 - side] - leg_back) * per_range, side, skeleton, angles);
+    pose_arm(arms, (leg[1 - side] - leg_back) * per_range, chest, side, skeleton, angles);
   }
   fetch();
   FetchAhead(next.angles).fetch(all_lines);
@@ -205,11 +231,11 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 void centre_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
                   CentreOfMass<Lanes<float>>& centre) {
   const WideScales scale(size);
-  const Wide extra = load(size.extra_fat);
+  const WideMasses masses(size);
   WideVec sum = {wide(0.0F), wide(0.0F), wide(0.0F)};
   for (std::size_t s = 0; s < segment_count; ++s) {
     const WideVec c = rotate(load(pose.rotation[s]), scaled(unit_skeleton.centre_of_mass[s], scale, segment_groups[s]));
-    const Wide mass = fma(extra, wide(unit_skeleton.mass_per_extra_fat[s]), wide(unit_skeleton.mass_fraction[s]));
+    const Wide mass = masses[mass_group[s]] * unit_skeleton.mass_share[s];
     sum = fma(mass, load(pose.position_m[s]) + c, sum);
   }
   store(sum, centre.position_m);

@@ -8,8 +8,10 @@
 #endif
 
 #include "assets/body/body_scales.h"
+#include "assets/body/segment_masses.h"
 #include "assets/gait/step_curves-inl.h"
 #include "engine/wide_geometry-inl.h"
+#include "systems/gait/leg_size-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
@@ -23,13 +25,27 @@ struct WideScales {
   Wide of[length_groups];
 
   HWY_INLINE explicit WideScales(const BodySize<Lanes<float>>& size)
-      : of{load(size.height_m),          load(size.leg_scale_m),    load(size.leg_scale_m),
-           load(size.trunk_scale_m),     load(size.height_m),       load(size.shoulders_scale_m),
-           load(size.upper_arm_scale_m), load(size.forearm_scale_m)} {
+      : of{load(size.height_m),      load(size.leg_scale_m), hips_scale(load(size.height_m), load(size.leg_scale_m)),
+           load(size.trunk_scale_m), load(size.height_m),    load(size.shoulders_scale_m),
+           load(size.arm_scale_m)} {
     const Wide &height = of[0], off_leg = height - of[1], off_trunk = height - of[3];
     of[4] = height + (off_leg * head_per_leg + off_trunk * head_per_trunk);
   }
   HWY_INLINE const Wide& operator[](LengthGroup g) const { return of[static_cast<std::size_t>(g)]; }
+};
+
+/// Masses of sixteen people's groups of segments, in the order of MassGroup, parts of the body mass.
+struct WideMasses {
+  Wide of[mass_groups];
+
+  HWY_INLINE explicit WideMasses(const BodySize<Lanes<float>>& size)
+      : of{load(size.head_mass),      load(size.upper_trunk_mass), load(size.middle_trunk_mass),
+           load(size.upper_arm_mass), load(size.forearm_mass),     load(size.thigh_mass),
+           load(size.shank_mass),     load(size.foot_mass),        wide(0.0F)} {
+    const Wide trunk = of[0] + of[1] + of[2], limbs = of[3] + of[4] + of[5] + of[6] + of[7];
+    of[8] = 1.0F - trunk - 2.0F * limbs;
+  }
+  HWY_INLINE const Wide& operator[](MassGroup g) const { return of[static_cast<std::size_t>(g)]; }
 };
 
 /// Returns a vector of the unit body at each person's size.

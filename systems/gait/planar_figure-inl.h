@@ -15,23 +15,32 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::inline v0_3::HWY_NAMESPACE {
 
-/// The body above the hips, in body heights: height of its centre of mass above the hips and distance ahead; its
+/// The body above the hips, in its own scale: height of its centre of mass above the hips and distance ahead; its
 /// forward motion per radian of trunk lean, pelvic tilt and swing of both arms together; and the square of its radius
-/// of gyration as it leans. All except the last are least-squares fits to the 48 segments in walks of 0.5 to 2 m/s.
-namespace upper_body {
-constexpr float above = 0.169F, ahead = -0.0190F, per_lean = 0.0621F, per_tilt = 0.0984F, per_swing = 0.017F;
-constexpr float gyration2 = 0.013F;
-}  // namespace upper_body
+/// of gyration as it leans. They follow from the bodies of demo/lab/gait_fit/upper_body.h, times the ratio between that
+/// and least-squares fits to the 48 segments of a man in walks of 0.5 to 2 m/s.
+struct UpperBodyMotion {
+  float above, ahead, per_lean, per_tilt, per_swing, gyration2;
+};
+constexpr UpperBodyMotion man_above_hips = {0.1833F, -0.0207F, 0.0689F, 0.1103F, 0.0219F, 0.0111F},
+                          woman_above_hips = {0.1731F, -0.0196F, 0.0638F, 0.1040F, 0.0194F, 0.0116F},
+                          child_above_hips = {0.2037F, -0.0167F, 0.0750F, 0.1010F, 0.0130F, 0.0122F};
+
+/// Returns the value of persons between man, woman and child.
+HWY_INLINE Wide above_hips(const LegSize& size, float UpperBodyMotion::*value) {
+  const float man = man_above_hips.*value;
+  const Wide adult = fma(size.woman, wide(woman_above_hips.*value - man), wide(man));
+  return fma(size.child, child_above_hips.*value - adult, adult);
+}
 
 /// Point masses in the plane: per leg two of the thigh, two of the shank and one of the foot; and one of the body
 /// above.
 constexpr std::size_t planar_points = 11;
 
-constexpr float planar_mass(std::size_t point) {
-  constexpr float legs = 2 * (forces::thigh.mass + forces::shank.mass + forces::foot.mass);
-  if (point + 1 == planar_points) return 1 - legs;
+HWY_INLINE Wide planar_mass(const LegSize& size, std::size_t point) {
+  if (point + 1 == planar_points) return 1.0F - 2.0F * (size.thigh_mass + size.shank_mass + size.foot_mass);
   const std::size_t part = point % 5;
-  return part < 2 ? 0.5F * forces::thigh.mass : part < 4 ? 0.5F * forces::shank.mass : forces::foot.mass;
+  return part < 2 ? 0.5F * size.thigh_mass : part < 4 ? 0.5F * size.shank_mass : size.foot_mass;
 }
 
 struct PlanarFigure {
@@ -128,10 +137,11 @@ HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const
   planar_leg(height, hips.forward + hips.before, hips.up + hips.above, stance_forward, stance_up, 0, out);
   planar_leg(height, other.hip_forward, other.hip_up, other.ankle_forward, other.ankle_up, 5, out);
   out.aside = hips.aside;
-  namespace b = upper_body;
+  using U = UpperBodyMotion;
+  const Wide per_lean = above_hips(size, &U::per_lean), per_tilt = above_hips(size, &U::per_tilt);
   const Wide bent_forward =
-      fma(harmonics(of, step_shape::trunk, 3, waves), wide(b::per_lean), b::per_tilt * pelvis_tilt(plan, waves, eased));
-  out.lean = bent_forward * (1.0F / (b::per_lean + b::per_tilt));
+      fma(harmonics(of, step_shape::trunk, 3, waves), per_lean, per_tilt * pelvis_tilt(plan, waves, eased));
+  out.lean = bent_forward / (per_lean + per_tilt);
   // Arms follow the opposite legs.
   const PostureParameters<Lanes<float>>&from = plan.from.posture, &to = plan.to.posture;
   const Wide back = posture(from.leg_back, to.leg_back, eased),
@@ -141,9 +151,9 @@ HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const
       (legs - 2.0F * back) / max(range, 1e-3F) *
           (posture(from.arm_forward, to.arm_forward, eased) + posture(from.arm_back, to.arm_back, eased)) -
       2.0F * posture(from.arm_back, to.arm_back, eased);
-  const Wide ahead = fma(wide(b::per_swing), swing, bent_forward + b::ahead);
+  const Wide ahead = fma(above_hips(size, &U::per_swing), swing, bent_forward + above_hips(size, &U::ahead));
   out.forward[planar_points - 1] = fma(ahead, size.upper, hips.forward);
-  out.up[planar_points - 1] = fma(wide(b::above), size.upper, hips.up);
+  out.up[planar_points - 1] = fma(above_hips(size, &U::above), size.upper, hips.up);
 }
 
 /// Mean rates between two figures `apart` seconds from each other, per kg: of the total angular momentum (z ẏ − y ż,
@@ -152,16 +162,16 @@ struct PlanarMotion {
   Wide turning, rising;
 };
 
-HWY_NOINLINE inline PlanarMotion planar_motion(const PlanarFigure& a, const PlanarFigure& b, const Wide& upper,
+HWY_NOINLINE inline PlanarMotion planar_motion(const PlanarFigure& a, const PlanarFigure& b, const LegSize& size,
                                                const Wide& per_apart) {
   PlanarMotion m = {wide(0.0F), wide(0.0F)};
   for (std::size_t i = 0; i < planar_points; ++i) {
-    const Wide mass = wide(planar_mass(i));
+    const Wide mass = planar_mass(size, i);
     m.turning = fma(mass, fnma(b.forward[i], a.up[i], a.forward[i] * b.up[i]), m.turning);
     m.rising = fma(mass, b.up[i] - a.up[i], m.rising);
   }
-  constexpr float spin = upper_body::gyration2 * planar_mass(planar_points - 1);
-  m.turning = fnma(spin * upper * upper, b.lean - a.lean, m.turning) * per_apart;
+  const Wide spin = above_hips(size, &UpperBodyMotion::gyration2) * planar_mass(size, planar_points - 1);
+  m.turning = fnma(spin * size.upper * size.upper, b.lean - a.lean, m.turning) * per_apart;
   m.rising = m.rising * per_apart;
   return m;
 }

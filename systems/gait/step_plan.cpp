@@ -82,6 +82,8 @@ HWY_NOINLINE void next_strike(const BodySize<Lanes<float>>& size, const Gait<Lan
   r.height = height;
   r.mass = load(size.mass_kg);
   r.stature = load(size.height_m);
+  r.woman = load(size.woman);
+  r.child = load(size.child);
   r.speed = select(fresh, aim, select(to_stand, stopping, walking));
   const Wide length = load(wanted.step_length_m), usual = usual_length(height, r.speed);
   const Wide scaled = length * usual / usual_length(height, aim);

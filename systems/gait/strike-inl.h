@@ -31,10 +31,11 @@ HWY_INLINE Wide ratio(double fraction_of_height, const Wide& height) {
 
 /// Inputs of a strike, in lanes.
 struct StrikeRequest {
-  Wide height, mass, stature;
-  Wide speed, step_length;  // of the gait at the strike; speed 0 stands
-  Wide length;              // of the step that ends here
-  Wide slower;              // extra duration relative to the mean step
+  Wide height, mass, stature;  // height: the scale of the legs
+  Wide woman, child;           // parts of their steps
+  Wide speed, step_length;     // of the gait at the strike; speed 0 stands
+  Wide length;                 // of the step that ends here
+  Wide slower;                 // extra duration relative to the mean step
 };
 
 /// Returns the height of a standing person's hips relative to straight legs. Legs of equal stiffness sink under the
@@ -44,7 +45,7 @@ HWY_NOINLINE inline Wide sunk(const StrikeRequest& r, const GaitStyleOf<Lanes<fl
   const Wide stand = ratio(fraction::hip_height, height);
   const Wide stiffness = load(style.leg_stiffness_n_per_m) * height / 1.8F;
   const Wide excess = max(r.mass - 24.5F * r.stature * r.stature, 0.0F) * gravity_f / (stiffness * stand);
-  constexpr float most = 0.018F;
+  constexpr float most = 0.005F;  // heavy people walk on straighter legs (DeVita & Hortobagyi 2003)
   const Wide sag = most * excess / sqrt(most * most + excess * excess);
   return stand * (load(style.mid_stance_height) - 1.0F - sag);
 }
@@ -103,15 +104,18 @@ HWY_NOINLINE inline StyleAmounts style_amounts(const Wide& height, const GaitSty
 
 /// Looks up the table's step of each lane, in the body's own lengths; zero for standing lanes. `length` is that of the
 /// step that ends here, which can differ from the mean of both sides.
-HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wide& length, const StyleAmounts& amounts,
+HWY_NOINLINE inline void look_up(const StrikeRequest& r, const Wide& length, const StyleAmounts& amounts,
                                  HeelStrike<Lanes<float>>& strike) {
+  const Wide &height = r.height, &speed = r.speed;
   const Wide leg = ratio(fraction::hip_height, height);
-  Lanes<float> tall, fast, far;
+  Lanes<float> tall, fast, far, woman, child;
   store(height, tall);
+  store(r.woman, woman);
+  store(r.child, child);
   store(speed / sqrt(gravity_f * leg), fast);
   store(length / leg, far);
   for (std::size_t l = 0; l < lane_count; ++l) {
-    TabledStep step = tabled_step(fast[l], far[l]);
+    TabledStep step = tabled_step(fast[l], far[l], {woman[l], child[l]});
     if (fast[l] > 0 && amounts.most[l] > 0) {
       std::array<float, style_effects.size()> by;
       for (std::size_t k = 0; k < by.size(); ++k) by[k] = amounts.of[k][l];
@@ -181,7 +185,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   auto walking = [&](const Wide& value) { return select(stands, wide(0.0F), value); };
   const Wide step = select(stands, wide(1.0F), r.step_length);  // no division by zero
   const Wide stride = min(r.step_length / ratio(natural_step_h, r.height), 1.25F);
-  look_up(r.height, r.speed, select(stands, wide(1.0F), r.length), style_amounts(r.height, style), strike);
+  look_up(r, select(stands, wide(1.0F), r.length), style_amounts(r.height, style), strike);
   time_strike(r, style, strike);
   const Wide width = step_width(r, style);
   store(clamp(load(strike.double_support) * load(style.double_support_scale), 0.04F, 0.24F), strike.double_support);

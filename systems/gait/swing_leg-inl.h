@@ -61,13 +61,14 @@ constexpr SwingLeg unit_swing_leg = [] {
   constexpr auto a = static_cast<float>(fraction::thigh), b = static_cast<float>(fraction::shank);
   using namespace forces;
   // The foot's mass is at the ankle.
-  constexpr float below = shank.mass + foot.mass, moment = (shank.mass * shank.centre + foot.mass) * b;
+  constexpr float thigh_mass = 0.1416F, shank_mass = 0.0433F, foot_mass = 0.0137F;  // de Leva's men
+  constexpr float below = shank_mass + foot_mass, moment = (shank_mass * shank.centre + foot_mass) * b;
   constexpr float inertia =
-      (shank.mass * (shank.centre * shank.centre + shank.gyration * shank.gyration) + foot.mass) * b * b;
-  return SwingLeg{thigh.mass * (thigh.centre * thigh.centre + thigh.gyration * thigh.gyration) * a * a + below * a * a,
+      (shank_mass * (shank.centre * shank.centre + shank.gyration * shank.gyration) + foot_mass) * b * b;
+  return SwingLeg{thigh_mass * (thigh.centre * thigh.centre + thigh.gyration * thigh.gyration) * a * a + below * a * a,
                   inertia,
                   moment * a,
-                  thigh.mass * thigh.centre * a + below * a,
+                  thigh_mass * thigh.centre * a + below * a,
                   moment,
                   a,
                   b};

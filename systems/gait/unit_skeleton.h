@@ -5,14 +5,13 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/components/segments.h>
-#include "assets/body/fat_distribution.h"
 
 namespace mobil::inline v0_3 {
 
 /// The body of height 1 m in single precision.
 struct UnitSkeleton {
   Vec3<float> joint_offset[segment_count], centre_of_mass[segment_count];
-  float mass_fraction[segment_count], mass_per_extra_fat[segment_count];
+  float mass_share[segment_count];
 };
 
 constexpr UnitSkeleton make_unit_skeleton() {
@@ -23,8 +22,7 @@ constexpr UnitSkeleton make_unit_skeleton() {
   for (std::size_t i = 0; i < segment_count; ++i) {
     s.joint_offset[i] = single(unit_body.joint_offset[i]);
     s.centre_of_mass[i] = single(unit_body.centre_of_mass[i]);
-    s.mass_fraction[i] = static_cast<float>(unit_body.mass_fraction[i]);
-    s.mass_per_extra_fat[i] = static_cast<float>(mass_per_extra_fat(i));
+    s.mass_share[i] = static_cast<float>(unit_body.mass_share[i]);
   }
   return s;
 }

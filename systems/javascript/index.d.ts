@@ -56,6 +56,8 @@ export declare class Mobil {
   readonly style: Returned<c.mobil_style_number>[];
   /** Returns the segment of each bone of a host's skeleton by name, or null. */
   segmentsOf(bones: readonly string[]): (number | null)[];
+  /** Returns the fields of a typical person for spawn, with usual speed and style. Deviations are standard scores. */
+  typicalPerson(sex: number, age_y?: number, height_z?: number, mass_index_z?: number): { sex: number; age_y: number; height_m: number; mass_kg: number; speed_m_s: number; style: number[] };
   /** Returns the levels of detail of a muscle with measurements. */
   levels(muscle: number, body?: { speed_m_s?: number; height_m?: number; inertia?: boolean | number; pulling?: boolean | number }): Returned<c.mobil_level>[];
   /** @deprecated removed in 0.5; use levels */

@@ -44,6 +44,18 @@ export class Mobil {
     const own = (bone) => this.segments.find((name) => bone === name || (bone.endsWith(name) && !/[A-Za-z0-9]/.test(bone.at(-name.length - 1))));
     return bones.map((bone) => (own(bone) === undefined ? null : this.segments.indexOf(own(bone))));
   }
+  /** Returns the fields of a typical person for spawn, with usual speed and style. `sex`: 0 man, 1 woman. The deviations
+   *  are standard scores of stature and body mass index for that age. */
+  typicalPerson(sex, age_y = 25, height_z = 0, mass_index_z = 0) {
+    return this.library.within((take) => {
+      const { x } = this.library, at = take(structs.mobil_person.size), many = this.style.length, numbers = take(4 * many);
+      x.mobil_defaults(c.MOBIL_PERSON, at, structs.mobil_person.size);
+      const code = x.mobil_typical_person(sex, age_y, height_z, mass_index_z, numbers, many, at);
+      if (code !== 0) throw new MobilError(`typicalPerson: no body of sex ${sex} at ${age_y} years deviates by ${height_z} and ${mass_index_z}; choose sex 0 or 1, 6 to 95 years, and smaller deviations`, code);
+      const { height_m, mass_kg, speed_m_s } = this.library.object('mobil_person', at);
+      return { sex, age_y, height_m, mass_kg, speed_m_s, style: Array.from(new Float32Array(this.library.memory.buffer, numbers, many)) };
+    });
+  }
   /** Returns the levels of detail of a muscle with measurements: {name, method, modes, moving, error_m, cost_us}. */
   levels(muscle, { speed_m_s = 1.4, height_m = 1.8, inertia = false, pulling = false } = {}) {
     return this.library.within((take) => {

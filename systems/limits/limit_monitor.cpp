@@ -11,6 +11,7 @@
 #include <mobil/rows.h>
 #include <mobil/systems/limits/walk_limits.h>
 #include "systems/gait/step_limits.h"
+#include "systems/limits/walk_estimate.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -84,9 +85,9 @@ void count_limit_violations(const BodySize<Lanes<float>>& size, const StepPlan<L
   std::uint32_t looked_at = 0;
   for (std::size_t l = 0; l < rows.live; ++l)
     if (turns_back(plan, state, l) ||
-        (plan.settled[l] == 0 &&
-         (changes_style(plan, l) || !has_usual_steps(size.leg_scale_m[l], wanted.speed_m_s[l], wanted.step_length_m[l]) ||
-          !is_near_usual(row_of(wanted.style, l)))))
+        (plan.settled[l] == 0 && (changes_style(plan, l) ||
+                                  !has_usual_steps(size.leg_scale_m[l], wanted.speed_m_s[l], wanted.step_length_m[l]) ||
+                                  !is_near_usual(row_of(wanted.style, l)))))
       looked_at |= 1U << l;
   if (looked_at == 0) return;
   StepBounds<Lanes<float>> bounds;

@@ -18,6 +18,7 @@
 #include <mobil/rows.h>
 #include <mobil/systems/limits/walk_limits.h>
 #include "systems/gait/gait.h"
+#include "systems/limits/walk_estimate.h"
 
 namespace mobil::inline v0_3 {
 namespace {
@@ -388,8 +389,7 @@ bool is_usual(float height_m, const Gait<float>& gait) {
 /// 000 random styles with each number within a tenth of the usual one, 230 broke a limit only while stopping, all with
 /// mid-stance at 0.910 or lower. Styles that pass are examined roughly first, the others including stops.
 bool stops_as_it_walks(const GaitStyle& style) {
-  constexpr float bent_knees = 0.93F;
-  return is_near_usual(style) && style.mid_stance_height >= bent_knees;
+  return is_near_usual(style) && style.mid_stance_height >= 0.93F;
 }
 
 /// Adds changes to a gait that can have earlier changes, whose requested values and reasons stay. The step length comes

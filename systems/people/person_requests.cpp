@@ -53,7 +53,7 @@ BodyRequest body_request(const World& world, Entity person) {
 }
 
 BodySize<float> body_size(const BodyRequest& request) {
-  return make_size(request, static_cast<float>(extra_fat_of(body_composition(request), request.sex)));
+  return make_size(request, static_cast<float>(fat_share_of(body_composition(request))));
 }
 
 BodySize<float> body_size(const World& world, Entity person) {
@@ -296,7 +296,7 @@ Result<void> check_pose(const World& world, Entity person, const Pose<float>& po
 Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
   if (auto ok = check_pose(world, person, pose); !ok) return ok;
   world.set(person, joint_angles(pose));
-  world.set(person, sole_points(world.get<BodySize>(person)->height_m, pose));
+  world.set(person, sole_points(world.get<BodySize>(person)->leg_scale_m, pose));
   return result_of("set_pose", world.set(person, pose));
 }
 

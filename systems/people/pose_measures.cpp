@@ -8,7 +8,6 @@
 #include <mobil/engine/geometry.h>
 #include "assets/body/body_scales.h"
 #include "assets/body/column.h"
-#include "assets/body/fat_distribution.h"
 
 namespace mobil::inline v0_3 {
 
@@ -48,23 +47,22 @@ void move_mass_along_limbs(const BodySize<Lanes<float>>& size, const LimbLengths
                            const Pose<Lanes<float>>& pose, CentreOfMass<Lanes<float>>& centre) {
   using enum Segment;
   using Size = BodySize<Lanes<float>>;
-  const std::tuple<Segment, Lanes<float> Size::*, const Lanes<float>&> bones[] = {
-      {thigh_right, &Size::leg_scale_m, limbs.thigh_m},
-      {shank_right, &Size::leg_scale_m, limbs.shank_m},
-      {upper_arm_right, &Size::upper_arm_scale_m, limbs.upper_arm_m},
-      {forearm_right, &Size::forearm_scale_m, limbs.forearm_m}};
-  for (const auto& [right_one, scale, length_m] : bones) {
+  const std::tuple<Segment, Lanes<float> Size::*, Lanes<float> Size::*, const Lanes<float>&> bones[] = {
+      {thigh_right, &Size::leg_scale_m, &Size::thigh_mass, limbs.thigh_m},
+      {shank_right, &Size::leg_scale_m, &Size::shank_mass, limbs.shank_m},
+      {upper_arm_right, &Size::arm_scale_m, &Size::upper_arm_mass, limbs.upper_arm_m},
+      {forearm_right, &Size::arm_scale_m, &Size::forearm_mass, limbs.forearm_m}};
+  for (const auto& [right_one, scale, mass, length_m] : bones) {
     for (const Side side : {Side::right, Side::left}) {
       const std::size_t s = index(on_side(right_one, side));
       const auto tip = static_cast<float>(unit_body.tip[s].y),
                  part = static_cast<float>(unit_body.centre_of_mass[s].y) / tip;
-      const auto usual = static_cast<float>(unit_body.mass_fraction[s]),
-                 more = static_cast<float>(mass_per_extra_fat(s));
+      const auto share = static_cast<float>(unit_body.mass_share[s]);
       const Quat<Lanes<float>>& q = pose.rotation[s];
       for (std::size_t l = 0; l < lane_count; ++l) {
         if (length_m[l] == 0) continue;
         // Along the bone's own y axis, down.
-        const float by = (usual + more * size.extra_fat[l]) * part * (length_m[l] + tip * (size.*scale)[l]);
+        const float by = share * (size.*mass)[l] * part * (length_m[l] + tip * (size.*scale)[l]);
         centre.position_m.x[l] -= by * 2 * (q.x[l] * q.y[l] - q.w[l] * q.z[l]);
         centre.position_m.y[l] -= by * (1 - 2 * (q.x[l] * q.x[l] + q.z[l] * q.z[l]));
         centre.position_m.z[l] -= by * 2 * (q.y[l] * q.z[l] + q.w[l] * q.x[l]);

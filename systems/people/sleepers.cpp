@@ -74,7 +74,7 @@ BodyRequest body_of(const Asleep<float>& asleep) {
 }
 
 BodySize<float> size_of(const Asleep<float>& asleep) {
-  return make_size(body_of(asleep), asleep.extra_fat);
+  return make_size(body_of(asleep), asleep.fat_share);
 }
 
 Gait<float> gait_of(float leg_scale_m, const SteadyWalk<float>& walk, const GaitStyle& style) {
@@ -132,7 +132,7 @@ void find_steady(const World& world, std::span<const Entity> people, const Sleep
       const GaitStyle style = row_of(at->walkers.gait, l).style;
       out.push_back({who[l],
                      {row_of(at->walk, l), at->walkers.size.height_m[l], at->walkers.size.mass_kg[l],
-                      at->walkers.size.extra_fat[l], body.endo, body.meso, body.ecto, body.build},
+                      at->walkers.size.fat_share[l], body.endo, body.meso, body.ecto, body.build},
                      packed_style(style),
                      {style}});
     }

@@ -80,8 +80,8 @@ Result<void> check_sleepers(const SavedWorld& saved, std::uint32_t table) {
     Asleep<float> asleep;
     read(row, first, asleep);
     // Files from before fat depended on sex keep their values.
-    bool sound = is_sound(asleep.walk) && check_body(body_of(asleep)).has_value() && asleep.extra_fat >= -0.3F &&
-                 asleep.extra_fat <= 0.6F;
+    bool sound = is_sound(asleep.walk) && check_body(body_of(asleep)).has_value() && asleep.fat_share >= 0.02F &&
+                 asleep.fat_share <= 0.7F;
     if (since != Table::no_column) {
       Unsettled<float> unsettled;
       read(row, since, unsettled);

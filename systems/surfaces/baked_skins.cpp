@@ -16,7 +16,7 @@
 namespace mobil::inline v0_3 {
 namespace {
 
-constexpr std::uint64_t magic = 0x32736b6c69626f6d;  // "mobilks2", little-endian
+constexpr std::uint64_t magic = 0x33736b6c69626f6d;  // "mobilks3", little-endian
 constexpr std::array sexes = {Sex::man, Sex::woman};
 
 /// The finest meshes are most of the bytes and seldom needed.
@@ -182,8 +182,10 @@ std::vector<std::byte> BodySkins::bake() const {
       static_cast<std::uint32_t>(std::ranges::count_if(fit_, [](const auto& one) { return one.second.has_value(); })));
   for (const auto& [key, fit] : fit_) {
     if (!fit) continue;
-    out.put(static_cast<std::uint32_t>(key.first));
-    out.put(static_cast<std::uint32_t>(key.second));
+    const auto& [sex, age_y, step] = key;
+    for (const std::uint32_t number :
+         {static_cast<std::uint32_t>(sex), static_cast<std::uint32_t>(age_y), static_cast<std::uint32_t>(step)})
+      out.put(number);
     form::TrunkFit copy = *fit;
     for (const double* const number : numbers_of(copy)) out.put(*number);
   }
@@ -191,9 +193,9 @@ std::vector<std::byte> BodySkins::bake() const {
       static_cast<std::uint32_t>(std::ranges::count_if(skin_, [](const auto& one) { return one.second != nullptr; })));
   for (const auto& [key, skin] : skin_) {
     if (!skin) continue;
-    const auto& [sex, detail, step] = key;
-    for (const std::uint32_t number :
-         {static_cast<std::uint32_t>(sex), static_cast<std::uint32_t>(detail), static_cast<std::uint32_t>(step)})
+    const auto& [sex, detail, age_y, step] = key;
+    for (const std::uint32_t number : {static_cast<std::uint32_t>(sex), static_cast<std::uint32_t>(detail),
+                                       static_cast<std::uint32_t>(age_y), static_cast<std::uint32_t>(step)})
       out.put(number);
     for (const auto* const values : {&skin->rest, &skin->normal}) out(flat(*values), 3 * values->size());
     for (const auto* const grid : {&skin->leg.base, &skin->leg.fat})
@@ -213,25 +215,27 @@ Result<void> BodySkins::load(std::span<const std::byte> baked) {
   std::array<std::array<SkinMesh, skin_details>, sexes.size()> meshes;
   for (auto& of_sex : meshes)
     for (std::size_t d = finest; d < skin_details && in.sound(); ++d) of_sex[d] = read_mesh(in);
-  constexpr std::uint32_t most_steps = 64;
+  constexpr std::uint32_t most_steps = 64, ages = 13, oldest_y = 85;
   decltype(fit_) fits;
-  const std::uint32_t fit_count = in.take_up_to(2 * most_steps);
+  const std::uint32_t fit_count = in.take_up_to(2 * ages * most_steps);
   for (std::uint32_t i = 0; i < fit_count && in.sound(); ++i) {
     const auto sex = static_cast<Sex>(in.take_up_to(1));
+    const auto age_y = static_cast<int>(in.take_up_to(oldest_y));
     const auto step = static_cast<int>(in.take_up_to(most_steps));
     form::TrunkFit fit;
     for (double* const number : numbers_of(fit)) *number = in.take<double>();
-    fits[{sex, step}] = fit;
+    fits[{sex, age_y, step}] = fit;
   }
   decltype(skin_) skins;
-  const std::uint32_t skin_count = in.take_up_to(2 * most_steps * skin_details);
+  const std::uint32_t skin_count = in.take_up_to(2 * ages * most_steps * skin_details);
   for (std::uint32_t i = 0; i < skin_count && in.sound(); ++i) {
     const auto sex = static_cast<Sex>(in.take_up_to(1));
     const auto detail = static_cast<SkinDetail>(in.take_up_to(skin_details - 1));
+    const auto age_y = static_cast<int>(in.take_up_to(oldest_y));
     const auto step = static_cast<int>(in.take_up_to(most_steps));
     if (static_cast<std::size_t>(detail) < finest) in.refuse();
     const SkinMesh& mesh = meshes[static_cast<std::size_t>(sex)][static_cast<std::size_t>(detail)];
-    skins[{sex, detail, step}] = std::make_unique<BodySkin>(read_skin(in, sex, detail, mesh));
+    skins[{sex, detail, age_y, step}] = std::make_unique<BodySkin>(read_skin(in, sex, detail, mesh));
   }
   if (!in.whole()) return fail("the baked skins do not agree with themselves; bake them again");
   for (const Sex sex : sexes) {

@@ -183,8 +183,8 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
 
 Result<BodySurfaces> bind_surfaces(const Body& body, const DrawnSurfaces& drawn, const SurfaceChoice& choice) {
   Binding binding{body, choice, {}};
-  binding.made.height_m = body.request.height_m;
-  binding.made.limbs = limb_lengths(body);
+  for (std::size_t s = 0; s < segment_count; ++s)
+    binding.made.bone_scale[s] = geometry::to_float(bone_scale(body, static_cast<Segment>(s)));
   binding.made.sides = choice.sides;
   binding.made.clear_of = drawn.clear_of;
   for (const BoneSurface& bone : drawn.bones) {
@@ -203,16 +203,11 @@ Result<BodySurfaces> bind_surfaces(const Body& body, const SurfaceChoice& choice
 }
 
 SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body) {
-  const float lengths = body.request.height_m / bound.height_m;
-  const LimbLengths<float> limbs = limb_lengths(body), &was = bound.limbs;
-  const auto stretch = [lengths](float own_m, float was_m) {
-    const float s = own_m / (lengths * was_m);
-    return std::abs(s - 1) < 1e-5F ? 1.0F : s;  // in proportion up to rounding
-  };
-  SurfaceFit fit{lengths,
-                 {stretch(limbs.thigh_m, was.thigh_m), stretch(limbs.shank_m, was.shank_m),
-                  stretch(limbs.upper_arm_m, was.upper_arm_m), stretch(limbs.forearm_m, was.forearm_m)},
-                 {}};
+  SurfaceFit fit;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const Vec3<float> own = geometry::to_float(bone_scale(body, static_cast<Segment>(s))), &was = bound.bone_scale[s];
+    fit.bone[s] = {own.x / was.x, own.y / was.y, own.z / was.z};
+  }
   for (const BodySurfaces::Driver& driver : bound.driver) {
     const auto plan = make_muscle_plan(body, driver.muscle);
     assert(plan);

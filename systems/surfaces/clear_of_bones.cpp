@@ -100,9 +100,10 @@ struct FieldInWorld {
 
   FieldInWorld(const LegBones& bones, Segment segment, const PosedBone& bone, Side side)
       : field(LegBones::field(segment)), pose(bone.pose) {
-    const float per_m = static_cast<float>(1 / (bones.m_per_mm() * field.cell)) / bone.lengths;
-    scale = {side == Side::left ? -per_m : per_m, per_m / (bone.stretch * static_cast<float>(bones.stretch(segment))),
-             per_m};
+    const Vec by = field.cell * bones.m_per_mm(segment);
+    const auto per_m = [&](double cell_m, float own) { return static_cast<float>(1 / cell_m) / own; };
+    scale = {per_m(side == Side::left ? -by.x : by.x, bone.scale.x), per_m(by.y, bone.scale.y),
+             per_m(by.z, bone.scale.z)};
     corner = to_float((1 / field.cell) * field.corner);
     const std::array<Point, 3> axis = columns(pose.rotation);
     const std::array<float, 3> size = {scale.x, scale.y, scale.z}, first = {corner.x, corner.y, corner.z};

@@ -13,7 +13,7 @@ namespace mobil::inline v0_3 {
 /// lengths, and along the bone relative to that.
 struct PosedBone {
   RigidPose pose;
-  float lengths = 1, stretch = 1;
+  Vec3<float> scale{1, 1, 1};
 };
 
 /// Moves places that are within the bones of one side to their surface: x y z x of one place after the other, m, as

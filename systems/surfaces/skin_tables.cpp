@@ -156,7 +156,7 @@ Result<std::unique_ptr<SkinTable>> make_skin_table(const BodyRequest& request) {
 Result<const SkinTable*> SkinTables::of(const BodyRequest& body) {
   if (auto ok = check_body(body); !ok) return tl::unexpected(ok.error());
   const SkinBuild build = skin_build(body, 3);
-  auto& table = table_[{body.sex, build.step}];
+  auto& table = table_[{body.sex, build.age_y, build.step}];
   if (!table) {
     auto made = make_skin_table(build.body);
     if (!made) return tl::unexpected(made.error());

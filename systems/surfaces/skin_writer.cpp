@@ -43,13 +43,13 @@ const SkinMesh& mesh_of(const BodySkin& skin) {
 Result<SkinShape> BodySkins::of(const BodyRequest& body, SkinDetail detail) {
   if (auto ok = check_body(body); !ok) return tl::unexpected(ok.error());
   const int coarse = detail < SkinDetail::far ? 1 : 2;
-  const auto [steps, usual] = skin_build(body, index_step * static_cast<float>(coarse));
+  const auto [age_y, steps, usual] = skin_build(body, index_step * static_cast<float>(coarse));
   const int step = coarse * steps;
-  auto& skin = skin_[{body.sex, detail, step}];
+  auto& skin = skin_[{body.sex, detail, age_y, step}];
   if (!skin) {
     const auto made = make_body(usual);
     if (!made) return tl::unexpected(made.error());
-    auto& fit = fit_[{body.sex, step}];
+    auto& fit = fit_[{body.sex, age_y, step}];
     if (!fit) fit = fit_trunk(*made);
     skin = std::make_unique<BodySkin>(make_body_skin(*made, *fit, detail, dress_));
   }

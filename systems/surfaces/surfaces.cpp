@@ -49,9 +49,14 @@ RigidPose segment_pose(const Row& pose, Segment segment) {
   return {read<Vec3<float>>(pose, 3 * index(segment)), read<Quat<float>>(pose, 3 * segment_count + 4 * index(segment))};
 }
 
-/// Returns the scale of a bone along itself, relative to its body's other bones.
+/// Returns the scale of the leg's bones.
+float leg_lengths(const SurfaceFit& fit) {
+  return fit.bone[index(Segment::thigh_right)].x;
+}
+/// Returns the scale of a bone along itself, relative to the leg's other bones.
 float stretch(const SurfaceFit& fit, Segment segment) {
-  return value_of(fit.limbs, segment, 1.0F);
+  const float s = fit.bone[index(segment)].y / leg_lengths(fit);
+  return std::abs(s - 1) < 1e-5F ? 1.0F : s;  // in proportion up to rounding
 }
 
 /// Writes displacements of a belly at rest that is drawn out evenly.
@@ -106,7 +111,7 @@ void write_bone(const SurfaceRequest& request, RigidPose now, const RigidSurface
   now.position_m = {now.position_m.x - o.x, now.position_m.y - o.y, now.position_m.z - o.z};
   const VertexTarget target = target_of(request, part.first_vertex);
   if (request.fit == nullptr) return write_rigid(surface, affine_map(now), target);
-  write_rigid(surface, affine_map(now), target, request.fit->lengths, stretch(*request.fit, part.segment));
+  write_rigid(surface, affine_map(now), target, request.fit->bone[index(part.segment)]);
 }
 
 }  // namespace
@@ -143,7 +148,7 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
   const SurfaceRest& rest = packed.rest;
   SurfaceScale scale;
   if (const SurfaceFit* fit = request.fit; fit != nullptr) {
-    scale = {fit->lengths, stretch(*fit, rest.origin.bone[side]), stretch(*fit, rest.insertion.bone[side]),
+    scale = {leg_lengths(*fit), stretch(*fit, rest.origin.bone[side]), stretch(*fit, rest.insertion.bone[side]),
              fit->belly[piece.driver]};
   }
   const SkinMaps maps = skin_maps(rest, side, segment_pose(person.pose, rest.origin.bone[side]),
@@ -154,8 +159,8 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
     for (std::size_t b = 0; b < posed.size(); ++b) {
       const Segment bone =
           LegBones::hard[b] < Segment::thigh_right ? LegBones::hard[b] : on_side(LegBones::hard[b], side);
-      posed[b] = {segment_pose(person.pose, bone), scale.lengths,
-                  request.fit == nullptr ? 1.0F : stretch(*request.fit, bone)};
+      posed[b].pose = segment_pose(person.pose, bone);
+      if (request.fit != nullptr) posed[b].scale = request.fit->bone[index(bone)];
       posed[b].pose.position_m = posed[b].pose.position_m - request.origin_m;
     }
     keep_clear(*request.surfaces->clear_of, posed, side, places,

@@ -98,13 +98,14 @@ void write_rings(const VertexRings& rings, std::span<const PlacedAlong> along, c
   write_group(last, rings, along, more, places, sense, first, vertices - first, packed, out);
 }
 
-void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale, float stretch) {
+void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, const Vec3<float>& scale) {
   const bool packed = is_packed(out);
   AffineMap scaled = map, turned = map;
+  const float along[3] = {scale.x, scale.y, scale.z};
   for (int c = 0; c < 3; ++c) {
-    for (float& word : scaled.column[c]) word *= c == 1 ? scale * stretch : scale;
+    for (float& word : scaled.column[c]) word *= along[c];
+    for (float& word : turned.column[c]) word *= scale.x / along[c];  // normals, which are normalised afterwards
   }
-  for (float& word : turned.column[1]) word /= stretch;  // normals, which are normalised afterwards
   for (std::size_t b = 0; b < surface.block.size(); ++b) {
     const EightVec p = apply<true>(scaled, load(surface.block[b].rest)),
                    n = apply<false>(turned, load(surface.block[b].normal));
@@ -115,7 +116,7 @@ void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget
       const Rows position = transposed({{p.x.part[i], p.y.part[i], p.z.part[i], p.x.part[i]}});
       if (out.normal != nullptr) {
         Rows normal = transposed({{n.z.part[i], n.x.part[i], n.y.part[i], n.z.part[i]}});
-        if (stretch != 1) normalise(1, normal);
+        if (scale.y != scale.x || scale.z != scale.x) normalise(1, normal);
         put(position, normal, first, count, packed, out, [&](std::size_t v) {
           const RigidAlong& of = surface.along[v];
           const Vec3<float>& d = of.direction;
@@ -147,9 +148,8 @@ void write_vertices(const VertexRings& rings, std::span<const PlacedAlong> along
   HWY_DYNAMIC_DISPATCH(write_rings)(rings, along, places, sense, out);
 }
 
-void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale,
-                 float stretch) {
-  HWY_DYNAMIC_DISPATCH(rigid)(surface, map, out, scale, stretch);
+void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, const Vec3<float>& scale) {
+  HWY_DYNAMIC_DISPATCH(rigid)(surface, map, out, scale);
 }
 
 }  // namespace mobil::inline v0_3

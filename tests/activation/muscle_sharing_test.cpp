@@ -249,14 +249,18 @@ double rms(const std::vector<MomentVector>& moments, Eigen::Index which) {
   return std::sqrt(sum / static_cast<double>(moments.size()));
 }
 
-/// Muscles make the moments of all joints. At 1.8 m/s flexors and rotators of the hip are at their most for some time.
+/// Muscles make the moments of all joints. The rotators of the hip are at their most for some
+/// time, and at 1.8 m/s its flexors too.
 TEST(MuscleSharing, MusclesOfTheLegMakeItsMoments) {
   for (const float speed : {0.8F, 1.3F, 1.8F}) {
     const Stride stride = walk(speed);
     ASSERT_GT(stride.moment_nm.size(), 30U);
     for (Eigen::Index k = 0; k < Eigen::Index{leg_moment_count}; ++k) {
       const double share = rms(stride.left_nm, k) / rms(stride.moment_nm, k);
-      EXPECT_LT(share, speed < 1.5F ? 0.03 : k == 2 ? 0.7 : 0.15) << "moment " << k << " at " << speed;
+      EXPECT_LT(share, speed < 1.5F ? (k == 2 ? 0.1 : 0.03)
+                       : k == 2     ? 0.75
+                                    : 0.15)
+          << "moment " << k << " at " << speed;
     }
   }
 }

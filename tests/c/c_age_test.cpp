@@ -3,7 +3,10 @@
 #include <cstring>
 #include <limits>
 #include <utility>
+#include <vector>
 
+#include <mobil/anthropometry.h>
+#include <mobil/usual_gait.h>
 #include "tests/c/c_fixture.h"
 
 namespace mobil::c_age_test {
@@ -48,6 +51,28 @@ TEST(CAge, ZeroAndOlderStructsAreAdults) {
     EXPECT_EQ(back.age_y, 25);
     EXPECT_EQ(back.sex, MOBIL_MAN);
   }
+}
+
+TEST(CAge, TypicalPeopleAreThoseOfCpp) {
+  const Sim sim;
+  auto person = filled<mobil_person>(MOBIL_PERSON);
+  std::vector<float> style(gait_parameters.size());
+  ASSERT_EQ(mobil_typical_person(MOBIL_WOMAN, 72, 1, -0.5F, style.data(), style.size(), &person), MOBIL_OK);
+  const BodyRequest body = typical_body(Sex::woman, 72, 1, -0.5F);
+  mobil_id id;
+  ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &id), MOBIL_OK) << sim.message();
+  Simulation simulation;
+  ASSERT_TRUE(simulation.spawn(body, {.speed_m_s = usual_speed_m_s(body), .style = usual_style(body)}));
+  EXPECT_EQ(sim.hash(), simulation.state_hash());
+  const mobil_person before = person;
+  for (const float z : {9.0F, std::nanf("")})
+    EXPECT_EQ(mobil_typical_person(MOBIL_MAN, 30, z, 0, nullptr, 0, &person), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_typical_person(2, 30, 0, 0, nullptr, 0, &person), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_typical_person(MOBIL_MAN, 30, 0, 0, style.data(), style.size() + 1, &person), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_typical_person(MOBIL_MAN, 30, 0, 0, nullptr, 0, nullptr), MOBIL_REFUSED);
+  EXPECT_EQ(std::memcmp(&before, &person, sizeof person), 0);
+  person.size = offsetof(mobil_person, age_y);
+  EXPECT_EQ(mobil_typical_person(MOBIL_MAN, 30, 0, 0, nullptr, 0, &person), MOBIL_STRUCT);
 }
 
 }  // namespace

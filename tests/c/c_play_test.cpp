@@ -160,15 +160,15 @@ TEST(CPlay, PosedPeopleHaveNoStepEvents) {
   EXPECT_EQ(mobil_get_walk(sim, id, &walk, nullptr, 0), MOBIL_MISSING);
 }
 
-/// A person known to exceed the ankle's limit when stopping and starting again.
+/// A person known to exceed the hip's limit in a turn.
 TEST(CPlay, LimitViolationsMatchCpp) {
-  GaitRequest gait{.speed_m_s = 2.06351F};
-  gait.style.double_support_scale = 0.6F;
+  GaitRequest gait{.speed_m_s = 1.223403F};
+  gait.style.step_asymmetry = -0.4F;
   std::vector<float> style;
   for (const GaitParameter& p : gait_parameters) style.push_back(gait.style.*p.value);
   auto person = filled<mobil_person>(MOBIL_PERSON);
-  person.height_m = 1.627254F;
-  person.mass_kg = 63.42218F;
+  person.height_m = 1.278257F;
+  person.mass_kg = 35.655258F;
   person.given = MOBIL_SPEED | MOBIL_STYLE;
   person.speed_m_s = *gait.speed_m_s;
   person.style = style.data();
@@ -178,18 +178,18 @@ TEST(CPlay, LimitViolationsMatchCpp) {
   ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &id), MOBIL_OK) << sim.message();
   Simulation simulation;
   const Entity same = *simulation.spawn(BodyRequest{.height_m = person.height_m, .mass_kg = person.mass_kg}, gait);
-  const auto change = [&](float speed_m_s) {
+  const auto turn = [&](float heading_rad) {
     auto walk = filled<mobil_walk>(MOBIL_WALK);
-    walk.given = MOBIL_SPEED;
-    walk.speed_m_s = speed_m_s;
+    walk.given = MOBIL_HEADING;
+    walk.heading_rad = heading_rad;
     ASSERT_EQ(mobil_change_walk(sim, &id, 1, &walk), MOBIL_OK) << sim.message();
-    ASSERT_TRUE(simulation.change_gait(same, {.speed_m_s = speed_m_s}));
+    ASSERT_TRUE(simulation.turn_to(same, heading_rad));
   };
   std::size_t broken = 0, people = 0, all = 0;
-  for (int tick = 0; tick < 240; ++tick) {
-    if (tick == 38) change(0);
-    if (tick == 61) change(1.630582F);
-    if (tick == 136) change(2.06351F);
+  for (int tick = 0; tick < 360; ++tick) {
+    if (tick == 43) turn(2.27692F);
+    if (tick == 200) turn(1.99182F);
+    if (tick == 251) turn(-1.26278F);
     ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
     simulation.tick();
     std::string ours;

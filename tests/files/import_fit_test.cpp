@@ -111,7 +111,7 @@ TEST_F(RealLeg, BothBonesOfAJointMapToTheBodysCentre) {
   EXPECT_TRUE(rc::check([&] {
     const Body body = body_of(static_cast<float>(*rc::gen::inRange(120, 221)) / 100.0F);
     const auto maps = bone_maps(*anatomy, body).value();
-    const Vector3d hip(-0.046 * body.request.height_m, body.hip_height_m, 0);
+    const Vector3d hip(body.joint_offset_m[index(Segment::thigh_right)].x, body.hip_height_m, 0);
     const Vector3d knee = hip - Vector3d(0, body.thigh_length_m, 0), ankle = knee - Vector3d(0, body.shank_length_m, 0);
     for (const auto* map : {&maps.pelvis, &maps.thigh}) RC_ASSERT(((*map)(maps.hip) - hip).norm() < 1e-6);
     for (const auto* map : {&maps.thigh, &maps.shank}) RC_ASSERT(((*map)(maps.knee) - knee).norm() < 1e-6);

@@ -10,6 +10,7 @@
 #include <mobil/anthropometry.h>
 #include <mobil/components/step_plan.h>
 #include "assets/body/body_scales.h"
+#include "assets/body/segment_masses.h"
 #include "engine/eigen.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/body_motion.h"
@@ -72,6 +73,18 @@ inline Stance mirrored(const Stance& s) {
   return m;
 }
 
+/// Returns the sizes of a man with the proportions of the unit body.
+inline BodySize<float> uniform_size(float height_m, float mass_kg) {
+  BodySize<float> size = make_size({.height_m = height_m, .mass_kg = mass_kg}, 0.183F);
+  size.leg_scale_m = size.trunk_scale_m = size.shoulders_scale_m = size.arm_scale_m = height_m;
+  return size;
+}
+/// Returns the part of a segment in his mass.
+inline double mass_part(std::size_t segment) {
+  static const BodySize<float> size = uniform_size(1.75F, 75);
+  return mass_fraction(size, segment);
+}
+
 inline std::array<Vector, segment_count> places(double height, const Stance& s) {
   std::array<Vector, segment_count> at;
   at[0] = s.pelvis;
@@ -93,8 +106,8 @@ inline Vector body_centre(double height, const Stance& s) {
   Vector sum = Vector::Zero();
   double mass = 0;
   for (std::size_t i = 0; i < segment_count; ++i) {
-    sum += unit_body.mass_fraction[i] * at[i];
-    mass += unit_body.mass_fraction[i];
+    sum += mass_part(i) * at[i];
+    mass += mass_part(i);
   }
   return sum / mass;
 }
@@ -149,7 +162,7 @@ inline std::unique_ptr<Block> random_people(unsigned seed) {
   auto b = std::make_unique<Block>();
   for (std::size_t l = 0; l < lane_count; ++l) {
     const float height_m = dice(1.2, 2.2);
-    put(make_size({.height_m = height_m, .mass_kg = dice(30, 200)}, 0), b->size, l);
+    put(uniform_size(height_m, dice(30, 200)), b->size, l);
     b->plan.duration_s[l] = 0.5F;
   }
   return b;

@@ -55,12 +55,12 @@ Vector angular_rate(double height, double mass, const std::function<Stance(doubl
     const Vector drift = (body_centre(height, after) - body_centre(height, before)) / (2 * h);
     Vector sum = Vector::Zero();
     for (std::size_t i = 0; i < segment_count; ++i) {
-      const double m = mass * unit_body.mass_fraction[i];
+      const double m = mass * mass_part(i);
       sum += m * (c1[i] - body).cross((c2[i] - c0[i]) / (2 * h) - drift);
       const Eigen::AngleAxisd step(after.rotation[i] * before.rotation[i].conjugate());
       const Vector spin = step.axis() * step.angle() / (2 * h);
       const Eigen::Matrix3d r = now.rotation[i].toRotationMatrix();
-      sum += mass * height * height * (r * of(unit_inertia[i]).asDiagonal() * r.transpose() * spin);
+      sum += m * height * height * (r * of(unit_inertia[i]).asDiagonal() * r.transpose() * spin);
     }
     return sum;
   };
@@ -92,7 +92,7 @@ TEST(Forces, StandingIsBalancedByHalfTheWeightUnderEachFoot) {
       auto hanging = [&](Segment first) {
         double sum = 0;
         for (std::size_t i = index(on_side(first, side)); i <= index(on_side(Segment::toes_right, side)); ++i)
-          sum += weight * unit_body.mass_fraction[i] * at[i].z();
+          sum += weight * mass_part(i) * at[i].z();
         return sum;
       };
       EXPECT_NEAR(b->joints(l, side)(0), reaction - hanging(Segment::thigh_right), tolerance);
@@ -151,9 +151,9 @@ double oracle_moment(double height, double mass, const std::function<Stance(doub
     Vector centre = Vector::Zero(), a = Vector::Zero();
     for (const Segment s : body) {
       const std::size_t i = index(on_side(s, side));
-      part += unit_body.mass_fraction[i];
-      centre += unit_body.mass_fraction[i] * c1[i];
-      a += unit_body.mass_fraction[i] * (c0[i] - 2 * c1[i] + c2[i]) / (dt * dt);
+      part += mass_part(i);
+      centre += mass_part(i) * c1[i];
+      a += mass_part(i) * (c0[i] - 2 * c1[i] + c2[i]) / (dt * dt);
     }
     sum += mass * (centre / part - about).cross(a + part * Vector(0, gravity, 0));
   }
@@ -162,9 +162,9 @@ double oracle_moment(double height, double mass, const std::function<Stance(doub
     Segment from, to;
     double mass, gyration;
   };
-  const Rod rods[] = {{Segment::thigh_right, Segment::shank_right, 0.1000, 0.323},
-                      {Segment::shank_right, Segment::foot_right, 0.0465, 0.302},
-                      {Segment::foot_right, Segment::toes_right, 0.0145, 0.475}};
+  const Rod rods[] = {{Segment::thigh_right, Segment::shank_right, 0.1416, 0.3256},
+                      {Segment::shank_right, Segment::foot_right, 0.0433, 0.2493},
+                      {Segment::foot_right, Segment::toes_right, 0.0137, 0.475}};
   for (const Rod& rod : rods) {
     if (rod.from < joint) continue;
     const std::size_t i = index(on_side(rod.from, side));
@@ -201,7 +201,7 @@ TEST(Forces, AnyMotionAgreesWithThreeDimensionalFreeBodies) {
                  c2 = centres(height, motion(l, dt));
       Vector force = Vector::Zero();
       for (std::size_t i = 0; i < segment_count; ++i)
-        force += mass * unit_body.mass_fraction[i] * ((c0[i] - 2 * c1[i] + c2[i]) / (dt * dt) + Vector(0, gravity, 0));
+        force += mass * mass_part(i) * ((c0[i] - 2 * c1[i] + c2[i]) / (dt * dt) + Vector(0, gravity, 0));
       EXPECT_LT((total(*b, l) - force).norm(), 3e-3 * weight_of(*b, l));
 
       const Stance now = motion(l, 0);

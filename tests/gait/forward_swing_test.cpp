@@ -36,16 +36,17 @@ step::SwingState state_of(const SwingState& y, std::size_t l) {
 /// Returns a thigh, and a shank with the foot's mass at its end, per kg, in body heights.
 step::SwingModel model() {
   using namespace forces;
-  const double a = fraction::thigh, b = fraction::shank, below = double{shank.mass} + foot.mass;
-  const double centre = (shank.mass * shank.centre + foot.mass) / below, off = 1 - centre, up = shank.centre - centre;
+  const double a = fraction::thigh, b = fraction::shank, thigh_mass = 0.1416, shank_mass = 0.0433, foot_mass = 0.0137,
+               below = shank_mass + foot_mass;
+  const double centre = (shank_mass * shank.centre + foot_mass) / below, off = 1 - centre, up = shank.centre - centre;
   auto square = [](double x) { return x * x; };
-  return {thigh.mass,
+  return {thigh_mass,
           a,
           thigh.centre * a,
-          thigh.mass * square(thigh.gyration * a),
+          thigh_mass * square(thigh.gyration * a),
           below,
           centre * b,
-          (shank.mass * (square(shank.gyration) + square(up)) + foot.mass * square(off)) * b * b};
+          (shank_mass * (square(shank.gyration) + square(up)) + foot_mass * square(off)) * b * b};
 }
 
 struct Swing {

@@ -111,9 +111,9 @@ TEST(GaitRequest, TwoValuesGiveTheThirdAndOneTheUsualStep) {
   for (int trial = 0; trial < 300; ++trial) {
     const double height = dice(1.2, 2.2);
     const Body body = body_of(height, 70);
-    const auto alone = resolve_gait(body, {.speed_m_s = some_speed(dice, body, 0.31, 2.29)});
+    const auto alone = resolve_gait(body, {.speed_m_s = some_speed(dice, body, 0.31, 2.29)}, Footwear::barefoot);
     ASSERT_TRUE(alone.has_value()) << alone.error().message;
-    const double leg = fraction::hip_height * height;
+    const double leg = body.hip_height_m;
     const double usual = usual_step_length(static_cast<float>(alone->speed_m_s / std::sqrt(9.81 * leg)));
     EXPECT_NEAR(alone->step_length_m, usual * leg, 1e-5);
     EXPECT_NEAR(alone->step_length_m * alone->step_frequency_hz, alone->speed_m_s, 1e-5);
@@ -123,7 +123,7 @@ TEST(GaitRequest, TwoValuesGiveTheThirdAndOneTheUsualStep) {
           GaitRequest{.speed_m_s = v, .step_length_m = l}, GaitRequest{.speed_m_s = v, .step_frequency_hz = f},
           GaitRequest{.step_length_m = l, .step_frequency_hz = f},
           GaitRequest{.speed_m_s = v, .step_length_m = l, .step_frequency_hz = f}}) {
-      const auto same = resolve_gait(body, request);
+      const auto same = resolve_gait(body, request, Footwear::barefoot);
       ASSERT_TRUE(same.has_value()) << same.error().message;
       EXPECT_NEAR(same->speed_m_s, v, 1e-5);
       EXPECT_NEAR(same->step_length_m, l, 1e-5);

@@ -173,7 +173,8 @@ TEST(FirstStep, HeavyPeopleWalkWithWiderSteps) {
   w.begin();
   for (std::size_t l = 0; l < lane_count; ++l) {
     const double index = w.size.mass_kg[l] / (1.70 * 1.70);
-    EXPECT_NEAR(w.plan.to.half_width_m[l] / (0.5 * 0.055 * 1.70), 1 + 0.3 / 13.4 * std::fmax(index - 24.5, 0), 1e-3);
+    EXPECT_NEAR(w.plan.to.half_width_m[l] / (0.5 * 0.055 * w.size.leg_scale_m[l]),
+                1 + 0.3 / 13.4 * std::fmax(index - 24.5, 0), 1e-3);
     EXPECT_EQ(w.plan.step_length_m[l], w.plan.step_length_m[0]);
     EXPECT_EQ(w.plan.double_support_s[l], w.plan.double_support_s[0]);
   }

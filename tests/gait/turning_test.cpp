@@ -38,7 +38,7 @@ TEST(Turning, TurnsTheShorterWayWithinItsLimits) {
       w->strike();
       for (std::size_t l = 0; l < lane_count; ++l) {
         const double off = wrapped(double{w->gait.heading_rad[l]} - w->state.heading_rad[l]);
-        const double turn = w->state.turn_rad[l], bend = w->state.bend_next_per_m[l], height = w->size.height_m[l];
+        const double turn = w->state.turn_rad[l], bend = w->state.bend_next_per_m[l], height = w->size.leg_scale_m[l];
         const double sideways = std::pow(w->plan.to.speed_m_s[l], 2) * bend;
         EXPECT_LE(std::fabs(turn), max_turn + 1e-6);
         EXPECT_LE(std::fabs(sideways), 1.1 + 1e-5);
@@ -125,7 +125,7 @@ TEST(Turning, NextFootholdFollowsTheLine) {
       const Vec3<float> ankle = at(w->pose.position_m[index(on_side(Segment::foot_right, side))], l);
       EXPECT_NEAR(ankle.x, w->state.line_x_m[l] + left_of * std::cos(heading), 3e-5);
       EXPECT_NEAR(ankle.z, w->state.line_z_m[l] - left_of * std::sin(heading), 3e-5);
-      EXPECT_NEAR(ankle.y, fraction::ankle_height * w->size.height_m[l], 1e-3);  // the heel can be rising already
+      EXPECT_NEAR(ankle.y, fraction::ankle_height * w->size.leg_scale_m[l], 1e-3);  // the heel can be rising already
     }
   }
 }

@@ -67,9 +67,9 @@ struct Walkers {
     body[lane] = make_body(request).value();
     put(body[lane].size, size, lane);
   }
-  /// Returns false if the gait is out of range; it is then unchanged.
-  bool ask(std::size_t lane, const GaitRequest& request) {
-    auto wanted = resolve_gait(body[lane], request);
+  /// Returns false if the gait is out of range; it is then unchanged. Barefoot walkers have the steps of the table.
+  bool ask(std::size_t lane, const GaitRequest& request, Footwear footwear = Footwear::barefoot) {
+    auto wanted = resolve_gait(body[lane], request, footwear);
     if (!wanted) return false;
     wanted->heading_rad = gait.heading_rad[lane];
     wanted->displacement = gait.displacement[lane];

@@ -128,14 +128,15 @@ TEST(MusclePlan, SectionGrowsWithPhysique) {
 RC_GTEST_PROP(MusclePlan, TallerBodyHasTheSameLegsLonger, ()) {
   const auto height = static_cast<float>(*rc::gen::inRange(1200, 2200)) / 1000;
   const float mass = living_mass(height, *rc::gen::inRange(0, 1001) / 1000.0);
-  const double by = static_cast<double>(height) / 1.80;
+  const Body body = body_of(height, mass);
+  const double by = static_cast<double>(body.size.leg_scale_m / reference.size.leg_scale_m);
   for (const auto group : groups) {
-    const MusclePlan own = plan_of(body_of(height, mass), group), other = plan_of(reference, group);
+    const MusclePlan own = plan_of(body, group), other = plan_of(reference, group);
     RC_ASSERT(std::abs(own.rest_length_m / (by * other.rest_length_m) - 1) < 1e-6);
     RC_ASSERT(std::abs(own.belly_length_m / (by * other.belly_length_m) - 1) < 1e-6);
-    RC_ASSERT(std::abs(static_cast<double>(own.scale.along) / by - 1) < 1e-6);
+    RC_ASSERT(std::abs(static_cast<double>(own.scale.along / other.scale.along) / by - 1) < 1e-6);
     // The scaled template has the plan's size.
-    const double s = static_cast<double>(own.scale.across);
+    const double s = static_cast<double>(own.scale.across / other.scale.across);
     RC_ASSERT(std::abs(s * s * other.section_m2 / own.section_m2 - 1) < 1e-5);
   }
 }
@@ -150,9 +151,9 @@ TEST(MusclePlan, BelliesAreAtTheirAnatomicalPlaces) {
     const MusclePlan plan = plan_of(reference, group);
     EXPECT_GE(plan.belly_length_m, span.at(group).first);
     EXPECT_LE(plan.belly_length_m, span.at(group).second);
-    EXPECT_NEAR(plan.belly_length_m, reference_belly_m(group), 1e-7);
+    EXPECT_NEAR(plan.belly_length_m, static_cast<double>(plan.scale.along) * reference_belly_m(group), 1e-7);
     EXPECT_GT(plan.tendon_length_m, 0);
-    EXPECT_EQ(plan.scale.across, 1);
+    EXPECT_NEAR(plan.scale.across * plan.scale.across * plan.scale.along, 1, 1e-6) << "the volume of the reference";
     EXPECT_NEAR(plan.section_m2 * plan.belly_length_m, plan.volume_m3, 1e-12);
     const Vec z = rotated(plan.rotation, {0, 0, 1}), y = rotated(plan.rotation, {0, 1, 0});
     EXPECT_LT(z.y, -0.95);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include <mobil/anthropometry.h>
+#include <mobil/usual_gait.h>
 #include "assets/gait/step_lookup.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"
@@ -190,8 +191,8 @@ struct Expected {
     left = mean * (1 - static_cast<double>(style.step_asymmetry));
   }
   static double natural(double speed) {
-    const double leg = fraction::hip_height * static_cast<double>(height_m);
-    return usual_step_length(static_cast<float>(speed / std::sqrt(9.81 * leg))) * leg;
+    const double leg = make_body({.height_m = height_m})->hip_height_m;
+    return shod_step_factor * usual_step_length(static_cast<float>(speed / std::sqrt(9.81 * leg))) * leg;
   }
 };
 

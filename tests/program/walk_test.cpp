@@ -37,8 +37,8 @@ struct Asked {
   double height_m, mass_kg, speed_m_s, step_m, seconds;
 };
 double usual_step_m(double height_m, double speed_m_s) {
-  const double leg = fraction::hip_height * height_m;
-  return usual_step_length(static_cast<float>(speed_m_s / std::sqrt(9.81 * leg))) * leg;
+  const double leg = make_body({.height_m = static_cast<float>(height_m)})->hip_height_m;
+  return shod_step_factor * usual_step_length(static_cast<float>(speed_m_s / std::sqrt(9.81 * leg))) * leg;
 }
 const std::vector<Asked> everybody = {
     {"--height 1.80 --mass 80 --constitution athletic --speed 5km/h --seconds 3", 1.80, 80, 5 / 3.6,

@@ -42,7 +42,8 @@ struct Pair {
       for (Simulation* const simulation : {&compact, &whole}) {
         const Entity person = *simulation->spawn(one.body, one.gait);
         if (muscles) {
-          EXPECT_TRUE(simulation->set_muscles(person, *muscles));
+          const auto gave = simulation->set_muscles(person, *muscles);
+          EXPECT_TRUE(gave) << gave.error().message;
         }
         (simulation == &compact ? small : large).push_back(person);
       }

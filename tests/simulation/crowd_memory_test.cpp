@@ -291,7 +291,8 @@ TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
     }
     while (people.size() < count) {
       people.resize(people.size() + more.size());
-      EXPECT_TRUE(simulation.spawn(more, std::span(people).last(more.size())));
+      const auto came = simulation.spawn(more, std::span(people).last(more.size()));
+      EXPECT_TRUE(came) << came.error().message;
     }
     simulation.tick();
     return static_cast<double>(memory.lent_bytes());

@@ -53,7 +53,7 @@ TEST(Fat, SwingsAsAMassOnASpring) {
   BodySize<Lanes<float>> size;
   for (std::size_t l = 0; l < lane_count; ++l)
     put_row(make_size({.height_m = 1.6F + 0.02F * static_cast<float>(l), .mass_kg = 60 + 3 * static_cast<float>(l)},
-                      -0.05F + 0.02F * static_cast<float>(l)),
+                      0.15F + 0.02F * static_cast<float>(l)),
             size, l);
   for (const double tick_s : {1.0 / 30, 1.0 / 60, 1.0 / 240, 0.2}) {
     std::mt19937 random(5);
@@ -84,14 +84,14 @@ TEST(Fat, SwingsAsAMassOnASpring) {
 }
 
 TEST(Fat, IsThickerInHeavierPeople) {
-  const auto thickness_m = [](float mass_kg, float extra_fat) {
+  const auto thickness_m = [](float mass_kg, float fat_share) {
     BodySize<float> size{};
     size.height_m = 1.75F;
     size.mass_kg = mass_kg;
-    size.extra_fat = extra_fat;
+    size.fat_share = fat_share;
     return fat_thickness_m(size);
   };
-  const auto usual = thickness_m(75, 0), heavy = thickness_m(110, 0.2F), thin = thickness_m(55, -0.08F);
+  const auto usual = thickness_m(75, 0.183F), heavy = thickness_m(110, 0.35F), thin = thickness_m(55, 0.1F);
   for (std::size_t r = 0; r < fat_regions; ++r) {
     EXPECT_NEAR(usual[r], fat_points[r].thickness_m, 1e-4F);
     EXPECT_GT(heavy[r], 1.5F * usual[r]);

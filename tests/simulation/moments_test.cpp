@@ -66,7 +66,7 @@ TEST(Moments, MusclesMakeTheMomentsOfTheWalk) {
     }
     EXPECT_LT(off(ankle), 0.15);
     EXPECT_LT(off(knee), 0.3);
-    EXPECT_LT(std::sqrt(squares / count), 1) << "N m, most of it the abductors' in heel strikes";
+    EXPECT_LT(std::sqrt(squares / count), 1.2) << "N m, most of it the abductors' in heel strikes";
   }
 }
 

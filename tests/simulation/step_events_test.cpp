@@ -156,9 +156,9 @@ TEST(StepEvents, EachIsReportedOnceAtTheFootsPlace) {
     EXPECT_EQ(told.starts, 3);  // to turn, aside and to walk
     EXPECT_LT(told.place_m, 1e-4);
     EXPECT_LT(told.heading_rad, 2e-3);
-    EXPECT_LT(told.down_m, 7e-3);  // the heel's pad
-    EXPECT_LT(told.off_m, 1e-3);
-    EXPECT_GT(told.lifted_m, 0);
+    EXPECT_LT(told.down_m, 9e-3);  // the heel's pad
+    EXPECT_LT(told.off_m, 3e-3);
+    EXPECT_GT(told.lifted_m, -3e-3);  // toes can brush the ground
   }
 }
 

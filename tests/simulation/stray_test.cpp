@@ -96,7 +96,7 @@ void expect_within(const Farthest& farthest, double max_mm, const std::string& w
   double most = 0;
   for (const auto& [name, mm] : farthest) {
     // The short belly of the tensor hangs on the long tract, which the line alone leaves straight.
-    EXPECT_LT(mm, name.starts_with("tensor") ? std::max(max_mm, 40.0) : max_mm) << name << " " << what;
+    EXPECT_LT(mm, name.starts_with("tensor") ? std::max(max_mm, 45.0) : max_mm) << name << " " << what;
     if (mm > most) most = mm, worst = name;
   }
   std::printf("%s: %s is %.0f mm off, the others less\n", what.c_str(), worst.c_str(), most);

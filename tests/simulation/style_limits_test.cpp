@@ -22,6 +22,7 @@
 #include <mobil/systems/limits/walk_limits.h>
 #include "assets/body/body_scales.h"
 #include "systems/gait/gait.h"
+#include "systems/limits/walk_estimate.h"
 #include "tests/labels.h"
 #include "tests/simulation/walk_watch.h"
 
@@ -295,7 +296,7 @@ TEST(StyleLimits, AreKeptIfTheEstimateIsSure) {
   std::size_t sure = 0, asked = 0;
   while (sizes.size() < 640) {
     const float height_m = dice.single(1.4, 2.1);
-    const auto size = make_size({.height_m = height_m, .mass_kg = dice.single(18, 34) * height_m * height_m}, 0);
+    const auto size = make_size({.height_m = height_m, .mass_kg = dice.single(18, 34) * height_m * height_m}, 0.2F);
     GaitRequest request;
     request.speed_m_s = dice(0, 4) < 1 ? 0 : dice.single(0.4, 2.2);  // some stand
     for (const GaitParameter& p : gait_parameters) {

@@ -90,7 +90,7 @@ struct Walked {
 class Watch {
  public:
   Watch(const Simulation& simulation, Entity who) : simulation_(simulation), who_(who) {
-    height_ = double{simulation.person(who)->body.request.height_m};
+    height_ = double{simulation.person(who)->body.size.leg_scale_m};
   }
 
   void look(Walked& out) {

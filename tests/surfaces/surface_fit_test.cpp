@@ -87,7 +87,7 @@ TEST(SurfaceFit, OnOtherBodiesTheyAreNearSurfacesDrawnForThem) {
   const BodyRequest strong{.height_m = 1.75F, .mass_kg = 85, .constitution = Constitution::athletic};
   EXPECT_LT(off_m(usual, bodies[0]), 0.0010);
   EXPECT_LT(off_m(usual, bodies[1]), 0.0010);
-  EXPECT_LT(off_m(usual, bodies[3]), 0.0015);
+  EXPECT_LT(off_m(usual, bodies[3]), 0.0020);
   // Muscles grow away from their bones, meshes about their middles. People of another build therefore need surfaces
   // bound to that build. Some vertices of vastus lateralis are 4 cm off, along the surface: this one is 1.5 times as
   // wide, and cut back by the skin.

@@ -81,8 +81,8 @@ TEST(SoleFit, FeetComeDownClearOfEdges) {
   for (const Way& way :
        {Way{"up", stairs(0.15F, 0.32F, 9), {.speed_m_s = 0.55F, .step_length_m = 0.32F}, 0.032F, 0.05F, 33},
         {"down", stairs(-0.15F, 0.32F, 9), {.speed_m_s = 0.55F, .step_length_m = 0.32F}, 0.032F, 0.05F, 33},
-        {"a kerb up", kerb(0.15F), {.speed_m_s = 1.2F}, 0.066F, 0.07F, 33},
-        {"a kerb down", kerb(-0.15F), {.speed_m_s = 1.2F}, 0.066F, 0.07F, 33}}) {
+        {"a kerb up", kerb(0.15F), {.speed_m_s = 1.2F}, 0.066F, 0.082F, 33},
+        {"a kerb down", kerb(-0.15F), {.speed_m_s = 1.2F}, 0.066F, 0.082F, 33}}) {
     double over_m = 0, hips = 0;
     for (int start = 0; start < 10; ++start) {
       Hike hike(way.ground, way.gait, {.height_m = 1.70F, .mass_kg = 70}, 1.0 / 240,

@@ -28,6 +28,13 @@ const spawned = (world, count = 5, more = {}) => world.spawn(Array.from({ length
 const refused = (line, code) => (error) => error instanceof MobilError && !error.message.includes('\n') && line.test(error.message) && (code === undefined || error.code === code);
 const gone = refused(/despawned or forgotten/, c.MOBIL_STALE);
 
+test('typical people can be spawned', () => {
+  const world = mobil.world(), child = mobil.typicalPerson(1, 8), tall = mobil.typicalPerson(0, 40, 2);
+  assert.ok(child.height_m > 1.2 && child.height_m < 1.35 && tall.height_m > 1.85 && child.speed_m_s < tall.speed_m_s);
+  assert.equal(world.spawn([child, tall]).count, 2);
+  assert.throws(() => mobil.typicalPerson(1, 3), refused(/6 to 95 years/, c.MOBIL_REFUSED));
+});
+
 test('a slice owns nothing, and what has gone is refused', () => {
   const world = mobil.world(), before = live.size, people = spawned(world);
   assert.equal(live.size, before + 1);

@@ -1,6 +1,7 @@
 #pragma once
 // Scales height and mass to the 48 segments. Lengths are fractions of stature (Drillis & Contini 1966, the figure in
-// Winter). Masses, as fractions of body mass, and centres of mass are Dempster's, tabulated by Winter.
+// Winter). Centres of mass of the legs are Dempster's, tabulated by Winter; of the arms, de Leva's from their far ends.
+// Masses are in assets/body/segment_masses.h.
 
 #include <array>
 #include <cstddef>
@@ -18,7 +19,8 @@ struct UnitBody {
   std::array<Vec3<double>, segment_count> joint_offset;
   std::array<Vec3<double>, segment_count> centre_of_mass;
   std::array<Vec3<double>, segment_count> tip;
-  std::array<double, segment_count> mass_fraction;
+  /// Share of each segment in the mass of its group (assets/body/segment_masses.h).
+  std::array<double, segment_count> mass_share;
 };
 
 namespace fraction {
@@ -95,51 +97,55 @@ constexpr UnitBody make_unit_body() {
   }
   b.tip[at(head)] = {0, 1.0 - height.back(), 0};
 
-  // Mass fractions: pelvis .142, abdomen .139 over five lumbar vertebrae, thorax .216 over twelve thoracic ones less
-  // the clavicles, head and neck .081. The mass of a slice is in front of its vertebra.
-  constexpr double clavicle_mass = 0.003, cervical_mass = 0.012;
-  b.mass_fraction[at(pelvis)] = 0.142;
+  // Within the trunk, masses are as Dempster's: pelvis .142, abdomen .139 over five lumbar vertebrae, thorax .216 over
+  // twelve thoracic ones less the clavicles, head and neck .081. The mass of a slice is in front of its vertebra.
+  constexpr double clavicle_mass = 0.003, cervical_mass = 0.012, head_and_neck = 0.081;
+  constexpr double lumbar = 0.139 / 5, thoracic = (0.216 - 2 * clavicle_mass) / 12;
+  constexpr double lower_trunk = 0.142 + 2 * lumbar, middle_trunk = 3 * lumbar + 3 * thoracic,
+                   upper_trunk = 9 * thoracic + 2 * clavicle_mass;
+  b.mass_share[at(pelvis)] = 0.142 / lower_trunk;
   b.centre_of_mass[at(pelvis)] = {0, 0.020, -0.004};
   for (std::size_t i = 0; i < 24; ++i) {
     const std::size_t s = at(L5) + i;
     const double middle = 0.5 * b.tip[s].y;
     if (i < 5) {
-      b.mass_fraction[s] = 0.139 / 5;
+      b.mass_share[s] = lumbar / (i < 2 ? lower_trunk : middle_trunk);
       b.centre_of_mass[s] = {0, middle, 0.016};
     } else if (i < 17) {
-      b.mass_fraction[s] = (0.216 - 2 * clavicle_mass) / 12;
+      b.mass_share[s] = thoracic / (i < 8 ? middle_trunk : upper_trunk);
       b.centre_of_mass[s] = {0, middle, 0.036};
     } else {
-      b.mass_fraction[s] = cervical_mass / 7;
+      b.mass_share[s] = cervical_mass / 7 / head_and_neck;
       b.centre_of_mass[s] = {0, middle, 0.010};
     }
   }
-  b.mass_fraction[at(head)] = 0.081 - cervical_mass;
+  b.mass_share[at(head)] = 1 - cervical_mass / head_and_neck;
   b.centre_of_mass[at(head)] = {0, 0.014, 0.008};
 
   for (std::size_t side = 0; side < 2; ++side) {
     const double out = side == Side::right ? -1.0 : 1.0;  // +X is left
     auto of = [&](Segment s) { return index(on_side(s, side)); };
-    constexpr double patella_mass = 0.0012, toes_mass = 0.0025;
+    constexpr double patella_share = 0.012, toes_share = 0.172, hand_share = 0.28, fingers_share = 0.093,
+                     thumb_share = 0.023;
 
     b.joint_offset[of(thigh_right)] = {out * f::hip_half_spacing, 0, 0};
     b.tip[of(thigh_right)] = {0, -f::thigh, 0};
-    b.mass_fraction[of(thigh_right)] = 0.100 - patella_mass;
+    b.mass_share[of(thigh_right)] = 1 - patella_share;
     b.centre_of_mass[of(thigh_right)] = {0, -0.433 * f::thigh, 0};
     b.joint_offset[of(patella_right)] = {0, -f::thigh + f::patella_up, f::patella_forward};
     b.tip[of(patella_right)] = {0, -0.012, 0};
-    b.mass_fraction[of(patella_right)] = patella_mass;
+    b.mass_share[of(patella_right)] = patella_share;
     b.joint_offset[of(shank_right)] = {0, -f::thigh, 0};
     b.tip[of(shank_right)] = {0, -f::shank, 0};
-    b.mass_fraction[of(shank_right)] = 0.0465;
+    b.mass_share[of(shank_right)] = 1;
     b.centre_of_mass[of(shank_right)] = {0, -0.433 * f::shank, 0};
     b.joint_offset[of(foot_right)] = {0, -f::shank, 0};
     b.tip[of(foot_right)] = {0, f::toe_joint_height - f::ankle_height, f::ball_forward};
-    b.mass_fraction[of(foot_right)] = 0.0145 - toes_mass;
+    b.mass_share[of(foot_right)] = 1 - toes_share;
     b.centre_of_mass[of(foot_right)] = {0, -0.5 * f::ankle_height, 0.35 * f::ball_forward};
     b.joint_offset[of(toes_right)] = b.tip[of(foot_right)];
     b.tip[of(toes_right)] = {0, 0, f::toes_length};
-    b.mass_fraction[of(toes_right)] = toes_mass;
+    b.mass_share[of(toes_right)] = toes_share;
     b.centre_of_mass[of(toes_right)] = {0, 0, 0.4 * f::toes_length};
 
     // Arms hang on the sternal end of the clavicle, in front of T1.
@@ -149,28 +155,28 @@ constexpr UnitBody make_unit_body() {
     b.joint_offset[of(upper_arm_right)] = {out * (f::shoulder_half_spacing - sternal_out),
                                            f::shoulder_height - sternal_height, -0.012 - sternal_forward};
     b.tip[of(clavicle_right)] = b.joint_offset[of(upper_arm_right)];
-    b.mass_fraction[of(clavicle_right)] = clavicle_mass;
+    b.mass_share[of(clavicle_right)] = clavicle_mass / upper_trunk;
     const Vec3<double> c = b.tip[of(clavicle_right)];
     b.centre_of_mass[of(clavicle_right)] = {0.5 * c.x, 0.5 * c.y, 0.5 * c.z};
     b.tip[of(upper_arm_right)] = {0, -f::upper_arm, 0};
-    b.mass_fraction[of(upper_arm_right)] = 0.028;
-    b.centre_of_mass[of(upper_arm_right)] = {0, -0.436 * f::upper_arm, 0};
+    b.mass_share[of(upper_arm_right)] = 1;
+    b.centre_of_mass[of(upper_arm_right)] = {0, -0.645 * f::upper_arm, 0};
     b.joint_offset[of(forearm_right)] = b.tip[of(upper_arm_right)];
     b.tip[of(forearm_right)] = {0, -f::forearm, 0};
-    b.mass_fraction[of(forearm_right)] = 0.016;
-    b.centre_of_mass[of(forearm_right)] = {0, -0.430 * f::forearm, 0};
-    constexpr double palm = 0.5 * f::hand, fingers_mass = 0.0020, thumb_mass = 0.0005;
+    b.mass_share[of(forearm_right)] = 1 - hand_share;
+    b.centre_of_mass[of(forearm_right)] = {0, -0.445 * f::forearm, 0};
+    constexpr double palm = 0.5 * f::hand;
     b.joint_offset[of(hand_right)] = b.tip[of(forearm_right)];
     b.tip[of(hand_right)] = {0, -palm, 0};
-    b.mass_fraction[of(hand_right)] = 0.006 - fingers_mass - thumb_mass;
+    b.mass_share[of(hand_right)] = hand_share - fingers_share - thumb_share;
     b.centre_of_mass[of(hand_right)] = {0, -0.506 * palm, 0};
     b.joint_offset[of(fingers_right)] = b.tip[of(hand_right)];
     b.tip[of(fingers_right)] = {0, -(f::hand - palm), 0};
-    b.mass_fraction[of(fingers_right)] = fingers_mass;
+    b.mass_share[of(fingers_right)] = fingers_share;
     b.centre_of_mass[of(fingers_right)] = {0, -0.4 * (f::hand - palm), 0};
     b.joint_offset[of(thumb_right)] = {out * 0.014, -0.015, 0.004};  // palms forward: thumbs outward
     b.tip[of(thumb_right)] = {0, -0.036, 0};
-    b.mass_fraction[of(thumb_right)] = thumb_mass;
+    b.mass_share[of(thumb_right)] = thumb_share;
     b.centre_of_mass[of(thumb_right)] = {0, -0.015, 0};
   }
   return b;

@@ -73,9 +73,8 @@ double physique_factor(const BodyRequest& request);
 /// it rises with height, mass and mesomorphy throughout.
 BodyComposition body_composition(const BodyRequest& request);
 
-/// Returns the part of the mass that is fat beyond the usual share of that sex
-/// (assets/body/fat_distribution.h).
-double extra_fat_of(const BodyComposition& composition, Sex sex);
+/// Returns the share of fat in the mass, 0–1.
+double fat_share_of(const BodyComposition& composition);
 
 /// Returns the notes of a body in words, one sentence each without line breaks. Empty if the request was met unchanged.
 std::vector<std::string> body_notes(const Body& body);

@@ -10,6 +10,7 @@
 
 #include <mobil/anthropometry.h>
 #include <mobil/assets/files/output_file.h>
+#include <mobil/body_composition.h>
 #include "demo/lab/compare/compare_muscles.h"
 #include "demo/lab/compare/compare_verdicts.h"
 #include "demo/pictures/cycle_plot.h"
@@ -219,9 +220,10 @@ struct CompareText {
   bool check = false;
 };
 
+// Speeds and sizes for a man of 1.75 m and 75 kg. Those of other people are in proportion.
 constexpr float varied_speed = 5 / 3.6F;     // the paper's natural step
 constexpr float varied_height_speed = 1.3F;  // within every height's published range
-constexpr float slowest = 0.7F, fastest = 1.9F, shortest = 1.5F, tallest = 1.9F;
+constexpr float slowest = 0.7F, fastest = 1.9F, shortest = 1.5F / 1.75F, tallest = 1.9F / 1.75F;
 
 /// Settings common to all walks of a comparison.
 struct Walker {
@@ -249,27 +251,36 @@ void walk_reference_speeds(const Walker& walker, Comparison& comparison) {
   }
 }
 
+float living_mass(const BodyRequest& body, float mass_kg) {
+  const MassRange living = living_mass_kg(static_cast<double>(body.height_m), body.age_y);
+  return std::clamp(mass_kg, static_cast<float>(living.low_kg), static_cast<float>(living.high_kg));
+}
+
 void walk_variations(const Walker& walker, Comparison& comparison) {
+  const float pace = pace_of(walker.body);
   for (int i = 0; i <= 6; ++i) {
-    const float speed = slowest + (fastest - slowest) * static_cast<float>(i) / 6;
+    const float speed = pace * (slowest + (fastest - slowest) * static_cast<float>(i) / 6);
     comparison.by_speed.push_back({static_cast<double>(speed), walker.at(speed)});
   }
   for (int i = 0; i <= 4; ++i) {
     BodyRequest body = walker.body;
-    body.height_m = shortest + (tallest - shortest) * static_cast<float>(i) / 4;
+    const StatureRange living = living_height_m(body.sex, body.age_y);
+    body.height_m = std::clamp(walker.body.height_m * (shortest + (tallest - shortest) * static_cast<float>(i) / 4),
+                               static_cast<float>(living.low_m), static_cast<float>(living.high_m));
     const float ratio = body.height_m / walker.body.height_m;
-    body.mass_kg = std::clamp(walker.body.mass_kg * ratio * ratio, 30.0F, 200.0F);  // the same body mass index
-    comparison.by_height.push_back({static_cast<double>(body.height_m), walker.walk(body, varied_height_speed)});
+    body.mass_kg = living_mass(body, walker.body.mass_kg * ratio * ratio);  // the same body mass index
+    comparison.by_height.push_back({static_cast<double>(body.height_m), walker.walk(body, pace * varied_height_speed)});
   }
-  const auto natural = walker.at(varied_speed);
+  const auto natural = walker.at(pace * varied_speed);
   for (const float times : {0.9F, 1.0F, 1.1F}) {
     const float length = times * static_cast<float>(natural.step_length_m);
-    comparison.by_step_length.push_back({static_cast<double>(length), walker.walk(walker.body, varied_speed, length)});
+    comparison.by_step_length.push_back(
+        {static_cast<double>(length), walker.walk(walker.body, pace * varied_speed, length)});
   }
   for (const float mass : {65.0F, 80.0F, 120.0F}) {
     BodyRequest body = walker.body;
-    body.mass_kg = mass;
-    comparison.by_mass.push_back({static_cast<double>(mass), walker.walk(body, varied_speed)});
+    body.mass_kg = living_mass(body, mass / 75 * walker.body.mass_kg);
+    comparison.by_mass.push_back({static_cast<double>(body.mass_kg), walker.walk(body, pace * varied_speed)});
   }
 }
 

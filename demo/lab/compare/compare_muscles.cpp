@@ -12,6 +12,7 @@
 #include <mobil/engine/access.h>
 #include <mobil/engine/geometry.h>
 #include <mobil/systems/muscles/person.h>
+#include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/compare/reference_tables.h"
 #include "demo/program/must.h"
 
@@ -35,7 +36,7 @@ double to_value(float v) {
 
 /// A walker whose lines of action alone are simulated.
 Entity moment_walker(Simulation& simulation, const BodyRequest& body, const GaitRequest& gait) {
-  const Entity person = must(simulation.spawn(body, gait));
+  const Entity person = must(simulation.spawn(body, barefoot(body, gait)));
   LegMuscles choice;
   choice.method = Method::none;
   choice.muscles = muscle_members();
@@ -186,7 +187,7 @@ MuscleComparison compare_muscles(const BodyRequest& body, const GaitStyle& style
   MuscleComparison comparison;
   for (const float speed : muscle_speeds_m_s) {
     GaitRequest gait;
-    gait.speed_m_s = speed;
+    gait.speed_m_s = pace_of(body) * speed;
     gait.style = style;
     comparison.strides.push_back(walk_muscles(body, gait));
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <mobil/engine/geometry.h>
+#include <mobil/systems/gait/resolve_gait.h>
 #include <mobil/systems/muscles/person.h>
 #include "assets/body/segment_inertia.h"
 #include "demo/program/must.h"
@@ -49,7 +50,9 @@ struct Scene {
   float step_asymmetry = 0, time_asymmetry = 0;
 };
 
+/// Walks a scene. Its speeds and distances are those of a man of 1.75 m, and scale with the leg.
 UnbalancedMoment walk_scene(const BodyRequest& body, GaitStyle style, const Scene& scene) {
+  const double size = leg_ratio(body);
   style.step_asymmetry += scene.step_asymmetry;
   style.time_asymmetry += scene.time_asymmetry;
   SimulationOptions options;
@@ -57,9 +60,9 @@ UnbalancedMoment walk_scene(const BodyRequest& body, GaitStyle style, const Scen
   Simulation simulation(options);
   const auto asked = [&](const Request& request) {
     GaitRequest gait;
-    gait.speed_m_s = static_cast<float>(request.speed_m_s);
+    gait.speed_m_s = static_cast<float>(std::sqrt(size) * request.speed_m_s);
     gait.style = style;
-    return gait;
+    return barefoot(body, gait);
   };
   const auto person = must(simulation.spawn(body, asked(scene.requests.front())));
   simulation.enable(person, Feature::forces);
@@ -71,7 +74,8 @@ UnbalancedMoment walk_scene(const BodyRequest& body, GaitStyle style, const Scen
       must(simulation.set_gait(person, asked(request)));
       const double heading = request.heading_deg * std::numbers::pi / 180;
       must(simulation.turn_to(person, static_cast<float>(heading)));
-      const auto left_m = static_cast<float>(request.left_m), ahead_m = static_cast<float>(request.ahead_m);
+      const auto left_m = static_cast<float>(size * request.left_m),
+                 ahead_m = static_cast<float>(size * request.ahead_m);
       if (left_m != 0 || ahead_m != 0) must(simulation.step_aside(person, left_m, ahead_m));
     }
     simulation.tick();
@@ -224,6 +228,14 @@ void BalanceMeter::add(const Pose<float>& pose, const GroundReaction<float>& gro
   add(lacking.y, sums_.yaw_rms, sums_.yaw_peak);
 }
 
+double leg_ratio(const BodyRequest& body) {
+  return static_cast<double>(must(make_body(body)).size.leg_scale_m / must(make_body({})).size.leg_scale_m);
+}
+
+float pace_of(const BodyRequest& body) {
+  return static_cast<float>(std::sqrt(std::min(leg_ratio(body), 1.0)));
+}
+
 UnbalancedMoment BalanceMeter::result() const {
   UnbalancedMoment moment = sums_;
   for (double* const squares : {&moment.pitch_rms, &moment.roll_rms, &moment.yaw_rms})
@@ -301,11 +313,17 @@ CycleCurve sample_cycle(const std::vector<double>& phase, const std::vector<doub
   return curve;
 }
 
+GaitRequest barefoot(const BodyRequest& body, GaitRequest request) {
+  if (!request.step_length_m && request.speed_m_s && *request.speed_m_s > 0)
+    request.step_length_m = must(resolve_gait(must(make_body(body)), request, Footwear::barefoot)).step_length_m;
+  return request;
+}
+
 WalkedStride walk_stride(const BodyRequest& body, const GaitRequest& gait) {
   SimulationOptions options;
   options.tick_s = tick_s;
   Simulation simulation(options);
-  const auto entity = must(simulation.spawn(body, gait));
+  const auto entity = must(simulation.spawn(body, barefoot(body, gait)));
   simulation.enable(entity, Feature::forces);
 
   TickRows rows;

@@ -14,8 +14,14 @@
 
 namespace mobil {
 
+/// Returns the leg's length over that of a man of 1.75 m.
+double leg_ratio(const BodyRequest& body);
+/// Returns the factor from that man's speeds to those in proportion to shorter legs; 1 for longer ones.
+float pace_of(const BodyRequest& body);
+
 /// Moment of the ground minus the rate of angular momentum of all 48 segments about their common centre of mass, N m
-/// per kg of body. `pitch` is about the axis across the pelvis, `roll` about the one along it, `yaw` about the vertical.
+/// per kg of body. `pitch` is about the axis across the pelvis, `roll` about the one along it, `yaw` about the
+/// vertical.
 struct UnbalancedMoment {
   double pitch_rms = 0, pitch_peak = 0, roll_rms = 0, roll_peak = 0, yaw_rms = 0, yaw_peak = 0;
 };
@@ -78,6 +84,9 @@ struct WalkedStride {
   /// Returns null if it is not simulated. The hip is measured as the set does.
   const CycleCurve* curve(GaitQuantity quantity, bool from_vertical) const;
 };
+
+/// Returns the request with the usual step of people without shoes, as those measured walked.
+GaitRequest barefoot(const BodyRequest& body, GaitRequest request);
 
 /// Walks until steady and then one more stride, in ticks of 1/240 s. Errors: a body or gait out of range.
 WalkedStride walk_stride(const BodyRequest& body, const GaitRequest& gait);

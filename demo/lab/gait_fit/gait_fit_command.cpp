@@ -24,7 +24,7 @@ namespace {
 using namespace step_table;
 
 struct FitText {
-  std::string out = "step_table.cpp";
+  std::string out, kind = "man";
   bool styles = false, excitation = false;
   std::string without;
   std::size_t threads = 0;
@@ -39,20 +39,22 @@ void append(const TabledShape& shape, int digits, std::size_t a_line, std::strin
   text += one_line ? " },\n" : "\n    },\n";
 }
 
-std::string source(const std::vector<StepNode>& nodes) {
-  std::string text =
-      "// Written by `mobil fit-gait --out assets/gait/step_table.cpp`: README.md says from what. Do not edit.\n\n"
-      "#include \"assets/gait/step_table.h\"\n\nnamespace mobil::inline v0_3 {\n\n// clang-format off\n"
-      "const std::array<StepGiven, step_table::speed_count> step_given = {{\n";
+std::string source(const std::vector<StepNode>& nodes, std::string_view kind) {
+  std::string text = fmt::format(
+      "// Written by `mobil-lab fit-gait --kind {0} --out assets/gait/step_table_{0}.cpp` (sources: README.md). Do not "
+      "edit.\n\n#include \"assets/gait/step_table.h\"\n\nnamespace mobil::inline v0_3 {{\n\n// clang-format off\n",
+      kind);
   const auto out = std::back_inserter(text);
-  for (std::size_t s = 0; s < speed_count; ++s) {
-    const StepTargets& t = nodes[s * length_count].targets;
-    fmt::format_to(out, "  {{{:#.6g}, {:#.6g}, {:#.6g}, {:#.6g}, {:#.6g}}},\n", t.step_length, t.double_support,
-                   t.pelvis_tilt, t.pelvis_rotation, t.pelvis_list);
+  if (kind == "man") {  // the same in all
+    text += "const std::array<StepGiven, step_table::speed_count> step_given = {{\n";
+    for (std::size_t s = 0; s < speed_count; ++s) {
+      const StepTargets& t = nodes[s * length_count].targets;
+      fmt::format_to(out, "  {{{:#.6g}, {:#.6g}, {:#.6g}, {:#.6g}, {:#.6g}}},\n", t.step_length, t.double_support,
+                     t.pelvis_tilt, t.pelvis_rotation, t.pelvis_list);
+    }
+    text += "}};\n\n";
   }
-  text +=
-      "}};\n\nconst std::array<std::array<TabledShape, step_table::length_count>, step_table::speed_count> "
-      "step_shapes = {{\n";
+  fmt::format_to(out, "const StepShapes step_shapes_{} = {{{{\n", kind);
   for (std::size_t s = 0; s < speed_count; ++s) {
     text += "  {{\n";
     for (std::size_t l = 0; l < length_count; ++l) {
@@ -70,7 +72,7 @@ std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
   in_parallel(jobs, speed_count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       StepNode node = step_node({&reference}, s, usual);
-      node.shape = fitted(step_shapes[s][usual]);
+      node.shape = fitted(step_shapes(StepKind::man)[s][usual]);
       changes[s] = style_changes(node);
       show(fmt::format("speed {:g}", speed[s]));
     }
@@ -125,7 +127,10 @@ void run_fit(const FitText& text) {
     return;
   }
   const auto reference = must(read_gait_reference({}));
-  FitData data{&reference};
+  constexpr std::array<std::string_view, step_kinds> kinds = {"man", "woman", "child"};
+  const auto kind = std::ranges::find(kinds, text.kind);
+  if (kind == kinds.end()) throw Stopped(fmt::format("--kind {}: choose man, woman or child", text.kind));
+  FitData data{&reference, static_cast<StepKind>(kind - kinds.begin())};
   if (!text.without.empty()) {
     const auto named = std::ranges::find(compared_class_name, text.without);
     if (named == compared_class_name.end() || named == compared_class_name.begin() ||
@@ -143,7 +148,7 @@ void run_fit(const FitText& text) {
     show(fmt::format("{}: sum of squares {:.2f}", stage, cost));
   });
   show("");
-  must(write_file(text.out, source(nodes)));
+  must(write_file(text.out, source(nodes, text.kind)));
   for (StepNode& node : nodes)  // judged by all speeds
     node.targets = step_targets(reference, data.set, node.targets.speed, node.task.body.leg);
   print(nodes);
@@ -157,9 +162,10 @@ Subcommand gait_fit_command() {
   Subcommand command{.name = "fit-gait"};
   command.footer =
       "For those who change the library: some minutes. Prints how near each step is to what it was fitted to.\n"
-      "Example: mobil fit-gait --out assets/gait/step_table.cpp";
+      "Example: mobil fit-gait --kind woman --out assets/gait/step_table_woman.cpp";
   add_options(command,
               {{"--out", &text->out, "Source file to write"},
+               {"--kind", &text->kind, "man, woman or child: whose steps are fitted"},
                {"--styles", &text->styles, "Write how this program's table changes with the posture of a walk instead"},
                {"--excitation", &text->excitation, "Write how muscles are excited instead: a second"},
                {"--without", &text->without,

@@ -185,7 +185,7 @@ StepQuality step_quality(const StepTask& task, const StepTargets& targets, const
 }
 
 StepNode step_node(const FitData& data, std::size_t speed_number, std::size_t length_number) {
-  const StepBody body = step_body(fitted_height_m);
+  const StepBody body = step_body(data.kind, fitted_height_m);
   StepNode node{{}, step_targets(*data.reference, data.set, speed[speed_number], body.leg, data.without), {}, INFINITY};
   const double times = length[length_number];
   const GaitStyle style;

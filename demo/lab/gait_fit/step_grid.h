@@ -39,6 +39,7 @@ struct StepNode {
 /// Input of a fit: a set of a reference, optionally without one of its speed classes.
 struct FitData {
   const GaitReference* reference;
+  StepKind kind = StepKind::man;
   std::size_t set = 0, without = none_left_out;
 };
 

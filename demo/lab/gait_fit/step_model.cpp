@@ -11,8 +11,8 @@ namespace {
 constexpr double pi = std::numbers::pi, gravity = gravity_m_s2;
 constexpr std::size_t n = cycle_samples, half_cycle = n / 2;
 
-/// A leg's segments: parts of the body's mass (with kneecap and toes); centres of thigh and shank, of their lengths.
-constexpr double thigh_mass = 0.100, shank_mass = 0.0465, foot_mass = 0.0145, rod_centre = 0.433;
+/// Centres of mass of thigh and shank, of their lengths.
+constexpr double rod_centre = 0.433;
 /// Usual foot flat and heel rise, fractions of the cycle; the fraction in which the heel's pad yields.
 constexpr double usual_flat = 0.09, usual_rise = 0.30, pad_part = 0.05;
 /// Height of the point toward which the feet's forces lean, relative to the centre of mass.
@@ -272,10 +272,13 @@ void Model::place_masses() {
 void Model::accelerate_leg() {
   const StepBody& b = t_.body;
   const double stride = 2 * t_.step_length_m;
-  const double masses[3] = {thigh_mass, shank_mass, foot_mass};
-  const double inertia[3] = {thigh_mass * std::pow(winter::thigh * b.thigh, 2),
-                             shank_mass * std::pow(winter::shank * b.shank, 2),
-                             foot_mass * std::pow(winter::foot * b.ball_forward, 2)};
+  const double masses[3] = {b.thigh_mass, b.shank_mass, b.foot_mass};
+  const auto gyration = [&](const de_leva::Part& part) {
+    return part.x * part.length_m / de_leva::stature_m * b.height;
+  };
+  const double inertia[3] = {b.thigh_mass * std::pow(gyration(de_leva::thigh), 2),
+                             b.shank_mass * std::pow(gyration(de_leva::shank), 2),
+                             b.foot_mass * std::pow(foot_gyration * b.ball_forward, 2)};
   const Samples* angle[3] = {&c_.thigh, &c_.shank, &c_.pitch};
   for (std::size_t i = 0; i < n; ++i) {
     LegLoad sum;
@@ -296,9 +299,9 @@ void Model::accelerate_leg() {
 
 /// Adds the left arm, which follows the right leg.
 void Model::add_arm() {
-  const ArmBody& arm = arm_body;
-  const auto& joint = upper_body.shoulder;
-  const double h = t_.body.height, stride = 2 * t_.step_length_m, per = 1 / (t_.leg_forward - t_.leg_back);
+  const ArmBody& arm = t_.body.arm;
+  const auto& joint = t_.body.upper.shoulder;
+  const double stride = 2 * t_.step_length_m, per = 1 / (t_.leg_forward - t_.leg_back);
   Track upper, lower;
   Samples upper_turn, lower_turn;
   for (std::size_t i = 0; i < n; ++i) {
@@ -306,13 +309,13 @@ void Model::add_arm() {
     const double a = ahead * (t_.arm_forward + t_.arm_back) - t_.arm_back - c_.trunk[i];
     const double b = a + ahead * (t_.elbow_forward - t_.elbow_back) + t_.elbow_back;
     const double z = c_.hips_forward[i] +
-                     h * (joint.forward + joint.by_chest * c_.trunk[i] + joint.by_pelvis * (c_.tilt[i] - neutral_tilt));
-    const double y = c_.hips_up[i] + h * joint.up;
-    upper.z[i] = z + h * arm.upper_centre * std::sin(a);
-    upper.y[i] = y - h * arm.upper_centre * std::cos(a);
-    lower.z[i] = z + h * (arm.length * std::sin(a) + arm.lower_centre * std::sin(b));
-    lower.y[i] = y - h * (arm.length * std::cos(a) + arm.lower_centre * std::cos(b));
-    upper.x[i] = lower.x[i] = -c_.hips_left[i] - h * (joint.by_pelvis * list_[i] + joint.aside);
+                     (joint.forward + joint.by_chest * c_.trunk[i] + joint.by_pelvis * (c_.tilt[i] - neutral_tilt));
+    const double y = c_.hips_up[i] + joint.up;
+    upper.z[i] = z + arm.upper_centre * std::sin(a);
+    upper.y[i] = y - arm.upper_centre * std::cos(a);
+    lower.z[i] = z + (arm.length * std::sin(a) + arm.lower_centre * std::sin(b));
+    lower.y[i] = y - (arm.length * std::cos(a) + arm.lower_centre * std::cos(b));
+    upper.x[i] = lower.x[i] = -c_.hips_left[i] - (joint.by_pelvis * list_[i] + joint.aside);
     upper_turn[i] = a;
     lower_turn[i] = b;
   }
@@ -321,7 +324,7 @@ void Model::add_arm() {
       const double az = second(at.z, i, stride), ay = second(at.y, i) + gravity, ax = second(at.x, i);
       leg_[i].z += mass * az;
       leg_[i].y += mass * ay;
-      leg_[i].pitch += mass * (at.y[i] * az - at.z[i] * ay) - h * h * inertia * second(turn, i);
+      leg_[i].pitch += mass * (at.y[i] * az - at.z[i] * ay) - inertia * second(turn, i);
       leg_[i].roll += mass * (at.y[i] * ax - at.x[i] * ay);
       arm_up_[i] += mass * at.y[i];
     }
@@ -351,13 +354,15 @@ void Model::share_load() {
 
 /// Finds the ground reaction of both feet, the place where it must act, and the right foot's share of it.
 void Model::balance() {
-  const double step = t_.step_length_m, h = t_.body.height;
+  const double step = t_.step_length_m;
+  const StepBody& b = t_.body;
+  const UpperBody& upper_body = b.upper;
   Samples upper_z, upper_y, upper_x;
   for (std::size_t i = 0; i < n; ++i) {
-    upper_z[i] = c_.hips_forward[i] + h * (upper_body.forward + upper_body.by_chest * c_.trunk[i] +
-                                           upper_body.by_pelvis * (c_.tilt[i] - neutral_tilt));
-    upper_y[i] = c_.hips_up[i] + h * upper_body.up;
-    upper_x[i] = c_.hips_left[i] + h * upper_body.by_pelvis * list_[i];
+    upper_z[i] = c_.hips_forward[i] + (upper_body.forward + upper_body.by_chest * c_.trunk[i] +
+                                       upper_body.by_pelvis * (c_.tilt[i] - neutral_tilt));
+    upper_y[i] = c_.hips_up[i] + upper_body.up;
+    upper_x[i] = c_.hips_left[i] + upper_body.by_pelvis * list_[i];
   }
   const auto apart = [&](double u) {
     return 4 * u * (1 - u) *
@@ -373,20 +378,20 @@ void Model::balance() {
     c_.total_forward[i] = uz + leg_[i].z + leg_[o].z;
     c_.total_up[i] = uy + leg_[i].y + leg_[o].y;
     const double spin =
-        h * h * (upper_body.spin_by_chest * second(c_.trunk, i) + upper_body.spin_by_pelvis * second(c_.tilt, i));
+        (upper_body.spin_by_chest * second(c_.trunk, i) + upper_body.spin_by_pelvis * second(c_.tilt, i));
     const double moment = leg_[i].pitch + leg_[o].pitch - lead * leg_[o].y + upper_y[i] * uz - upper_z[i] * uy + spin;
     const double bearing = std::max(c_.total_up[i], 1.0);
     c_.wanted_pressure[i] = -moment / bearing;
     // to the left of the walking line; right leg's own side is −x
-    const double roll = -leg_[i].roll + leg_[o].roll + upper_y[i] * ux - upper_x[i] * uy +
-                        h * h * upper_body.spin_by_list * second(list_, i);
+    const double roll =
+        -leg_[i].roll + leg_[o].roll + upper_y[i] * ux - upper_x[i] * uy + upper_body.spin_by_list * second(list_, i);
     c_.pressure_aside[i] = -roll / bearing - (1 - 2 * c_.share[i]) * t_.half_width_m;
     const double mean = c_.share[i] * c_.pressure[i] + (1 - c_.share[i]) * (c_.pressure[o] + lead);
     c_.lacking[i] = c_.wanted_pressure[i] - mean;
     c_.borne[i] = c_.pressure[i] + c_.lacking[i];
     c_.centre_up[i] =
-        (upper_body.mass * upper_y[i] + arm_up_[i] + arm_up_[o] + thigh_mass * (centre_[0].y[i] + centre_[0].y[o]) +
-         shank_mass * (centre_[1].y[i] + centre_[1].y[o]) + foot_mass * (centre_[2].y[i] + centre_[2].y[o]));
+        (upper_body.mass * upper_y[i] + arm_up_[i] + arm_up_[o] + b.thigh_mass * (centre_[0].y[i] + centre_[0].y[o]) +
+         b.shank_mass * (centre_[1].y[i] + centre_[1].y[o]) + b.foot_mass * (centre_[2].y[i] + centre_[2].y[o]));
     double push = 0;
     if (phase < t_.double_support) push = apart(landed(phase));
     if (phase >= 0.5 && phase < off_) push = -apart(landed(phase - 0.5));
@@ -419,9 +424,18 @@ void Model::find_moments(std::size_t i, double fz, double fy) {
 
 }  // namespace
 
-StepBody step_body(double height_m) {
+StepBody step_body(StepKind kind, double leg_scale_m) {
   namespace f = fraction;
-  const double h = height_m;
+  const auto sizes = [](const BodyRequest& request) { return make_body(request)->size; };
+  BodySize<float> size = sizes(typical_body(kind == StepKind::woman ? Sex::woman : Sex::man, usual_age_y));
+  auto* const number = reinterpret_cast<float*>(&size);
+  if (kind == StepKind::child) {  // between a boy and a girl
+    const BodySize<float> boy = sizes(typical_body(Sex::man, 7)), girl = sizes(typical_body(Sex::woman, 7));
+    const auto *const one = reinterpret_cast<const float*>(&boy), *const other = reinterpret_cast<const float*>(&girl);
+    for (std::size_t i = 0; i < sizeof(size) / sizeof(float); ++i) number[i] = 0.5F * (one[i] + other[i]);
+  }
+  const BodyParts parts = body_parts(size, leg_scale_m / static_cast<double>(size.leg_scale_m));
+  const double h = leg_scale_m;
   return {h,
           f::hip_height * h,
           f::thigh * h,
@@ -431,8 +445,13 @@ StepBody step_body(double height_m) {
           f::ball_forward * h,
           f::toe_joint_height * h,
           f::toes_length * h,
-          f::hip_half_spacing * h,
-          f::heel_radius * h};
+          parts.joint_offset[index(Segment::thigh_left)].x,
+          f::heel_radius * h,
+          static_cast<double>(size.thigh_mass),
+          static_cast<double>(size.shank_mass),
+          static_cast<double>(size.foot_mass),
+          make_upper_body(parts),
+          make_arm(parts)};
 }
 
 void evaluate_step(const StepTask& task, const StepShape& shape, StepCycle& cycle) {

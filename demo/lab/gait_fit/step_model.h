@@ -11,19 +11,25 @@
 
 #include <mobil/components/lanes.h>
 #include <mobil/components/step_shape.h>
+#include "assets/gait/step_table.h"
+#include "demo/lab/gait_fit/upper_body.h"
 
 namespace mobil {
 
-/// Steps are fitted for a person of this height.
+/// Steps are fitted for people with legs of this scale.
 inline constexpr double fitted_height_m = 1.75;
 
-/// Sizes of a leg, m.
+/// Sizes of a leg, m, masses as parts of the body's, and the body above.
 struct StepBody {
   double height, leg;  // hip to ground
   double thigh, shank, ankle_height, heel_back, ball_forward, toe_joint_height, toes_length, hip_half_spacing;
   double heel_radius;  // a foot rolls on the rim of its heel
+  double thigh_mass, shank_mass, foot_mass;
+  UpperBody upper;
+  ArmBody arm;
 };
-StepBody step_body(double height_m);
+/// Returns the typical man, woman or child of 7 years, with legs of that scale.
+StepBody step_body(StepKind kind, double leg_scale_m);
 
 /// Constants of a fit. Angles in rad.
 struct StepTask {

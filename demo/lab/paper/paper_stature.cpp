@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include <mobil/anthropometry.h>
+#include <mobil/systems/gait/resolve_gait.h>
 #include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/paper/paper.h"
 #include "demo/pictures/cycle_plot.h"
@@ -287,11 +289,12 @@ void paper_weight(PaperRun& run) {
 
 void paper_step_length(PaperRun& run) {
   CycleRequest request{paper_body(), paper_gait(), {}, {}, {}};
-  const auto natural = walk_cycle(request);
+  // Steps 1.2 times as long as those in shoes would break the walk's limits.
+  const float natural_m = resolve_gait(*make_body(request.body), request.gait, Footwear::barefoot)->step_length_m;
   std::vector<PaperCycle> walks;
   for (const float times : times_natural) {
     run.progress("walking", static_cast<double>(walks.size() + 1) / (times_natural.size() + 1));
-    request.gait.step_length_m = times * natural.gait.step_length_m;
+    request.gait.step_length_m = times * natural_m;
     walks.push_back(walk_cycle(request));
   }
   const PaperTable table = step_length_table(walks);

@@ -42,11 +42,11 @@ class BodySkins {
  public:
   explicit BodySkins(const SkinDress& dress = {}) : dress_(dress) {}
 
-  /// Returns a skin for a body, made for its sex and a similar body mass index and scaled by height. The index is
-  /// within 0.75 kg/m² (1.5 % of its girths) for near skins and 1.5 for distant ones, between 13.5 and 64.5 kg/m²;
-  /// values beyond are clamped. Individual limb lengths are ignored: longer limbs stretch the skin at the joints. The
-  /// first skin of a build takes 0.25 s, or 0.5 s in full detail. Valid as long as this object. Errors: those of
-  /// make_body.
+  /// Returns a skin for a body, made for its sex, a similar age (`skin_build`) and a similar body mass index, and
+  /// scaled by height. The index is within 0.75 kg/m² (1.5 % of its girths) for near skins and 1.5 for distant ones,
+  /// between 13.5 and 64.5 kg/m²; values beyond are clamped. Individual limb lengths are ignored: longer limbs stretch
+  /// the skin at the joints. The first skin of a build takes 0.25 s, or 0.5 s in full detail. Valid as long as this
+  /// object. Errors: those of make_body.
   Result<SkinShape> of(const BodyRequest& body, SkinDetail detail);
 
   /// Makes the skins of usual builds, with body mass indices of 17 to 34 kg/m², for both sexes and the details `near`,
@@ -63,8 +63,9 @@ class BodySkins {
   static constexpr float index_step = 1.5F;  // kg/m², between builds with a skin of their own
 
   SkinDress dress_;
-  std::map<std::pair<Sex, int>, std::optional<form::TrunkFit>> fit_;  // by kg/m² in steps
-  std::map<std::tuple<Sex, SkinDetail, int>, std::unique_ptr<BodySkin>> skin_;
+  // By age in years and kg/m² in steps of index_step.
+  std::map<std::tuple<Sex, int, int>, std::optional<form::TrunkFit>> fit_;
+  std::map<std::tuple<Sex, SkinDetail, int, int>, std::unique_ptr<BodySkin>> skin_;
 };
 
 /// One person with a skin. The fat of full people with Feature::fat wobbles. Positions are in m and world axes,

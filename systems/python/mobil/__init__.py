@@ -26,7 +26,7 @@ from ._library import (
     text,
 )
 from .arrays import EVENT, PERSON, ROOT
-from .bodies import Body, body, segments_of
+from .bodies import Body, body, segments_of, typical_person
 from .deprecated import Avoidance, Terrain
 from .lod import Choice, Lod
 from .names import (
@@ -104,5 +104,6 @@ __all__ = [
     "muscles",
     "plot_walk",
     "segments_of",
+    "typical_person",
     "walk",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Iterable, NamedTuple
+from typing import Any, Iterable, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +10,7 @@ import numpy.typing as npt
 from . import names
 from ._library import ffi, lib
 from .arrays import People, _one
+from .values import number_of, refuse, shown
 from .world import World
 
 
@@ -27,6 +28,31 @@ class Body(NamedTuple):
     """(48, 3): centre of mass, from the joint."""
     inertias_kg_m2: npt.NDArray[np.float32]
     """(48, 3): principal moments about the centre and the axes of the frame."""
+
+
+def typical_person(
+    sex: str | int = "man", age_y: float = 25.0, height_z: float = 0.0, mass_index_z: float = 0.0
+) -> dict[str, Any]:
+    """Returns the arguments of World.spawn for a typical person, with usual speed and style. Deviations are standard scores
+    of stature and body mass index for that sex and age."""
+    style = ffi.new("float[]", len(names.STYLE))
+    made = ffi.new("mobil_person*")
+    lib.mobil_defaults(lib.MOBIL_PERSON, made, ffi.sizeof("mobil_person"))
+    number = number_of(sex, names.SEXES, "sex")
+    code = lib.mobil_typical_person(number, age_y, height_z, mass_index_z, style, len(style), made)
+    if code != lib.MOBIL_OK:
+        refuse(
+            f"no typical {names.SEXES[number]} of {shown(age_y)} years deviates by {shown(height_z)} and "
+            f"{shown(mass_index_z)}; choose 6 to 95 years and smaller deviations"
+        )
+    return {
+        "sex": names.SEXES[number],
+        "age_y": age_y,
+        "height_m": made.height_m,
+        "mass_kg": made.mass_kg,
+        "speed_m_s": made.speed_m_s,
+        "style": dict(zip(names.STYLE, style)),
+    }
 
 
 def body(world: World, person: People) -> Body:

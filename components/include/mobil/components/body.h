@@ -72,13 +72,17 @@ constexpr bool has_note(const BodyComposition& composition, BodyNote note) {
 
 /// Sizes that per-tick kernels read. A length of the unit body (mobil/anthropometry.h) times the scale of its group is
 /// the person's; assets/body/body_scales.h has the groups, and those that follow from others. Each scale is thus the
-/// height of the unit body with that part. Walks scale with the legs. (Custom limbs are in a posed person's pose, and in the scale of its muscles' paths.)
+/// height of the unit body with that part. Walks scale with the legs. (Custom limbs are in a posed person's pose, and
+/// in the scale of its muscles' paths.) Masses are parts of the body mass, a limb's of one side;
+/// assets/body/segment_masses.h has the groups, and the lower trunk has the rest.
 template <class F>
 struct BodySize {
-  F height_m;
-  F mass_kg;
-  F extra_fat;  // fraction of the mass (assets/body/fat_distribution.h)
-  F leg_scale_m, trunk_scale_m, shoulders_scale_m, upper_arm_scale_m, forearm_scale_m;
+  F height_m, mass_kg;
+  F fat_share;  // of the mass
+  F leg_scale_m, trunk_scale_m, shoulders_scale_m, arm_scale_m;
+  F head_mass, upper_trunk_mass, middle_trunk_mass, upper_arm_mass, forearm_mass, thigh_mass, shank_mass, foot_mass;
+  F woman, child;  // parts of a woman's and of a child's step in the person's, 0 to 1
+  F stoop_rad;     // bend of the thoracic column beyond a young adult's
 };
 
 /// Skeleton of one person, host side, made once at spawn by `make_body` (mobil/anthropometry.h). Every segment's origin

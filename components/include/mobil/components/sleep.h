@@ -26,7 +26,7 @@ struct SteadyWalk {
 template <class F>
 struct Asleep {
   SteadyWalk<F> walk;
-  F height_m, mass_kg, extra_fat;  // BodySize
+  F height_m, mass_kg, fat_share;  // BodySize
   F endo, meso, ecto;              // Physique
   UInt32<F> build;
 };

@@ -164,7 +164,7 @@ enum { MOBIL_THIN, MOBIL_AVERAGE, MOBIL_ATHLETIC, MOBIL_HEAVY }; /* constitution
 enum { MOBIL_MAN, MOBIL_WOMAN };                                 /* sex */
 
 /* Bits of `given`: the numbers of a walk that are set. Two of speed, step length and step frequency determine the
- * third. One alone is completed by the usual walk for that leg length. */
+ * third. One alone is completed by the usual walk for that leg length and age, in shoes. */
 enum { MOBIL_SPEED = 1, MOBIL_STEP_LENGTH = 2, MOBIL_STEP_FREQUENCY = 4, MOBIL_STYLE = 8, MOBIL_HEADING = 16 };
 
 /* A request for a person, in m, kg and rad; positions in the axes and the unit of mobil_options. */
@@ -200,6 +200,12 @@ typedef struct mobil_style_number {
 } mobil_style_number;
 /* Writes the style parameter with index `number`, from 0; MOBIL_MISSING after the last. */
 MOBIL_API int mobil_style(int number, mobil_style_number* out);
+/* Sets sex, age, height, mass and usual speed of a person to typical ones. Deviations are standard scores of stature
+ * and of body mass index for that sex and age; 0 is the median. `style` receives `room` numbers of the usual style, in
+ * the order of mobil_style, and becomes the person's; it can be null. Returns MOBIL_REFUSED for bodies that mobil_spawn
+ * refuses; the person is then unchanged. Since interface 7. */
+MOBIL_API int mobil_typical_person(int sex, float age_y, float height_z, float mass_index_z, float* style, size_t room,
+                                   mobil_person* person);
 
 struct mobil_muscles;
 /* Spawns people, all or none. A null `muscles` means no muscles. Posed people start in the anatomical position. */

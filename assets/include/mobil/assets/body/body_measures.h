@@ -20,9 +20,14 @@ struct BodyMeasures {
   double hand_breadth, foot_length, foot_breadth;
 };
 
-/// Returns the mean measures of people of that height and mass. Each is a power of both, fitted to the survey of US
-/// Army personnel ANSUR II (Gordon et al. 2014, NATICK/TR-15/007). Residual deviations are 2.5 to 6 %. Biceps and
-/// forearm were measured flexed; relaxed ones are taken as 0.93 and 0.95 of them, our choice.
+/// Returns the mean measures of people of that height, mass, sex and age. Each is a power of both, fitted to the survey
+/// of US Army personnel ANSUR II (Gordon et al. 2014, NATICK/TR-15/007). Residual deviations are 2.5 to 6 %. Biceps and
+/// forearm were measured flexed; relaxed ones are taken as 0.93 and 0.95 of them, our choice. Girths of the trunk and
+/// legs change linearly with age from 18 to 65 years, as in the survey's people of equal height and mass (18 to 58
+/// years). Children's powers are the adults'. Their waist is 1.4 % larger for each year below 16, and their head is the
+/// median adult's times ratios of girths (UK 1990 reference). Their shoulders follow the skeleton.
 BodyMeasures body_measures(const BodyRequest& request);
+/// Returns all measures `by` times as large.
+BodyMeasures scaled(const BodyMeasures& measures, double by);
 
 }  // namespace mobil::inline v0_3

@@ -36,17 +36,20 @@ class BodyForm {
   Vec in_arm(const Vec& p, double share = 1) const { return turned(p, arm_.shoulder(), share * arm_out); }
   Vec in_leg(const Vec& p, double share = 1) const { return turned(p, leg_.hip(), share * leg_out); }
 
-  double size() const { return size_; }  // relative to 1.75 m
+  double size() const { return scale_.size; }  // relative to 1.75 m
+  const FormScale& scale() const { return scale_; }
   Sex sex() const { return sex_; }
   const ArmForm& arm() const { return arm_; }
   const LegForm& leg() const { return leg_; }
 
  private:
-  static double united(const Parts& part);
+  double united(const Parts& part) const;
+  double head(const Vec& p) const;
   static Vec turned(const Vec& p, const Vec& about, double angle);
 
-  double size_;
+  FormScale scale_;
   Sex sex_;
+  double soft_;  // jaw and brow, 0 a man's, 1 a woman's
   TrunkForm trunk_;
   LegForm leg_;
   ArmForm arm_;

@@ -36,18 +36,21 @@ struct SkinMesh {
 constexpr BodyRequest skin_body(Sex sex) {
   return {.height_m = 1.75F, .mass_kg = 75, .sex = sex};
 }
-/// A body whose skin serves bodies of about its build. It has their sex, the height of skin_body and a body mass index
-/// of `step` times `index_step` kg/m², within 13.5 to 64.5 and at most 200 kg.
+/// A body whose skin serves bodies of about its build. It has their sex and a body mass index of `step` times
+/// `index_step` kg/m², within 13.5 to 64.5 and the range of its age. Ages are in steps of 2 years up to 16, then 25 and
+/// steps of 15 years up to 85. Adults have the height of skin_body, children their age's median.
 struct SkinBuild {
-  int step;
+  int age_y, step;
   BodyRequest body;
 };
 SkinBuild skin_build(const BodyRequest& body, float index_step);
+/// Returns the body of a build.
+BodyRequest build_body(Sex sex, int age_y, float body_mass_index);
 /// Returns the mesh of men or of women, whose hairlines differ. All levels of detail are made at first use, in about
 /// two seconds; safe from any thread.
 const SkinMesh& skin_mesh(Sex sex, SkinDetail detail);
-/// Gives a mesh, so that `skin_mesh` does not make it. It must be the one that it would make. Has no effect once the mesh
-/// exists.
+/// Gives a mesh, so that `skin_mesh` does not make it. It must be the one that it would make. Has no effect once the
+/// mesh exists.
 void give_skin_mesh(Sex sex, SkinDetail detail, SkinMesh mesh);
 
 /// One body's skin in the anatomical position, m.

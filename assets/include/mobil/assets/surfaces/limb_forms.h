@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <mobil/assets/body/leg_profile.h>
-#include <mobil/assets/surfaces/form_shapes.h>
+#include <mobil/assets/surfaces/form_scale.h>
 #include <mobil/components/body.h>
 
 namespace mobil::inline v0_3::form {
@@ -28,9 +28,10 @@ class LegForm {
  private:
   double foot(const Vec& p) const;
 
+  double unit_;  // of the foot, m
   Vec hip_;
   double knee_y_, shank_m_, dome_m_;
-  double long_, wide_;  // of the foot, relative to 1.75 m and 75 kg
+  double long_, wide_;  // of the foot, relative to 1.75 m and 75 kg, in its unit
   LegProfile profile_;
   std::vector<Ring> foot_;
   bool shod_;
@@ -48,8 +49,10 @@ class ArmForm {
  private:
   double hand(const Vec& p) const;
 
+  double unit_;
   Vec shoulder_;
-  double length_m_, hand_m_, wide_;  // shoulder to wrist; wrist to fingertip; hand's breadth over the usual one
+  // In that unit: shoulder to wrist; wrist to fingertip; hand's breadth over the usual one.
+  double length_m_, hand_m_, wide_;
   std::vector<Ring> ring_;
 };
 

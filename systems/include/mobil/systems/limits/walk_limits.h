@@ -70,23 +70,9 @@ float held_to(std::size_t bound, Looking looking, bool usual_style);
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes);
 
-/// Returns true if each number of a style is within that part of the usual one, or within rounding (`snapped`) of it.
-bool is_within_usual(const GaitStyle& style, float part);
-/// Returns true if each number is within a tenth of the usual one, and all deviate by at most 7 % rms. Numbers drawn
-/// uniformly within a tenth deviate by 5.8 % rms; 299 of 300 such styles are near.
-bool is_near_usual(const GaitStyle& style);
-
 /// Returns true if the step length is within the table of steps: 0.76 to 1.12 of the usual length at that speed
 /// (assets/gait/README.md).
 bool has_usual_steps(float height_m, float speed_m_s, float step_length_m);
-
-/// Returns true if the walk certainly keeps the limits; false has no meaning. It requires steps of the usual length and
-/// each number of the style within a tenth of the usual one. It estimates the walk's extremes from the usual walk of
-/// that height and speed by the first-order effect of each number, plus a quarter of all effects as a margin. It was
-/// tested with 180 000 random styles, each number up to a tenth off, a third of the numbers at that end. 4000 of them
-/// violated a limit. It returned true for two thirds of the styles; all of these kept the limits, the closest by 0.9°.
-/// The first call computes the effects, in some tens of milliseconds.
-bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait);
 
 /// Return true if all numbers of two styles are equal; `same_walk` also compares speed and step length.
 bool same_style(const GaitStyle& a, const GaitStyle& b);

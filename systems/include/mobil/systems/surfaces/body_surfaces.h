@@ -98,8 +98,7 @@ struct BodySurfaces {
     std::size_t driver = 0;
     std::array<std::optional<std::uint32_t>, 2> part{};  // by side; bones use the first
   };
-  float height_m = 0;
-  LimbLengths<float> limbs{};
+  std::array<Vec3<float>, segment_count> bone_scale{};  // m per mm of the drawn man
   std::array<bool, 2> sides{};
   std::vector<Driver> driver;
   std::vector<Piece> piece;
@@ -109,16 +108,15 @@ struct BodySurfaces {
 
 /// Scales that fit the surfaces of one body to another one, so that a crowd can share bound surfaces.
 struct SurfaceFit {
-  float lengths = 1;                     // relative to the bound body
-  LimbLengths<float> limbs{1, 1, 1, 1};  // additional scale along each limb
-  std::vector<BellyScale<float>> belly;  // scale of each driver's mesh
+  std::array<Vec3<float>, segment_count> bone{};  // scale of each segment's bones along its axes
+  std::vector<BellyScale<float>> belly;           // scale of each driver's mesh
 };
 
-/// Computes the fit of bound surfaces to another body made by `make_body`, in 2 µs. Bones scale with height, and with
-/// individual limb lengths. Bellies scale with their meshes, and tendons connect both. Compared with surfaces generated
-/// for that body, bones are exact. Muscles have a mean error below 1 mm for a similar build, and of 4 mm for an athlete
-/// with surfaces of a usual build, because muscles are drawn away from their bones (surface_fit_test). Bind one body of
-/// each build.
+/// Computes the fit of bound surfaces to another body made by `make_body`, in 2 µs. Bones scale with the
+/// lengths of their segments. Bellies scale with their meshes, and tendons connect both. Compared with surfaces
+/// generated for that body, bones are exact. Muscles have a mean error below 1 mm for a similar build, and of 4 mm for
+/// an athlete with surfaces of a usual build, because muscles are drawn away from their bones (surface_fit_test). Bind
+/// one body of each build.
 SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body);
 
 /// Binds surfaces to a body; the second function generates them first. Both steps take some tenths of a second, most

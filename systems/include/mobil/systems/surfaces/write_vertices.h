@@ -26,8 +26,8 @@ struct VertexTarget {
 void write_vertices(const VertexRings& rings, std::span<const PlacedAlong> along, const float* places, float sense,
                     const VertexTarget& out);
 
-/// Writes a rigid surface, scaled by `scale` and along y also by `stretch`, and transformed by `map`.
-void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale = 1,
-                 float stretch = 1);
+/// Writes a rigid surface, scaled along its axes and transformed by `map`.
+void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out,
+                 const Vec3<float>& scale = {1, 1, 1});
 
 }  // namespace mobil::inline v0_3

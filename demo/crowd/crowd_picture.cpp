@@ -203,6 +203,7 @@ Result<void> CrowdCamera::Parts::add_skin(const PicturedPerson& person, const Wa
                                                         : SkinDetail::distant;
   BodyRequest body{.height_m = person.height_m, .mass_kg = person.mass_kg};
   body.sex = person.sex == 0 ? Sex::man : Sex::woman;
+  body.age_y = person.age_y;
   const auto shape = skins.of(body, detail);
   if (!shape) return tl::unexpected(shape.error());
   DrawnSkin& skin = drawn.emplace_back();
@@ -243,7 +244,8 @@ std::vector<PicturedPerson> CrowdCamera::see(const Simulation& simulation, const
     if (!size || !physique) continue;
     const float distance_m = project(camera, width, height, pose->position_m[0]).z;
     const auto sex = static_cast<std::uint32_t>(sex_of(physique->build));
-    seen.push_back({person.number, distance_m, person.near ? 1U : 0U, size->height_m, size->mass_kg, sex, 0, *pose});
+    seen.push_back({person.number, distance_m, person.near ? 1U : 0U, size->height_m, size->mass_kg, sex,
+                    age_of(physique->build), *pose});
   }
   return seen;
 }

@@ -39,7 +39,8 @@ struct PicturedPerson {
   float distance_m = 0;
   std::uint32_t near = 0;  // 1: bones and muscles of the legs are drawn, if among the nearest
   float height_m = 0, mass_kg = 0;
-  std::uint32_t sex = 0, spare = 0;
+  std::uint32_t sex = 0;
+  float age_y = 0;
   Pose<float> pose{};
 };
 /// Sorts people into drawing order: near ones first, then by distance. The initial order has no effect.

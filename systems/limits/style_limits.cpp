@@ -157,8 +157,9 @@ StyleLimitSearch::StyleLimitSearch(std::span<const BodySize<float>> sizes, std::
     const Gait<float>& gait = gaits[people[w]];
     Walker& walker = walkers_[w];
     walker.asked = walker.style = gait.style;
-    walker.asked_m = gait.step_length_m;
-    walker.usual_m = usual_length_m(sizes[people[w]].leg_scale_m, gait.speed_m_s);
+    walker.asked_m = walker.usual_m = gait.step_length_m;
+    const float leg_m = sizes[people[w]].leg_scale_m, speed = gait.speed_m_s;
+    if (!has_usual_steps(leg_m, speed, gait.step_length_m)) walker.usual_m = usual_length_m(leg_m, speed);
   }
   for (std::size_t l = 0; l < lane_count; ++l) {
     const std::size_t i = people[walker_of(l)];
@@ -450,7 +451,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
       }
     });
   };
-  // Few people come near a limit and even fewer break one, so these are collected in blocks of their own.
+  // Few people come near a limit or break one, so these are collected in blocks of their own.
   const auto keep_broken = [&](std::vector<std::size_t>& people, Looking looking) {
     in_blocks(people, looking, 1, [&](std::span<const std::size_t> some, StyleLimitSearch& block) {
       const auto broken = block.broken();
@@ -472,9 +473,8 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
       gait.double_support_cycle = kept.double_support_cycle;
     }
   };
-  const auto draw_all = [&](std::vector<std::size_t>& people, Looking looking) {
-    // Uses as many lanes per walker as keep all threads busy in one round.
-    std::size_t lanes_each = lane_count;
+  // Uses as many lanes per walker as keep all threads busy in one round.
+  const auto draw_all = [&](std::vector<std::size_t>& people, Looking looking, std::size_t lanes_each = lane_count) {
     while (lanes_each > 1 && people.size() * lanes_each > lane_count * std::max<std::size_t>(jobs.threads, 1))
       lanes_each /= 2;
     in_blocks(people, looking, lanes_each, draw);

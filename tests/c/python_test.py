@@ -186,11 +186,11 @@ class Worlds(unittest.TestCase):
         self.assertAlmostEqual(after["style"]["toe_out_deg"], 12)
         world.change_walk(people[0], **after)
         self.assertEqual(world.walk(people[0]), after)
-        far, broken = {"double_support_scale": 0.6}, []
-        odd = world.spawn(height_m=1.627254, mass_kg=63.42218, speed_m_s=2.06351, style=far)
-        for ticks, speed in ((38, 0), (23, 1.630582), (75, 2.06351), (104, 2)):
+        far, broken = {"step_asymmetry": -0.4}, []
+        odd = world.spawn(height_m=1.278257, mass_kg=35.655258, speed_m_s=1.223403, style=far)
+        for ticks, heading in ((43, 2.27692), (157, 1.99182), (51, -1.26278), (109, 0)):
             broken += [line for _ in range(ticks) for line in world.tick() or world.limit_violations(odd)]
-            world.change_walk(odd, speed_m_s=speed)
+            world.change_walk(odd, heading_rad=heading)
         self.assertTrue(all("the limit is" in line for line in broken) and broken and world.people_beyond_limits == 0)
 
     def test_many_are_placed_or_nobody(self):

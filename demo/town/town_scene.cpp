@@ -53,7 +53,8 @@ Result<TownScene> TownScene::make(const TownOptions& options) {
   return scene;
 }
 
-/// Spawns people who stand at random points between two places. The first person stands at the start of the tour.
+/// Spawns people who stand at random points between two places, beside the first of their party. The first person
+/// stands at the start of the tour, alone.
 Result<void> TownScene::people_come(const TownOptions& options) {
   const auto places = town_places();
   std::vector<SpawnRequest> requests(options.people);
@@ -71,7 +72,17 @@ Result<void> TownScene::people_come(const TownOptions& options) {
     CrowdRandom random(options.seed, i, place_stream);
     GroundPoint at = places.front();
     constexpr int tries = 40;
-    for (int k = 0; i > 0 && k < tries; ++k) {
+    constexpr float least_apart_m = 0.7F;
+    const bool follows = person.party_first > 0 && person.party_first < i;
+    pedestrian.leader = follows ? person.party_first : i;
+    const SpawnRequest& leader = requests[pedestrian.leader];
+    const CrowdOffset off =
+        crowd_abreast(static_cast<std::uint32_t>(i - pedestrian.leader), person.party_size, leader.heading_rad);
+    const GroundPoint beside{leader.x_m + off.x_m, leader.z_m + off.z_m};
+    const auto crowds = [&](const GroundPoint& other) { return apart_m(beside, other) < least_apart_m; };
+    const bool joins = follows && std::ranges::none_of(taken, crowds) && !on_town_stairs(beside.x_m, beside.z_m);
+    if (joins) at = beside;
+    for (int k = 0; i > 0 && !joins && k < tries; ++k) {
       const GroundPoint from = places[random.below(places.size())], to = places[random.below(places.size())];
       paths_.find(from, to, way);
       if (way.empty()) continue;
@@ -83,7 +94,7 @@ Result<void> TownScene::people_come(const TownOptions& options) {
     taken.push_back(at);
     request.x_m = at.x_m;
     request.z_m = at.z_m;
-    request.heading_rad = random.even(-3, 3);
+    request.heading_rad = joins ? leader.heading_rad : random.even(-3, 3);
     if (i == 0) request.heading_rad = 0;
   }
   people_.resize(options.people);
@@ -106,7 +117,7 @@ void TownScene::choose_place(std::size_t number) {
   if (number == 0 && pedestrian.toured < tour_stops) {
     pedestrian.place = ++pedestrian.toured;
   } else {
-    CrowdRandom random(seed_, number, place_stream + ++pedestrian.drawn);
+    CrowdRandom random(seed_, pedestrian.leader, place_stream + ++pedestrian.drawn);
     const std::size_t before = pedestrian.place;
     while (pedestrian.place == before) pedestrian.place = random.below(places);
   }

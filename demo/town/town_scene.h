@@ -1,8 +1,9 @@
 #pragma once
-// The people of a small town: each has a destination, a path to it, and a desired velocity along the path. Avoidance
-// keeps them apart, Terrain places their feet on kerbs, stairs and ramp.
+// The people of a small town: each party has a destination, and everyone a path to it and a desired velocity along it.
+// Avoidance keeps them apart, Terrain places their feet on kerbs, stairs and ramp.
 
 #include <cstddef>
+#include <cstdint>
 
 #include <mobil/avoidance.h>
 #include <mobil/simulation.h>
@@ -47,6 +48,7 @@ class TownScene {
 
  private:
   struct Pedestrian {
+    std::uint64_t leader;  // number of the person whose places it goes to: its own, or that of its party
     float speed_m_s, radius_m;
     std::size_t place;  // destination
     std::size_t toured = 0;

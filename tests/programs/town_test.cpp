@@ -17,6 +17,13 @@
 namespace mobil::town_test {
 namespace {
 
+/// Returns the height of the ground, beside an edge that of its lower side.
+float lowest_near(float x_m, float z_m) {
+  constexpr float e = 0.002F;
+  return std::min({town_ground(x_m - e, z_m).height_m, town_ground(x_m + e, z_m).height_m,
+                   town_ground(x_m, z_m - e).height_m, town_ground(x_m, z_m + e).height_m});
+}
+
 /// All people reach goals without collisions, on kerbs, stairs and ramp.
 TEST(Town, PeopleReachGoalsWithoutCollisions) {
   auto made = TownScene::make({.people = 30, .seed = 3, .threads = 1});
@@ -33,7 +40,7 @@ TEST(Town, PeopleReachGoalsWithoutCollisions) {
       const Feet<float> feet = *scene.simulation().get<Feet>(person);
       const auto side = scene.simulation().get<GaitState>(person)->stance_side;
       for (const Vec3<float>& at : {feet.heel_m[side], feet.toe_m[side]})
-        ASSERT_GT(at.y, town_ground(at.x, at.z).height_m - 0.05F) << "at " << at.x << ", " << at.z;
+        ASSERT_GT(at.y, lowest_near(at.x, at.z) - 0.05F) << "at " << at.x << ", " << at.z;
     }
   }
   const TownReport& report = scene.report();

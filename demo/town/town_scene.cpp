@@ -53,8 +53,8 @@ Result<TownScene> TownScene::make(const TownOptions& options) {
   return scene;
 }
 
-/// Spawns people who stand at random points between two places, beside the first of their party. The first person
-/// stands at the start of the tour, alone.
+/// Spawns people at random points between two places. Parties stand together. The first person stands alone, at the start
+/// of the tour.
 Result<void> TownScene::people_come(const TownOptions& options) {
   const auto places = town_places();
   std::vector<SpawnRequest> requests(options.people);

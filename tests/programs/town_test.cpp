@@ -17,7 +17,7 @@
 namespace mobil::town_test {
 namespace {
 
-/// Returns the height of the ground, beside an edge that of its lower side.
+/// Returns the height of the ground. At an edge it is that of the lower side.
 float lowest_near(float x_m, float z_m) {
   constexpr float e = 0.002F;
   return std::min({town_ground(x_m - e, z_m).height_m, town_ground(x_m + e, z_m).height_m,

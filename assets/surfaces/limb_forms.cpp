@@ -116,14 +116,16 @@ ArmForm::ArmForm(const Body& body, const BodyMeasures& own)
   // Towards the trunk it is as wide as it is thick, outward it extends to the breadth of the shoulders.
   const double inward = deltoid - 0.006, outward = 0.5 * m.shoulder_breadth + shoulder_.x / unit_ - 0.004;
   const double across = 0.5 * (inward + outward), middle = 0.5 * (inward - outward);
-  const double slope = std::clamp(across / 0.065, 1.0, 1.18);  // broad shoulders fall off more gently
-  ring_ = {{-0.022, 0.46 * across, 0.52 * deltoid, 0.006 + 0.5 * middle, 0},
-           {-0.002, 0.84 * across, 0.90 * deltoid, 0.006 + middle, 0},
+  const double slope = std::clamp(across / 0.07, 1.0, 1.18);    // broad shoulders fall off more gently
+  const double beyond = std::max(outward - 1.4 * biceps, 0.0);  // the upper arm leads to broad shoulders
+  const double top = 1 / (slope * slope * slope);
+  ring_ = {{-0.022, top * 0.46 * across, top * 0.52 * deltoid, 0.006 + 0.5 * middle, 0},
+           {-0.002, top * 0.84 * across, top * 0.90 * deltoid, 0.006 + middle, 0},
            {0.032 * slope * slope, 1.00 * across, 1.07 * deltoid, middle, 0},
            {0.080 * slope * slope, 0.98 * across, 1.03 * deltoid, middle, 0.001},
-           {0.40 * elbow, 0.98 * biceps, 1.09 * biceps, -0.001, 0.003},
-           {0.62 * elbow, 0.91 * biceps, 1.04 * biceps, 0, 0.005},
-           {elbow - 0.045, 0.83 * biceps, 0.84 * biceps, 0, 0.002},
+           {0.40 * elbow, 0.98 * biceps + 0.4 * beyond, 1.09 * biceps + 0.2 * beyond, -0.001 - 1.1 * beyond, 0.003},
+           {0.62 * elbow, 0.91 * biceps + 0.2 * beyond, 1.04 * biceps + 0.1 * beyond, -0.7 * beyond, 0.005},
+           {elbow - 0.045, 0.83 * biceps, 0.84 * biceps, -0.1 * beyond, 0.002},
            {elbow, 0.88 * biceps, 0.76 * biceps, 0, -0.003},
            {elbow + 0.050, 1.08 * forearm, 0.95 * forearm, -0.003, 0},
            {elbow + 0.100, 1.00 * forearm, 0.93 * forearm, -0.002, 0},

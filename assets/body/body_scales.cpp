@@ -15,6 +15,7 @@
 #include <utility>
 
 #include <mobil/anthropometry.h>
+#include <mobil/assets/body/between.h>
 #include "assets/body/growth.h"
 #include "assets/body/segment_masses.h"
 #include "engine/exact_math.h"
@@ -59,9 +60,9 @@ constexpr ChildFactors factors_of_girls = {{0.948, 0.978, 0.997, 1.016, 1.006, 1
 constexpr ByAge arms = {0.965, 0.9725, 0.98, 0.99, 1, 1, 1}, heads = {0.90, 0.92, 0.94, 0.96, 0.9733, 0.9867, 1};
 
 double at_age(const ByAge& factors, double age_y) {
-  const double place = std::clamp((age_y - first_factor_y) / apart_y, 0.0, static_cast<double>(factors.size() - 1));
-  const auto i = std::min(static_cast<std::size_t>(place), factors.size() - 2);
-  return std::lerp(factors[i], factors[i + 1], place - static_cast<double>(i));
+  const auto [i, part] = form::between(factors.size(), age_y,
+                                       [](std::size_t k) { return first_factor_y + apart_y * static_cast<double>(k); });
+  return std::lerp(factors[i], factors[i + 1], part);
 }
 
 /// Returns the length in an adult.

@@ -6,7 +6,7 @@
 namespace mobil::inline v0_3 {
 
 double usual_fat_share(Sex sex, float age_y) {
-  const double adult = sex == Sex::woman ? 0.248 : 0.183;
+  const double adult = sex == Sex::woman ? 0.248 : usual_mans_fat_share;
   if (static_cast<double>(half_years(age_y)) >= adult_age_y) return adult;
   const auto share = [&](float age) { return fat_share_of_mass_index(growth(sex, age).mass_index.median, sex, age); };
   // At 18 years, the charts' median differs a little from the adults who were weighed.

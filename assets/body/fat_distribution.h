@@ -6,8 +6,11 @@
 
 namespace mobil::inline v0_3 {
 
-/// Returns the share of fat at which the published segment masses are taken to hold. It is that of a man of 24.5 kg/m²,
-/// of de Leva's women (19 years, 1.735 m, 61.9 kg), or of the median child of that age.
+/// Share of fat in a man of 24.5 kg/m².
+inline constexpr double usual_mans_fat_share = 0.183;
+
+/// Returns the share of fat at which the published segment masses are taken to hold. It is that of a man
+/// (usual_mans_fat_share), of de Leva's women (19 years, 1.735 m, 61.9 kg), or of the median child of that age.
 double usual_fat_share(Sex sex, float age_y);
 
 /// Parts of the fat beyond the usual share, by region: pelvis, L5 to L1, T12 to T1, neck and head, and limbs of one

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <mobil/assets/body/between.h>
 #include <mobil/body_composition.h>
 #include "assets/body/fat_distribution.h"
 #include "assets/body/growth.h"
@@ -23,9 +24,7 @@ constexpr bool is_limb(G group) {
   return group >= G::upper_arm && group <= G::foot;
 }
 
-// In the order of MassGroup; forearm with hand.
-constexpr GroupMasses de_leva_men = {0.0694, 0.1596, 0.1633, 0.0271, 0.0223, 0.1416, 0.0433, 0.0137, 0.1117},
-                      de_leva_women = {0.0668, 0.1545, 0.1465, 0.0255, 0.0194, 0.1478, 0.0481, 0.0129, 0.1247};
+constexpr GroupMasses de_leva_women = {0.0668, 0.1545, 0.1465, 0.0255, 0.0194, 0.1478, 0.0481, 0.0129, 0.1247};
 
 /// Jensen's masses at 6, 12, 15 and 18 years.
 constexpr std::array<double, 4> jensen_ages_y = {6, 12, 15, 18};
@@ -38,9 +37,7 @@ constexpr Jensen jensen_head = {0.18164, 0.1008, 0.06707, 0.06986}, jensen_arm =
 
 /// Returns the change against 18 years.
 double change(const Jensen& of, double age_y) {
-  std::size_t i = 0;
-  while (i + 2 < of.size() && age_y > jensen_ages_y[i + 1]) ++i;
-  const double part = std::clamp((age_y - jensen_ages_y[i]) / (jensen_ages_y[i + 1] - jensen_ages_y[i]), 0.0, 1.0);
+  const auto [i, part] = form::between(of.size(), age_y, [](std::size_t k) { return jensen_ages_y[k]; });
   return std::lerp(of[i], of[i + 1], part) / of.back();
 }
 
@@ -81,8 +78,7 @@ GroupMasses usual_masses(Sex sex, double age_y) {
 GroupMasses group_masses(const BodyRequest& request, double fat_share) {
   const auto age = static_cast<double>(half_years(request.age_y));
   GroupMasses masses = usual_masses(request.sex, age);
-  const double extra =
-      (fat_share - usual_fat_share(request.sex, request.age_y)) / (1 - usual_fat_share(request.sex, request.age_y));
+  const double usual = usual_fat_share(request.sex, request.age_y), extra = (fat_share - usual) / (1 - usual);
   const FatRegions& fat = fat_regions_of(request.sex);
   // The loins are L5 to L1, the chest T12 to T1.
   const GroupMasses where = {fat.head,

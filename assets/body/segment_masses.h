@@ -27,6 +27,8 @@ inline constexpr std::size_t mass_groups = 9;
 
 /// Masses of the groups, parts of the body mass.
 using GroupMasses = std::array<double, mass_groups>;
+/// Masses of de Leva's men.
+inline constexpr GroupMasses de_leva_men = {0.0694, 0.1596, 0.1633, 0.0271, 0.0223, 0.1416, 0.0433, 0.0137, 0.1117};
 
 /// Group of each segment.
 inline constexpr std::array<MassGroup, segment_count> mass_group = [] {

@@ -62,28 +62,38 @@ const std::vector<BoneSurface>& usual_bones() {
   return bones;
 }
 
-Vec3<double> bone_scale(const Body& body, Segment segment) {
+BoneScales bone_scales(const Body& body) {
+  using enum Segment;
   const auto scales = group_scales(body.size);
-  AxisGroups groups = segment_groups[index(segment)];
-  if (segment == Segment::pelvis) groups = {LengthGroup::hips, LengthGroup::leg, LengthGroup::leg};
-  if (segment >= Segment::T12 && segment <= Segment::T1) groups.x = LengthGroup::shoulders;
-  const Vec size = scaled({1, 1, 1}, scales, groups);
-  Vec scale{size.x / reference_height_mm, size.y / reference_height_mm, size.z / reference_height_mm};
-  if (segment >= Segment::C7 && segment <= Segment::head)
-    scale.x = scale.z = 1.75 / reference_height_mm * form::form_scale(body).head_wide;
-  if (has_own_limbs(body.request)) {
-    BodyRequest usual = body.request;
-    usual.limbs = {};
-    const auto length = [&](const Body& b) { return static_cast<double>(value_of(limb_lengths(b), segment, 1)); };
-    scale.y *= length(body) / length(*make_body(usual));
+  const double head_wide = 1.75 / reference_height_mm * form::form_scale(body).head_wide;
+  BoneScales all;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const auto segment = static_cast<Segment>(s);
+    AxisGroups groups = segment_groups[s];
+    if (segment == pelvis) groups = {LengthGroup::hips, LengthGroup::leg, LengthGroup::leg};
+    if (segment >= T12 && segment <= T1) groups.x = LengthGroup::shoulders;
+    const Vec size = scaled({1, 1, 1}, scales, groups);
+    all[s] = {size.x / reference_height_mm, size.y / reference_height_mm, size.z / reference_height_mm};
+    if (segment >= C7 && segment <= head) all[s].x = all[s].z = head_wide;
   }
-  return scale;
+  if (!has_own_limbs(body.request)) return all;
+  BodyRequest usual = body.request;
+  usual.limbs = {};
+  const LimbLengths<float> own_m = limb_lengths(body), usual_m = limb_lengths(*make_body(usual));
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const auto length = [&](const LimbLengths<float>& limbs) {
+      return static_cast<double>(value_of(limbs, static_cast<Segment>(s), 1));
+    };
+    all[s].y *= length(own_m) / length(usual_m);
+  }
+  return all;
 }
 
 std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
   std::vector<BoneSurface> all = usual_bones();
+  const BoneScales scales = bone_scales(body);
   for (BoneSurface& bone : all) {
-    const Vec by = bone_scale(body, bone.segment);
+    const Vec& by = scales[index(bone.segment)];
     for (auto& p : bone.mesh.position) {
       const Vec at = to_double(p);
       p = to_float(Vec{by.x * at.x, by.y * at.y, by.z * at.z});

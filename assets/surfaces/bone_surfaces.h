@@ -28,9 +28,10 @@ constexpr float value_of(const LimbLengths<float>& limbs, Segment segment, float
   if (segment == forearm_right || segment == forearm_left) return limbs.forearm_m;
   return otherwise;
 }
-/// Returns the scale of a segment's bones along the axes of its frame, m per mm of that man. It is the segment's own.
-/// Ribs are as broad as the shoulders, skull and neck as the skin's head. The pelvis has the legs' scale, and is
-/// as broad as the distance of the hips.
-Vec3<double> bone_scale(const Body& body, Segment segment);
+/// Scales of each segment's bones along the axes of its frame, m per mm of that man.
+using BoneScales = std::array<Vec3<double>, segment_count>;
+/// Returns the scales of a body's bones, which are their segments' own. Ribs are as broad as the shoulders, skull and
+/// neck as the skin's head. The pelvis has the legs' scale, and is as broad as the distance of the hips.
+BoneScales bone_scales(const Body& body);
 
 }  // namespace mobil::inline v0_3

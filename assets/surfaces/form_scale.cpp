@@ -79,7 +79,8 @@ FormScale form_scale(const Body& body) {
               .young = std::clamp((16 - age) / 10, 0.0, 1.0),
               .womanly = body.request.sex == Sex::woman ? std::clamp((age - 10) / 6, 0.0, 1.0) : 0,
               .head_z_m = 0};
-  const BodyMeasures own = body_measures(body.request), usual = body_measures({});
+  static const BodyMeasures usual = body_measures({});
+  const BodyMeasures own = body_measures(body.request);
   s.head_wide = 0.5 * (own.head_length / usual.head_length + own.head_breadth / usual.head_breadth);
   s.head_z_m = (size - s.head_wide) * joint_z(Segment::C7) +
                (head - s.head_wide) * (joint_z(Segment::head) - joint_z(Segment::C7));

@@ -35,8 +35,8 @@ const LegBones::Shapes& LegBones::shapes() {
 
 LegBones::LegBones(const Body& body) {
   const Pose<float> standing = standing_pose(body);
-  for (std::size_t s = 0; s < segment_count; ++s)
-    place_.push_back({to_double(standing.position_m[s]), bone_scale(body, static_cast<Segment>(s))});
+  const BoneScales scales = bone_scales(body);
+  for (std::size_t s = 0; s < segment_count; ++s) place_.push_back({to_double(standing.position_m[s]), scales[s]});
 }
 
 const LegBones::Shape& LegBones::shape(Segment segment) {

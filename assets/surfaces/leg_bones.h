@@ -30,7 +30,7 @@ class LegBones {
   /// Returns the distances from a segment's bones, mm in a man of reference_height_mm, in the segment's frame. The
   /// segment is one of these bones', L3 or the toes.
   static const DistanceField& field(Segment segment) { return shape(segment).field; }
-  /// Returns a segment's `bone_scale`.
+  /// Returns a segment's of `bone_scales`.
   const Vec3<double>& m_per_mm(Segment segment) const { return place_[index(segment)].m_per_mm; }
 
  private:

@@ -38,7 +38,7 @@ inline constexpr std::array<FatPoint, fat_regions> fat_points = {{
 inline constexpr float thinnest_fat_m = 0.0015F, thickest_fat_m = 0.060F;
 
 /// Fat mass of that man over his squared height, kg/m².
-inline constexpr float usual_fat_index = 0.183F * 75 / (1.75F * 1.75F);
+inline constexpr float usual_fat_index = static_cast<float>(usual_mans_fat_share) * 75 / (1.75F * 1.75F);
 
 /// Returns the fat thickness of each region, m. It is that of a man of 75 kg and 1.75 m, in proportion to the body's
 /// fat mass over its squared height, limited to 1.5 to 60 mm.

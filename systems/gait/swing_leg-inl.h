@@ -8,6 +8,7 @@
 #define MOBIL_SYSTEMS_GAIT_SWING_LEG_INL_H_
 #endif
 
+#include "assets/body/segment_masses.h"
 #include "systems/gait/planar_figure-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -61,7 +62,9 @@ constexpr SwingLeg unit_swing_leg = [] {
   constexpr auto a = static_cast<float>(fraction::thigh), b = static_cast<float>(fraction::shank);
   using namespace forces;
   // The foot's mass is at the ankle.
-  constexpr float thigh_mass = 0.1416F, shank_mass = 0.0433F, foot_mass = 0.0137F;  // de Leva's men
+  constexpr auto mass = [](MassGroup g) { return static_cast<float>(de_leva_men[static_cast<std::size_t>(g)]); };
+  constexpr float thigh_mass = mass(MassGroup::thigh), shank_mass = mass(MassGroup::shank),
+                  foot_mass = mass(MassGroup::foot);
   constexpr float below = shank_mass + foot_mass, moment = (shank_mass * shank.centre + foot_mass) * b;
   constexpr float inertia =
       (shank_mass * (shank.centre * shank.centre + shank.gyration * shank.gyration) + foot_mass) * b * b;

@@ -18,17 +18,18 @@ namespace mobil::inline v0_3 {
 namespace {
 
 constexpr std::array<float, 5> node_scales_m = {1.03F, 1.22F, 1.45F, 1.75F, 2.05F};  // of the leg
-constexpr float lowest_speed = 0.4F, speed_step = 0.3F;  // m/s
+constexpr float lowest_speed = 0.4F, speed_step = 0.3F;                              // m/s
 constexpr std::size_t node_speeds = 7;
-constexpr float rounding = 1e-4F;
 constexpr float grid = 2 * 254;  // half a rounding step of `snapped` (systems/gait/asleep.h)
 
 /// Returns how far a parameter of a usual person (usual_style) or one a tenth off is from GaitStyle{}, as a part of it.
 constexpr float usual_range(const GaitParameter& parameter) {
   constexpr float of_all = 0.1F;
-  constexpr std::pair<float GaitStyle::*, float> wider[] = {
-      {&GaitStyle::pelvis_rotation_deg, 0.5F}, {&GaitStyle::pelvis_list_deg, 0.25F}, {&GaitStyle::trunk_lean_deg, 1.0F},
-      {&GaitStyle::arm_back_deg, 0.4F},        {&GaitStyle::arm_forward_deg, 0.4F}};
+  constexpr std::pair<float GaitStyle::*, float> wider[] = {{&GaitStyle::pelvis_rotation_deg, 0.5F},
+                                                            {&GaitStyle::pelvis_list_deg, 0.25F},
+                                                            {&GaitStyle::trunk_lean_deg, 1.0F},
+                                                            {&GaitStyle::arm_back_deg, 0.4F},
+                                                            {&GaitStyle::arm_forward_deg, 0.4F}};
   for (const auto& [value, range] : wider)
     if (value == parameter.value) return range;
   return of_all;

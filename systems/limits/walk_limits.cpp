@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/step_plan.h>
 #include <mobil/engine/interrupt.h>
 #include <mobil/rows.h>
-#include "assets/body/body_scales.h"
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
 #include "assets/gait/step_table.h"

@@ -183,8 +183,8 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
 
 Result<BodySurfaces> bind_surfaces(const Body& body, const DrawnSurfaces& drawn, const SurfaceChoice& choice) {
   Binding binding{body, choice, {}};
-  for (std::size_t s = 0; s < segment_count; ++s)
-    binding.made.bone_scale[s] = geometry::to_float(bone_scale(body, static_cast<Segment>(s)));
+  const BoneScales scales = bone_scales(body);
+  for (std::size_t s = 0; s < segment_count; ++s) binding.made.bone_scale[s] = geometry::to_float(scales[s]);
   binding.made.sides = choice.sides;
   binding.made.clear_of = drawn.clear_of;
   for (const BoneSurface& bone : drawn.bones) {
@@ -204,8 +204,9 @@ Result<BodySurfaces> bind_surfaces(const Body& body, const SurfaceChoice& choice
 
 SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body) {
   SurfaceFit fit;
+  const BoneScales scales = bone_scales(body);
   for (std::size_t s = 0; s < segment_count; ++s) {
-    const Vec3<float> own = geometry::to_float(bone_scale(body, static_cast<Segment>(s))), &was = bound.bone_scale[s];
+    const Vec3<float> own = geometry::to_float(scales[s]), &was = bound.bone_scale[s];
     fit.bone[s] = {own.x / was.x, own.y / was.y, own.z / was.z};
   }
   for (const BodySurfaces::Driver& driver : bound.driver) {

@@ -8,9 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include <mobil/anthropometry.h>
-#include <mobil/systems/gait/resolve_gait.h>
 #include "demo/lab/compare/compare_reference.h"
+#include "demo/lab/compare/compare_walk.h"
 #include "demo/lab/paper/paper.h"
 #include "demo/pictures/cycle_plot.h"
 #include "demo/program/body_options.h"
@@ -290,7 +289,7 @@ void paper_weight(PaperRun& run) {
 void paper_step_length(PaperRun& run) {
   CycleRequest request{paper_body(), paper_gait(), {}, {}, {}};
   // Steps 1.2 times as long as those in shoes would break the walk's limits.
-  const float natural_m = resolve_gait(*make_body(request.body), request.gait, Footwear::barefoot)->step_length_m;
+  const float natural_m = *barefoot(request.body, request.gait).step_length_m;
   std::vector<PaperCycle> walks;
   for (const float times : times_natural) {
     run.progress("walking", static_cast<double>(walks.size() + 1) / (times_natural.size() + 1));

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <vector>
 
+#include <mobil/anthropometry.h>
 #include <mobil/components/avoidance.h>
 #include <mobil/components/step_plan.h>
 #include <mobil/rows.h>
@@ -16,6 +17,7 @@
 #include "engine/row_hash.h"
 #include "systems/avoidance/reservations.h"
 #include "systems/avoidance/trials.h"
+#include "systems/gait/step_limits.h"
 #include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"
 #include "tests/engine/counting_heap.h"
@@ -78,7 +80,9 @@ RC_GTEST_PROP(Reservation, IsThePathOfAStoppingWalker, ()) {
   RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
   RC_ASSERT(simulation.turn_to(one, state.heading_rad + state.turn_rad).has_value());
   // A walker who needs several steps to stop gets headings in between, which are not predicted exactly.
-  const double most = speed <= 1.3F ? 0.002 : 0.12;
+  const auto leg_m = static_cast<float>(fraction::thigh + fraction::shank) * simulation.get<BodySize>(one)->leg_scale_m;
+  const bool in_one_step = speed <= step_limits::last_speed * std::sqrt(leg_m / step_limits::leg_m);
+  const double most = in_one_step ? 0.002 : 0.12;
   RC_ASSERT(astray_m(simulation, one, reservation.first, reservation.x_m.data(), reservation.z_m.data()) < most);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Rods of a leg, and constants of the rules in systems/forces.
 
+#include <cmath>
+
 #include <mobil/anthropometry.h>
 #include <mobil/components/body.h>
 #include <mobil/components/lanes.h>
@@ -32,7 +34,16 @@ inline constexpr Rod shank = {
     static_cast<float>(-unit_body.centre_of_mass[index(Segment::shank_right)].y / fraction::shank),
     static_cast<float>(de_leva::shank.x* de_leva::shank.length_m / de_leva::stature_m / fraction::shank),
     &BodySize<Lanes<float>>::shank_mass};
-/// The foot, with the toes. Its centre of mass is tracked as a separate point.
+/// Centre of mass of the foot with its toes straight, from the ankle, in parts of the leg's scale.
+inline constexpr Vec3<double> foot_centre = [] {
+  using enum Segment;
+  const UnitBody& u = unit_body;
+  const double toes = u.mass_share[index(toes_right)];
+  const auto &foot = u.centre_of_mass[index(foot_right)], &joint = u.joint_offset[index(toes_right)],
+             &tip = u.centre_of_mass[index(toes_right)];
+  return Vec3<double>{foot.x, std::lerp(foot.y, joint.y + tip.y, toes), std::lerp(foot.z, joint.z + tip.z, toes)};
+}();
+/// The foot, with the toes. Its length is from the ankle to the ball.
 inline constexpr Rod foot = {0.0F, static_cast<float>(foot_gyration), &BodySize<Lanes<float>>::foot_mass};
 
 /// Height above the ground of the point towards which the feet's forces lean, over the centre of mass's. The fitted

@@ -47,15 +47,20 @@ HWY_NOINLINE inline FootMotion stance_foot(const StepPlan<Lanes<float>>& plan, c
   return foot;
 }
 
-/// Returns the ankle's height, raised smoothly for a foot in the air that would enter the ground.
-HWY_NOINLINE inline Wide above_ground(const FootMotion& foot, const Wide& height) {
+/// Returns the height of the lowest point of a sole: under the heel's rim, the toes' joint or their tips.
+HWY_NOINLINE inline Wide lowest_point(const FootMotion& foot, const Wide& height) {
   using namespace unit_foot;
   Wide s, c, t_s, t_c;
   sin_cos(foot.pitch, s, c);
   sin_cos(foot.pitch + foot.toes, t_s, t_c);
   const Wide heel = fma(wide(-back), s, -over_rim * c) - rim;
   const Wide on_joint = fma(wide(ball), s, -over_joint * c) - joint * t_c;
-  const Wide lowest = fma(min(min(heel, on_joint), fma(wide(unit_foot::toes), t_s, on_joint)), height, foot.ankle_up);
+  return fma(min(min(heel, on_joint), fma(wide(unit_foot::toes), t_s, on_joint)), height, foot.ankle_up);
+}
+
+/// Returns the ankle's height, raised smoothly for a foot in the air that would enter the ground.
+HWY_NOINLINE inline Wide above_ground(const FootMotion& foot, const Wide& height) {
+  const Wide lowest = lowest_point(foot, height);
   // the missing height where positive, rounded: twice continuously differentiable, and 0 from `within` on
   const Wide within = 0.0005F * height;
   const Wide x = clamp(0.5F - 0.5F * lowest / within, 0.0F, 1.0F);
@@ -94,9 +99,10 @@ HWY_NOINLINE inline OtherAnkle other_ankle(const StepPlan<Lanes<float>>& plan, c
   return a;
 }
 
-/// Returns the other foot, with places relative to its last foothold.
-HWY_NOINLINE inline FootMotion other_foot(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
-                                          const Wide& phase) {
+/// Returns the other foot by its curves alone, which can lead through the ground. Places are relative to its last
+/// foothold.
+HWY_NOINLINE inline FootMotion other_foot_planned(const StepPlan<Lanes<float>>& plan, const MixedShape& of,
+                                                  const Wide& height, const Wide& phase) {
   const OtherAnkle a = other_ankle(plan, of, height, phase);
   const Wide& u = a.part;
   const Wide swung = smooth(u);
@@ -112,9 +118,16 @@ HWY_NOINLINE inline FootMotion other_foot(const StepPlan<Lanes<float>>& plan, co
   foot.swung = swung;
   foot.in_the_air = max(bump(u), 0.0F);
   foot.ankle_up = select(a.swings, a.up, foot.ankle_up);
-  foot.ankle_up = select(a.swings, above_ground(foot, height), foot.ankle_up);
   foot.ankle_out = select(a.swings, quintic_at(plan.swing_out_m, u), foot.ankle_out);
   foot.ankle_forward = select(a.swings, a.forward, foot.ankle_forward);
+  return foot;
+}
+
+/// Returns the other foot, kept above the ground.
+HWY_INLINE FootMotion other_foot(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
+                                 const Wide& phase) {
+  FootMotion foot = other_foot_planned(plan, of, height, phase);
+  foot.ankle_up = select(phase >= load(plan.double_support), above_ground(foot, height), foot.ankle_up);
   return foot;
 }
 

@@ -10,10 +10,10 @@
 namespace mobil::inline v0_3 {
 
 namespace step_table {
-inline constexpr std::size_t speed_count = 9, length_count = 5;
+inline constexpr std::size_t speed_count = 9, length_count = 6;
 /// Speed over √(g · leg), the leg from hip to ground; step length over the usual one of that speed.
 inline constexpr std::array<double, speed_count> speed = {0.17, 0.24, 0.31, 0.38, 0.45, 0.52, 0.59, 0.66, 0.73};
-inline constexpr std::array<double, length_count> length = {0.76, 0.88, 1.00, 1.06, 1.12};
+inline constexpr std::array<double, length_count> length = {0.76, 0.88, 1.00, 1.06, 1.12, 1.20};
 inline constexpr std::size_t usual = 2;  // of `length`
 }  // namespace step_table
 

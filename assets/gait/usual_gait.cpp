@@ -5,19 +5,19 @@
 #include <cmath>
 #include <cstddef>
 
+#include <mobil/assets/body/between.h>
+
 namespace mobil::inline v0_3 {
 namespace {
 
 template <std::size_t n>
 using Series = std::array<double, n>;
 
-/// Returns the value at `x` of a curve that is linear between points and constant beyond them.
+/// Returns the value at an age of a curve that is linear between ages and constant beyond them.
 template <std::size_t n>
-double on_curve(double x, const Series<n>& at, const Series<n>& value) {
-  const auto next = static_cast<std::size_t>(std::ranges::upper_bound(at, x) - at.begin());
-  if (next == 0) return value.front();
-  if (next == n) return value.back();
-  return value[next - 1] + (value[next] - value[next - 1]) * ((x - at[next - 1]) / (at[next] - at[next - 1]));
+double on_curve(double age_y, const Series<n>& ages_y, const Series<n>& value) {
+  const auto [i, part] = form::between(n, age_y, [&](std::size_t k) { return ages_y[k]; });
+  return std::lerp(value[i], value[i + 1], part);
 }
 
 constexpr Series<12> speed_ages_y = {6, 9, 11, 15, 18, 25, 40, 55, 65, 72, 82, 87};

@@ -1,5 +1,5 @@
-// Precomputes the skins of the page's crowd: three builds of men and women, each in three levels of detail with common
-// vertices. The page has no time to make them (seconds), and draws them on the graphics card.
+// Precomputes the skins of the page's crowd: adults of three builds, and children, of both sexes, each in three levels
+// of detail with common vertices. The page has no time to make them (seconds), and draws them on the graphics card.
 // Usage: node --experimental-wasm-relaxed-simd bake_skins.mjs PACKAGE NODE_MODULES OUT
 import { writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -10,7 +10,8 @@ const [, , folder, modules, out] = process.argv;
 const { DETAILS, load } = await import(pathToFileURL(path.resolve(folder, 'mobil.js')));
 const { MeshoptSimplifier } = await import(pathToFileURL(createRequire(path.resolve(modules, 'x.js')).resolve('meshoptimizer')));
 await MeshoptSimplifier.ready;
-const height_m = 1.75, indices_kg_m2 = [21, 23.5, 26], triangles = [3600, 1000, 320], per_m = 16000;
+const triangles = [3600, 1000, 320], per_m = 16000;
+const ages = [[25, -1], [25, 0], [25, 1], [13, 0], [8, 0]];  // age and standard score of the body mass index
 
 /** Returns the triangles of a binding with one vertex for each place and part, and the first of its vertices for each. */
 function joined(skin) {
@@ -47,7 +48,7 @@ function bytes(weights) {
   return all;
 }
 
-const world = (await load(folder)).world(), chunks = [], about = { height_m, per_m, indices_kg_m2, sexes: [] };
+const mobil = await load(folder), world = mobil.world(), chunks = [], about = { per_m, sexes: [] };
 let at = 0;
 function put(array) {
   const begin = at, padding = (4 - (array.byteLength % 4)) % 4;
@@ -56,8 +57,8 @@ function put(array) {
   return begin;
 }
 for (const sex of [0, 1]) {
-  const people = world.spawn(indices_kg_m2.map((index) => ({ height_m, mass_kg: index * height_m ** 2, sex, speed_m_s: 0 })));
-  const skins = indices_kg_m2.map((_, i) => world.skinBinding(people.slice(i), DETAILS.near));
+  const bodies = ages.map(([age_y, mass_index_z]) => ({ ...mobil.typicalPerson(sex, age_y, 0, mass_index_z), speed_m_s: 0 }));
+  const people = world.spawn(bodies), skins = bodies.map((_, i) => world.skinBinding(people.slice(i), DETAILS.near));
   const usual = skins[1], mesh = joined(usual), detail = levels(usual, mesh), kept = [...new Set(detail[0])], place = new Map(kept.map((v, i) => [v, i]));
   const from = kept.map((v) => mesh.from[v]), index = Uint16Array.from(detail.flatMap((level) => Array.from(level, (v) => place.get(v))));
   let first = 0;
@@ -65,7 +66,8 @@ for (const sex of [0, 1]) {
     vertices: kept.length, index: put(index), levels: detail.map((level) => ({ first: (first += level.length) - level.length, count: level.length })),
     parts: put(Uint8Array.from(kept, (v) => mesh.part[v])), joints: put(Uint8Array.from(picked(usual.joints, from, 4))),
     weights: put(Uint8Array.from(from.flatMap((v) => bytes(usual.weights.subarray(4 * v, 4 * v + 4))))),
-    builds: skins.map((skin) => ({
+    bodies: skins.map((skin, i) => ({
+      age_y: bodies[i].age_y, height_m: bodies[i].height_m, mass_kg: bodies[i].mass_kg,
       positions: put(Int16Array.from(picked(skin.positions, from, 3), (x) => Math.round(per_m * x))),
       normals: put(Int8Array.from(picked(skin.normals, from, 3), (x) => Math.round(127 * x))),
       centres: put(Float32Array.from({ length: 144 }, (_, i) => -skin.inverse_binds[4 * i + 3])),  // of joints

@@ -12,52 +12,58 @@ function random(seed) {
   return () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) / 2 ** 32;
 }
 
-/** Returns a random adult of 18 to 75 years: fields of a request. Statures and body mass indices are those of
- *  typical_body (mobil/anthropometry.h). */
-function body(next) {
-  const z = () => { let sum = -6; for (let i = 0; i < 12; ++i) sum += next(); return Math.max(-2.5, Math.min(2.5, sum)); };
-  const sex = Math.floor(2 * next()), age_y = 18 + 57 * next(), older = Math.max(0, (age_y - 30) / 40) ** 2;
-  const height_m = sex ? 1.629 + 0.064 * z() - 0.05 * older : 1.757 + 0.069 * z() - 0.03 * older;
-  const index = (sex ? 23.6 : 24.6) * (1 + 0.0035 * (Math.min(age_y, 65) - 30)) * Math.exp((sex ? 0.160 : 0.145) * z());
-  return { sex, age_y, height_m, mass_kg: index * height_m ** 2, constitution: Math.floor(4 * next()) };
+/** Returns people who walk together, side by side: one adult, or a parent and a child, who walk at the child's speed.
+ *  `family`: the chance of the latter. */
+function party(typical, next, family) {
+  const z = () => { let sum = -6; for (let i = 0; i < 12; ++i) sum += next(); return Math.max(-2, Math.min(2, sum)); };
+  const person = (age_y) => ({ ...typical(Math.floor(2 * next()), age_y, z(), z()), constitution: Math.floor(4 * next()) });
+  if (next() >= family) return [person(18 + 67 * next())];
+  const child_y = 6 + 10 * next(), both = [person(26 + child_y + 8 * next()), person(child_y)], speed_m_s = Math.min(...both.map((one) => one.speed_m_s));
+  return both.map((one) => ({ ...one, speed_m_s }));
 }
+const abreast_m = 0.35, family_share = 0.25;
+const aside = (i, all) => abreast_m * (2 * i - all.length + 1);
 
-/** Returns requests of `count` people on both sides of a walker at x = 0 who heads along z. */
-function requests(count) {
+/** Returns requests of `count` people on both sides of a walker at x = 0 who heads along z. Everybody in a lane has one
+ *  speed; families have lanes of their own. */
+function requests(count, typical) {
   const next = random(7), all = [], lanes = Math.max(2, Math.ceil(count / Math.floor(length_m / apart_m)));
   for (let lane = 0; all.length < count; ++lane) {
     const side = lane % 2 ? 1 : -1, x = side * ((side > 0 ? 2.9 : 1.7) + lane_m * Math.floor(lane / 2)), ahead = lane % 4 < 2;
-    const speed = 1 + 0.6 * next(), here = Math.ceil((count - all.length) / (lanes - lane)), gap = Math.max(apart_m, length_m / here);
-    for (let i = 0; i < here; ++i) {
-      all.push({ ...body(next), speed_m_s: speed, heading_rad: ahead ? 0 : Math.PI, place: [x, 0, gap * (i + 0.3 * next()) - length_m / 2] });
+    const families = lane % 4 === 1 || lane % 4 === 2 ? 0.7 : 0, speed_m_s = families ? 1 + 0.05 * next() : 1.05 + 0.5 * next();
+    const here = Math.ceil((count - all.length) / Math.max(1, lanes - lane) / (1 + families)), gap = Math.max(apart_m, length_m / here);
+    for (let i = 0; i < here && all.length < count; ++i) {
+      const ahead_m = gap * (i + 0.3 * next()) - length_m / 2, people = party(typical, next, families).slice(0, count - all.length);
+      people.forEach((one, k) => all.push({ ...one, speed_m_s, heading_rad: ahead ? 0 : Math.PI, place: [x + aside(k, people), 0, ahead_m] }));
     }
   }
   return all;
 }
 
 /** Returns requests of `count` people on an area `length_m` long, `room_m2` each, who walk in four directions. */
-function requestsAllOver(count, from) {
+function requestsAllOver(count, from, typical) {
   const next = random(7), broad_m = Math.max(20, (count * room_m2) / length_m), all = [];
   const even = (x) => 2 * Math.ceil(x / 2);  // keeps the middle free for the person
-  const columns = even(Math.sqrt((count * broad_m) / length_m)), rows = even(count / columns);
+  const parties = count / (1 + family_share), columns = even(Math.sqrt((parties * broad_m) / length_m)), rows = even(parties / columns);
   const within = (cell, cells, all_m) => ((cell + 0.3 + 0.4 * next()) / cells - 0.5) * all_m;
-  for (let i = 0; i < count; ++i) {
-    const x = within(i % columns, columns, broad_m), z = within(Math.floor(i / columns), rows, length_m);
-    all.push({
-      ...body(next), speed_m_s: 1.1 + 0.5 * next(),
-      heading_rad: [0, Math.PI, Math.PI / 2, -Math.PI / 2][Math.floor(4 * next())], place: [from.x + x, 0, from.z + z],
-    });
+  for (let cell = 0; all.length < count; ++cell) {
+    const x = from.x + within(cell % columns, columns, broad_m), z = from.z + within(Math.floor(cell / columns), rows, length_m);
+    const heading_rad = [0, Math.PI, Math.PI / 2, -Math.PI / 2][Math.floor(4 * next())], people = party(typical, next, family_share).slice(0, count - all.length);
+    people.forEach((one, k) => all.push({
+      ...one, heading_rad, place: [x + aside(k, people) * Math.cos(heading_rad), 0, z - aside(k, people) * Math.sin(heading_rad)],
+    }));
   }
   return { all, broad_m };
 }
 
 export class Crowd {
-  /** `skins`: a Skins. `clear`: people avoid each other and start around `from`. */
-  constructor(world, count, skins, parent, clear, from) {
+  /** `typical`: typicalPerson of the library. `skins`: a Skins. `clear`: people avoid each other and start around
+   *  `from`. */
+  constructor(world, typical, count, skins, parent, clear, from) {
     this.world = world;
     this.clear = clear;
-    if (clear) ({ all: this.asked, broad_m: this.broad_m } = requestsAllOver(count, from));
-    else this.asked = requests(count);
+    if (clear) ({ all: this.asked, broad_m: this.broad_m } = requestsAllOver(count, from, typical));
+    else this.asked = requests(count, typical);
     // People who avoid each other start standing, because two walkers spawned close together could not stop in time.
     this.people = world.spawn(this.asked.map((r) => (clear ? { ...r, speed_m_s: 0 } : r)));
     if (clear) {

@@ -117,7 +117,7 @@ class Page {
   // ---- The crowd
   crowded() {
     const { world, scene } = this;
-    const made = scene.crowd > 0 ? new Crowd(world, scene.crowd, this.skins, this.stage.scene, scene.clear, this.#place()) : undefined;
+    const made = scene.crowd > 0 ? new Crowd(world, (...of) => this.mobil.typicalPerson(...of), scene.crowd, this.skins, this.stage.scene, scene.clear, this.#place()) : undefined;
     this.crowd?.drop();
     this.crowd = made;
     if (this.ground && this.crowd) world.terrain.manage(this.crowd.people);

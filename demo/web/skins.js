@@ -1,4 +1,4 @@
-// Skins of a crowd, skinned on the graphics card: one instanced mesh for each sex, build and level of detail. The matrices
+// Skins of a crowd, skinned on the graphics card: one instanced mesh for each sex, body and level of detail. The matrices
 // of each person are a row of a texture, and so are the colours of the parts.
 import * as THREE from 'three';
 
@@ -38,27 +38,26 @@ export class Skins {
     const size = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true), begin = bytes.byteOffset + 4 + size;
     const about = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + size)));
     const array = (Type, at, count) => new Type(bytes.buffer, begin + at, count);
-    this.height_m = about.height_m;
-    this.indices_kg_m2 = about.indices_kg_m2;
-    this.per_m = about.per_m;
-    /** For each sex: attributes of all builds, levels of detail, and builds with attributes of their own. */
+    /** For each sex: attributes of all bodies, levels of detail, and bodies with attributes of their own. */
     this.sexes = about.sexes.map((sex) => ({
       index: new THREE.BufferAttribute(array(Uint16Array, sex.index, sex.levels.reduce((all, level) => all + level.count, 0)), 1),
       levels: sex.levels,
       joints: new THREE.BufferAttribute(array(Uint8Array, sex.joints, 4 * sex.vertices), 4),
       weights: new THREE.BufferAttribute(array(Uint8Array, sex.weights, 4 * sex.vertices), 4, true),
       part: new THREE.BufferAttribute(array(Uint8Array, sex.parts, sex.vertices), 1),
-      builds: sex.builds.map((build) => ({
-        position: new THREE.BufferAttribute(Float32Array.from(array(Int16Array, build.positions, 3 * sex.vertices), (x) => x / about.per_m), 3),
-        normal: new THREE.BufferAttribute(array(Int8Array, build.normals, 3 * sex.vertices), 3, true),
-        centres: array(Float32Array, build.centres, 144),
+      bodies: sex.bodies.map(({ positions, normals, centres, ...of }) => ({
+        ...of,
+        position: new THREE.BufferAttribute(Float32Array.from(array(Int16Array, positions, 3 * sex.vertices), (x) => x / about.per_m), 3),
+        normal: new THREE.BufferAttribute(array(Int8Array, normals, 3 * sex.vertices), 3, true),
+        centres: array(Float32Array, centres, 144),
       })),
     }));
   }
-  /** Returns the number of the build that is nearest to a person's body mass index. */
-  build({ height_m, mass_kg }) {
-    const off = this.indices_kg_m2.map((index) => Math.abs(mass_kg / height_m ** 2 - index));
-    return off.indexOf(Math.min(...off));
+  /** Returns the body of a sex that is nearest to a person in age, up to that of adults, and in body mass index. */
+  nearest({ sex = 0, age_y = 25, height_m, mass_kg }) {
+    const { bodies } = this.sexes[sex], years = (of) => Math.min(of, 18) / 2;
+    const off = bodies.map((body) => Math.abs(years(age_y) - years(body.age_y)) + Math.abs(mass_kg / height_m ** 2 - body.mass_kg / body.height_m ** 2));
+    return bodies[off.indexOf(Math.min(...off))];
   }
 }
 
@@ -71,26 +70,23 @@ export class SkinnedPeople {
     this.group = new THREE.Group();
     this.poses = poses;
     this.count = asked.length;
-    this.scale = asked.map((r) => r.height_m / skins.height_m);
     const shared = { poses: { value: poses }, looks: { value: this.looks }, fogColour: { value: fog.color } };
-    /** Meshes of each person, one for each level of detail. */
-    const kinds = new Map(), kind = (sex, build) => {
-      const key = `${sex} ${build}`;
-      if (!kinds.has(key)) kinds.set(key, this.#meshes(skins.sexes[sex], skins.sexes[sex].builds[build], shared));
-      return kinds.get(key);
-    };
-    this.meshes = asked.map((r) => kind(r.sex ?? 0, skins.build(r)));
+    /** Meshes of each person, one for each level of detail, and the scale of their body. */
+    const kinds = new Map(), drawn = asked.map((r) => skins.nearest(r));
+    asked.forEach((r, i) => { if (!kinds.has(drawn[i])) kinds.set(drawn[i], this.#meshes(skins.sexes[r.sex ?? 0], drawn[i], shared)); });
+    this.meshes = drawn.map((body) => kinds.get(body));
+    this.scale = asked.map((r, i) => r.height_m / drawn[i].height_m);
     this.kinds = [...kinds.values()];
     parent.add(this.group);
   }
-  #meshes(sex, build, shared) {
-    const material = new THREE.ShaderMaterial({ glslVersion: THREE.GLSL3, vertexShader, fragmentShader, uniforms: { ...shared, centres: { value: build.centres } } });
+  #meshes(sex, body, shared) {
+    const material = new THREE.ShaderMaterial({ glslVersion: THREE.GLSL3, vertexShader, fragmentShader, uniforms: { ...shared, centres: { value: body.centres } } });
     return sex.levels.map(({ first, count }) => {
       const geometry = new THREE.InstancedBufferGeometry();
       geometry.setIndex(sex.index);
       geometry.setDrawRange(first, count);
       for (const name of ['joints', 'weights', 'part']) geometry.setAttribute(name, sex[name]);
-      for (const name of ['position', 'normal']) geometry.setAttribute(name, build[name]);
+      for (const name of ['position', 'normal']) geometry.setAttribute(name, body[name]);
       geometry.setAttribute('person', new THREE.InstancedBufferAttribute(new Float32Array(2 * this.count), 2).setUsage(THREE.DynamicDrawUsage));
       geometry.instanceCount = 0;
       const mesh = new THREE.Mesh(geometry, material);

@@ -82,7 +82,7 @@ HWY_NOINLINE inline void planar_leg(const Wide& height, const Wide& hip_forward,
   };
   rod(forces::thigh, hip_forward, hip_up, knee_forward, knee_up, first);
   rod(forces::shank, knee_forward, knee_up, ankle_forward, ankle_up, first + 2);
-  constexpr auto foot = static_cast<float>(unit_body.centre_of_mass[index(Segment::foot_right)].z);
+  constexpr auto foot = static_cast<float>(forces::foot_centre.z);
   out.forward[first + 4] = fma(wide(foot), height, ankle_forward);
   out.up[first + 4] = ankle_up;
 }

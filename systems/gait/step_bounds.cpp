@@ -28,17 +28,6 @@ class Furthest {
   Lanes<float>* value_;
 };
 
-/// Returns the lowest point of a sole: under the heel's rim, the toes' joint or their tips.
-HWY_NOINLINE Wide lowest_point(const FootMotion& foot, const Wide& height) {
-  using namespace unit_foot;
-  Wide s, c, t_s, t_c;
-  sin_cos(foot.pitch, s, c);
-  sin_cos(foot.pitch + foot.toes, t_s, t_c);
-  const Wide heel = fma(wide(-back), s, -over_rim * c) - rim;
-  const Wide on_joint = fma(wide(ball), s, -over_joint * c) - joint * t_c;
-  return fma(min(min(heel, on_joint), fma(wide(unit_foot::toes), t_s, on_joint)), height, foot.ankle_up);
-}
-
 /// Notes the bounds of one leg. Returns the forward angle of the line from hip to ankle.
 HWY_NOINLINE Wide leg_bounds(const StepNow& now, std::size_t side, const Wide& height, const Furthest& furthest) {
   FootMotion foot = now.foot[side];

@@ -165,6 +165,24 @@ HWY_NOINLINE void plan_swing(const Wide& height, StepPlan<Lanes<float>>& plan) {
                 scaled(on_along, on_s, load(plan.to.half_width_m)), plan.swing_out_m);
 }
 
+/// Minimum height of a foot in the air, of the height, times 64 u³ (1 − u)³ of the swing; maximum lift for it.
+constexpr float least_clearance = 0.003F, max_lift = 0.01F;
+
+/// Lifts the swing where curves mixed of two strikes would lead the foot too near to the ground.
+HWY_NOINLINE void clear_ground(const Wide& height, StepPlan<Lanes<float>>& plan) {
+  const Wide off = load(plan.double_support), landing = load(plan.landing);
+  Wide lift = wide(0.0F);
+  for (const float u : {0.2F, 0.3F, 0.4F, 0.5F, 0.6F, 0.7F, 0.8F}) {
+    const float high = 64 * (u * (1 - u)) * (u * (1 - u)) * (u * (1 - u));
+    const Wide phase = fma(landing - off, wide(u), off);
+    const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
+    const Wide lowest = lowest_point(other_foot_planned(plan, of, height, phase), height);
+    lift = max(lift, fnma(lowest, wide(1 / high), least_clearance * height));
+  }
+  const WideMask walks = (load(plan.step_length_m) + load(plan.length_before_m)) > 0.0F;
+  store(load(plan.swing_by_up_m[0]) + select(walks, min(lift, max_lift * height), wide(0.0F)), plan.swing_by_up_m[0]);
+}
+
 /// Standing people who keep both feet in place (stays) or move one (spot).
 struct Standing {
   WideMask stays, spot;
@@ -248,6 +266,7 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
     store(zero, plan.swing_by_up_m[k]);
   }
   if (any(share > 0.0F)) integrate_swing(legs, share, plan);
+  clear_ground(height, plan);
   const WideMask alike = same_words(from, to);
   const Wide astray = balance_step(legs, select(right_lands, -one, one), alike | stays, spot, plan);
   store_flags(astray > max_astray * height, plan.clamped);

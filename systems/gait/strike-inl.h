@@ -10,11 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <numbers>
 
 #include <mobil/anthropometry.h>
 #include <mobil/components/body.h>
 #include <mobil/components/gait.h>
 #include <mobil/components/step_plan.h>
+#include "assets/gait/step_curves-inl.h"
 #include "assets/gait/step_lookup.h"
 #include "engine/wide_curve-inl.h"
 #include "systems/gait/heading-inl.h"
@@ -177,6 +179,27 @@ HWY_INLINE void time_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<floa
   store(load(style.toe_out_deg) * degree_f, strike.toe_out);
 }
 
+/// Lateral shift of the centre of pressure by a pelvic list, which bends the column to its side: of the stature per
+/// rad, and of its square per rad/s² (demo/lab/gait_fit/upper_body.h, with the arms; people differ by 4 %).
+constexpr float list_shift = 0.070F, list_spin = 0.050F / gravity_f;
+/// Height of the centre of mass over gravity, of the stature.
+constexpr float pendulum_h = 0.57F / gravity_f;
+
+/// Moves the hips aside by one harmonic so that a step of `wider` times the table's width, with `listed` times the
+/// table's pelvic list, is balanced like the table's. `list` is the list's amplitude in the table.
+template <int K, int At>
+HWY_INLINE void balance_aside(const StrikeRequest& r, const Wide& list, const Wide& wider, const Wide& listed,
+                              HeelStrike<Lanes<float>>& strike) {
+  const Wide turned = (K * pi_f) * load(strike.pace_hz), turned2 = turned * turned, &size = r.stature;
+  const Wide shift = size * fma(list_spin * size, turned2, wide(list_shift));
+  const Wide by = (wider - listed) * list * shift / fma(pendulum_h * size, turned2, wide(1.0F));
+  constexpr double at = std::numbers::pi * K * At / 1000;
+  constexpr float c = cosine(at), s = cosine(at - std::numbers::pi / 2);
+  Lanes<float>* const cosines = strike.shape + step_shape::aside.first + K / 2;
+  store(fma(by, wide(c), load(cosines[0])), cosines[0]);
+  store(fma(by, wide(s), load(cosines[2])), cosines[2]);
+}
+
 /// Writes the strike of a gait at its own pace, or of standing at speed 0.
 HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style,
                                      HeelStrike<Lanes<float>>& strike) {
@@ -223,9 +246,16 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
                                beyond(style.pelvis_shift_h, usual.pelvis_shift_h) * (1.0F / usual.pelvis_shift_h));
 
   PostureParameters<Lanes<float>>& m = strike.posture;
-  store(walking(load(m.pelvis_rotation) * load(style.pelvis_rotation_deg) * (1.0F / usual.pelvis_rotation_deg)),
-        m.pelvis_rotation);
-  store(walking(load(m.pelvis_list) * load(style.pelvis_list_deg) * (1.0F / usual.pelvis_list_deg)), m.pelvis_list);
+  const Wide rotated = load(style.pelvis_rotation_deg) * (1.0F / usual.pelvis_rotation_deg);
+  const Wide listed = load(style.pelvis_list_deg) * (1.0F / usual.pelvis_list_deg), list = walking(load(m.pelvis_list));
+  const Wide wider = width * (1.0F / usual.step_width_h);
+  balance_aside<1, pelvis_phase::list_first_1000>(r, pelvis_phase::list_first * list, wider, listed, strike);
+  balance_aside<3, pelvis_phase::list_third_1000>(r, pelvis_phase::list_third * list, wider, listed, strike);
+  // Legs of a pelvis that turns less reach less far, so that the hips must be lower.
+  const Wide less = ratio(fraction::hip_half_spacing, r.height) * load(m.pelvis_rotation) * max(1.0F - rotated, 0.0F);
+  more(step_shape::hips_up, 0, walking(-0.5F * step * less / ratio(fraction::hip_height, r.height)));
+  store(walking(load(m.pelvis_rotation) * rotated), m.pelvis_rotation);
+  store(list * listed, m.pelvis_list);
   store(load(m.pelvis_tilt) + beyond(style.pelvis_tilt_deg, usual.pelvis_tilt_deg) * degree_f, m.pelvis_tilt);
   store(load(style.pelvis_tilt_wave_deg) * degree_f * walking(wide(1.0F)), m.pelvis_tilt_wave);
   store(load(style.shoulder_rotation), m.shoulder_rotation);

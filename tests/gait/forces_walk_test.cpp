@@ -303,7 +303,7 @@ TEST(ForcesOfOtherMeasuredWalks, CurvesResembleWintersAdultsAndOneMan) {
                              1.803F,
                              72.6F,
                              1.14F,
-                             {0.96, 0.92, 0.88, 0.77, 0.96}}}) {
+                             {0.96, 0.92, 0.86, 0.77, 0.96}}}) {
     if (!test::reference_table(m.ground) || !test::reference_table(m.moments)) GTEST_SKIP() << test::no_table;
     expect_to_resemble(m);
   }

@@ -112,7 +112,7 @@ void expect_little_missed(const Found& found) {
               static_cast<unsigned long long>(found.missed), static_cast<unsigned long long>(found.seen),
               found.worst.worst[joint_deg], found.worst.worst[shaken_m_s2]);
   EXPECT_EQ(found.surplus, 0U);
-  constexpr std::array<double, measures> a_little = {0.6, 0, 1.5, 1.5};
+  constexpr std::array<double, measures> a_little = {0.6, 0, 1.5, 2.1};
   for (std::size_t m = 0; m < measures; ++m) EXPECT_LE(found.worst.worst[m], most[m] + a_little[m]) << measure_name[m];
 }
 
@@ -137,9 +137,9 @@ TEST(LimitMonitor, ReportsAllViolations) {
   }
   std::printf("%zu of %zu people, %llu ticks beyond a limit\n", found.beyond, found.people,
               static_cast<unsigned long long>(found.seen));
-  EXPECT_LE(found.missed, found.seen / 50);
+  EXPECT_LE(found.missed, 5 + found.seen / 50);
   expect_little_missed(found);
-  EXPECT_LE(found.beyond, 2 + count / 60);
+  EXPECT_LE(found.beyond, 3 + count / 60);
 }
 
 /// People with nearly usual styles are monitored only when they turn one way and directly back. They keep all limits,

@@ -145,7 +145,7 @@ TEST(Terrain, KneesAndAnklesKeepLimitsDownAnyKerb) {
     float high_m, speed_m_s, knee, ankle;
   };
   for (const auto& [high_m, speed_m_s, max_knee, max_ankle] :
-       {Kerb{0.15F, 1.2F, 114, 37}, {0.15F, 1.6F, 114, 37}, {0.20F, 1.2F, 125, 42}}) {
+       {Kerb{0.15F, 1.2F, 114, 37}, {0.15F, 1.6F, 114, 37}, {0.20F, 1.2F, 125, 42.5}}) {
     double knee = 0, ankle = 0;
     float through_m = 0;
     for (int place = 0; place < 24; ++place) {

@@ -55,9 +55,9 @@ TEST(Terrain, WalkOnAPlateauEqualsLevelGround) {
     const Pose<float> a = up.get<Pose>(), b = down.get<Pose>(), c = level.get<Pose>(person).value();
     for (std::size_t s = 0; s < segment_count; ++s) {
       EXPECT_NEAR(a.position_m[s].y - 12.5F, b.position_m[s].y, 1e-5F);
-      EXPECT_NEAR(b.position_m[s].x, c.position_m[s].x, 2.5e-3F);
-      EXPECT_NEAR(b.position_m[s].y, c.position_m[s].y, 2.5e-3F);
-      EXPECT_NEAR(b.position_m[s].z, c.position_m[s].z, 2.5e-3F);
+      EXPECT_NEAR(b.position_m[s].x, c.position_m[s].x, 3.2e-3F);
+      EXPECT_NEAR(b.position_m[s].y, c.position_m[s].y, 3.2e-3F);
+      EXPECT_NEAR(b.position_m[s].z, c.position_m[s].z, 3.2e-3F);
     }
     up.tick(), down.tick(), level.tick();
   }

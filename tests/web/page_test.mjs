@@ -70,6 +70,14 @@ await test('it starts and shows a person who walks', async () => {
   assert.ok(differ(seen, await tiles(page)) > 0.02, 'nobody was to be seen');
   await page.evaluate(() => { mobilPage.figure.group.visible = true; });
 });
+await test('a crowd has children, who walk beside a parent', async () => {
+  const [share, apart_m] = await page.evaluate(() => {
+    const { asked } = mobilPage.crowd, children = asked.filter((r) => r.age_y < 18), parents = asked.filter((r) => r.age_y >= 18);
+    const apart = children.map((a) => Math.min(...parents.map((b) => Math.hypot(a.place[0] - b.place[0], a.place[2] - b.place[2]))));
+    return [children.length / asked.length, Math.max(...apart)];
+  });
+  assert.ok(share > 0.1 && share < 0.3 && apart_m < 0.8, `${share} of the people are children, up to ${apart_m} m from a parent`);
+});
 await test('its bits are those of desktops', async () => {
   const committed = Object.fromEntries(readFileSync(path.join(here, '../portable/hashes.txt'), 'utf8').trim().split('\n').map((l) => l.match(/^(.*\S)\s+(\S+)$/).slice(1)));
   const ours = await page.evaluate(() => {

@@ -73,7 +73,7 @@ PlotFigure cycle_figure(const Comparison& comparison, const char* title, std::sp
       panel.y.label = row.axis;
       for (std::size_t s = 0; s < reference.sets.size(); ++s) {
         const bool other = s != walk.set;
-        if (!reference.sets[s].measured[walk.speed_class]) continue;
+        if (!reference.sets[s].measured[walk.speed_class][index(row.quantity)]) continue;
         if (other && row.quantity == GaitQuantity::hip) continue;
         add_measured(panel, reference.sets[s].scaled(walk.speed_class, row.quantity, walk.stride.leg_m),
                      reference.sets[s].name, set_colour(s), other);
@@ -172,7 +172,7 @@ PlotPanel height_panel(const char* title, const std::vector<VariedWalk>& walks, 
 
 PlotFigure centre_of_mass_figure(const Comparison& comparison) {
   PlotFigure figure{"Centre of mass",
-                    "Longer steps and heavier people: at the same speed. Orendurff: 0.7 and 1.6 m/s, straight between.",
+                    "Longer steps and heavier people: at the same speed. Orendurff: in proportion to the leg, straight between speeds.",
                     2, 370, 170};
   PlotPanel cycle{"height (m/s)", {"% of the gait cycle", 0, 100}, {"over its mean (mm)"}, {}, {}, {}, true};
   PlotPanel excursion{"rise", {"speed (m/s)"}, {"excursion (mm)"}, {}, {}, {}, true};
@@ -182,7 +182,8 @@ PlotFigure centre_of_mass_figure(const Comparison& comparison) {
                            series_colour[walk.speed_class], fmt::format("{:.2f}", walk.speed_m_s), 1.6, false});
   }
   PlotBand band{{}, {}, {}, first_colour, "Orendurff 2004 ± 1 SD", 0.28};
-  for (const auto& norm : comparison.reference.excursion) {
+  for (const VariedWalk& walk : comparison.by_speed) {
+    const ExcursionNorm norm = excursion_of(comparison.reference, walk.stride);
     band.x.push_back(norm.speed_m_s);
     band.low.push_back(1000 * (norm.mean_m - norm.sd_m));
     band.high.push_back(1000 * (norm.mean_m + norm.sd_m));
@@ -244,7 +245,7 @@ void walk_reference_speeds(const Walker& walker, Comparison& comparison) {
   const auto body = must(make_body(walker.body));
   for (std::size_t s = 0; s < comparison.reference.sets.size(); ++s) {
     for (std::size_t c = 0; c < speed_class_count; ++c) {
-      if (!comparison.reference.sets[s].measured[c]) continue;
+      if (!comparison.reference.sets[s].has_class(c)) continue;
       const double speed = comparison.reference.sets[s].speed_m_s(c, static_cast<double>(body.hip_height_m));
       comparison.walks.push_back({s, c, speed, walker.at(static_cast<float>(speed))});
     }
@@ -299,7 +300,7 @@ void write_all(const std::filesystem::path& out, const Comparison& comparison, c
 bool run_compare(const CompareText& text) {
   const auto options = must(read_walk_options(text.walk));
   const auto folder = text.reference.empty() ? std::nullopt : std::optional<std::filesystem::path>(text.reference);
-  auto reference = must(read_gait_reference(folder));
+  auto reference = must(read_gait_reference(folder, static_cast<double>(options.body.age_y)));
   Comparison comparison{options.body, std::move(reference), {}, {}, {}, {}, {}, {}};
   const Walker walker{options.body, options.gait.style};
   walk_reference_speeds(walker, comparison);
@@ -323,8 +324,8 @@ Subcommand compare_command() {
   Subcommand command{.name = "compare"};
   command.footer =
       "Writes compare.json and plots of ours over the measured bands (SVG). The program carries the curves of\n"
-      "Schwartz et al. 2008, the steps of Lencioni et al. 2019, and electromyograms of Santuz and of Bovi et al. "
-      "2011.\n"
+      "Schwartz et al. 2008 (for people up to 17 also of Pinzone et al. 2014), the steps of Lencioni et al. 2019,\n"
+      "and electromyograms of Santuz and of Bovi et al. 2011.\n"
       "muscle_forces.json and muscle_forces.svg: which moments the muscles make, their activation, and forces in the "
       "joints.\n"
       "Example: mobil compare --height 1.75 --mass 75 --check --out out";

@@ -24,7 +24,7 @@ struct CurveColumn {
   std::string_view mean, sd;
 };
 
-/// Differences between the tables of sets.
+/// Differences between the tables of sets. A quantity without a column was not measured.
 struct SetLayout {
   std::array<std::string_view, 3> file;  // angles, ground reaction, moments
   std::string_view class_column;
@@ -43,6 +43,17 @@ constexpr SetLayout schwartz_layout = {{"schwartz2008_angles", "schwartz2008_grf
                                          {2, "hip_extensor_Nm_kg", "hip_moment_sd"},
                                          {2, "knee_extensor_Nm_kg", "knee_moment_sd"},
                                          {2, "ankle_plantarflexor_Nm_kg", "ankle_moment_sd"}}}};
+constexpr SetLayout pinzone_layout = {{"pinzone2014", "pinzone2014", "pinzone2014"},
+                                      "speed_class",
+                                      {"", "", "free", "", ""},
+                                      {{{0, "hip_flexion_deg", "hip_flexion_sd"},
+                                        {0, "knee_flexion_deg", "knee_flexion_sd"},
+                                        {0, "ankle_dorsiflexion_deg", "ankle_dorsiflexion_sd"},
+                                        {1, "", ""},
+                                        {1, "", ""},
+                                        {2, "hip_extensor_Nm_kg", "hip_moment_sd"},
+                                        {2, "knee_extensor_Nm_kg", "knee_moment_sd"},
+                                        {2, "ankle_plantarflexor_Nm_kg", "ankle_moment_sd"}}}};
 constexpr SetLayout winter_layout = {{"winter_joint_angles", "winter_grf", "winter_joint_moments"},
                                      "cadence_class",
                                      {"", "slow", "natural", "fast", ""},
@@ -59,8 +70,11 @@ constexpr std::string_view schwartz_steps = "schwartz2008_spatiotemporal";
 constexpr std::string_view winter_speeds = "com_vertical_excursion_computed.csv";
 
 /// Leg lengths of the people measured, m. That of Schwartz's children is estimated from their mean age of 10.5 years
-/// (0.71 to 0.77 would change their moments by 4 %). That of Winter's adults belongs to a height of 1.75 m.
+/// (0.71 to 0.77 would change their moments by 4 %). That of Winter's and
+/// Orendurff's adults belongs to a height of 1.75 m.
 constexpr double children_leg_m = 0.74, adults_leg_m = 1.75 * fraction::hip_height;
+/// Pinzone's first centre: mean leg length and speed over √(g · leg length) of 81 children of 5 to 17 years.
+constexpr double pinzone_leg_m = 0.750, pinzone_speed = 0.431, pinzone_max_age_y = 17;
 
 /// Returns the table of a class of a set. The slowest and the fastest of Schwartz were published separately.
 std::string table_name(std::string_view file, std::size_t speed_class) {
@@ -122,15 +136,15 @@ void read_curves(const Tables& tables, const SetLayout& layout, MeasuredSet& set
   for (std::size_t f = 0; f < layout.file.size(); ++f) {
     std::vector<std::string_view> required = {layout.class_column, "percent_gait"};
     for (const auto& column : layout.column) {
-      if (column.file == f) required.insert(required.end(), {column.mean, column.sd});
+      if (column.file == f && !column.mean.empty()) required.insert(required.end(), {column.mean, column.sd});
     }
     for (std::size_t c = 0; c < speed_class_count; ++c) {
       if (layout.class_name[c].empty()) continue;
       const auto table = tables.read(table_name(layout.file[f], c), required);
-      set.measured[c] = true;
       const auto rows = rows_of_class(table, layout.class_column, layout.class_name[c]);
       for (std::size_t q = 0; q < gait_quantity_count; ++q) {
-        if (layout.column[q].file != f) continue;
+        if (layout.column[q].file != f || layout.column[q].mean.empty()) continue;
+        set.measured[c][q] = true;
         set.curve[c][q] = {read_curve(table, rows, layout.column[q].mean),
                            read_curve(table, rows, layout.column[q].sd)};
       }
@@ -221,8 +235,16 @@ std::vector<ExcursionNorm> read_excursion(const Tables& tables) {
   return norms;
 }
 
+MeasuredSet read_pinzone(const Tables& tables) {
+  MeasuredSet set{.name = "Pinzone 2014", .hip_from_vertical = false, .leg_m = pinzone_leg_m};
+  set.max_age_y = pinzone_max_age_y;
+  set.speed[compared_class::free] = pinzone_speed;
+  read_curves(tables, pinzone_layout, set);
+  return set;
+}
+
 MeasuredSet read_winter(const Tables& tables) {
-  MeasuredSet set{"Winter 1991", true, adults_leg_m};
+  MeasuredSet set{.name = "Winter 1991", .hip_from_vertical = true, .leg_m = adults_leg_m};
   constexpr std::array<std::string_view, 1> speed = {"speed_m_s"};
   const std::array<std::string_view, 2> required = {"source", "speed_m_s"};
   const auto table = tables.read(winter_speeds, required);
@@ -254,6 +276,10 @@ void check_folder(const Tables& tables, const fs::path& folder) {
 
 }  // namespace
 
+bool MeasuredSet::has_class(std::size_t speed_class) const {
+  return std::ranges::find(measured[speed_class], true) != measured[speed_class].end();
+}
+
 double MeasuredSet::speed_m_s(std::size_t speed_class, double person_leg_m) const {
   return speed[speed_class] * std::sqrt(gravity_m_s2 * person_leg_m);
 }
@@ -278,20 +304,23 @@ std::optional<StepNorm> StepBand::at(double speed) const {
   return std::nullopt;
 }
 
-Result<GaitReference> read_gait_reference(const std::optional<fs::path>& folder) {
+Result<GaitReference> read_gait_reference(const std::optional<fs::path>& folder, double age_y) {
   return attempt([&] {
     const Tables tables(folder);
     if (folder) check_folder(tables, *folder);
     GaitReference reference;
-    MeasuredSet set{"Schwartz 2008", false, children_leg_m};
+    MeasuredSet set{.name = "Schwartz 2008", .hip_from_vertical = false, .leg_m = children_leg_m};
     StepBand band{"Schwartz 2008, children", {}};
     read_schwartz_steps(tables, set, band);
     read_curves(tables, schwartz_layout, set);
     read_schwartz_pelvis(tables, set);
     reference.sets.push_back(std::move(set));
+    reference.sets.push_back(read_pinzone(tables));
+    std::erase_if(reference.sets, [&](const MeasuredSet& of) { return age_y > of.max_age_y; });
     read_lencioni_steps(tables, reference.steps);
     reference.steps.push_back(std::move(band));
     reference.excursion = read_excursion(tables);
+    reference.excursion_leg_m = adults_leg_m;
     if (tables.in_folder(table_name(winter_layout.file[0], compared_class::slow))) {
       reference.sets.push_back(read_winter(tables));
     } else {

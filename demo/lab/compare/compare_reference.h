@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,14 +43,17 @@ struct MeasuredSet {
   std::string name;
   bool hip_from_vertical;
   double leg_m;
-  std::array<bool, speed_class_count> measured{};  // true with curves of that class
-  std::array<double, speed_class_count> speed{};   // over √(g · leg length)
+  double max_age_y = std::numeric_limits<double>::infinity();  // the oldest people who are compared with it
+  std::array<std::array<bool, gait_quantity_count>, speed_class_count> measured{};  // [class][quantity]
+  std::array<double, speed_class_count> speed{};                                    // over √(g · leg length)
   /// Step length over leg length, and one double support as a part of the cycle; 0 if the set has none.
   std::array<double, speed_class_count> step_length{}, double_support{};
   /// Mean anterior tilt of the pelvis, half the range of its axial rotation and of its list, degrees.
   std::array<double, speed_class_count> pelvis_tilt_deg{}, pelvis_rotation_deg{}, pelvis_list_deg{};
   std::array<std::array<MeasuredCurve, gait_quantity_count>, speed_class_count> curve{};  // [class][quantity]
 
+  /// Returns true if the set has curves of that class.
+  bool has_class(std::size_t speed_class) const;
   /// Returns the speed of a person with such a leg, m/s.
   double speed_m_s(std::size_t speed_class, double person_leg_m) const;
   /// Returns a curve of a person with such a leg who walks alike: forces in body weights are unchanged, moments in N
@@ -79,14 +83,16 @@ struct GaitReference {
   std::vector<MeasuredSet> sets;
   std::vector<StepBand> steps;
   std::vector<ExcursionNorm> excursion;  // in order of speed
+  double excursion_leg_m;                // of the people measured
   std::string note;                      // missing data, for people; can be empty
 };
 
-/// Returns the tables in the program and, with a folder, those of Winter, which cannot be redistributed. These are
-/// winter_joint_angles.csv, winter_joint_moments.csv, winter_grf.csv and com_vertical_excursion_computed.csv (rows
-/// winter_slow, winter_natural, winter_fast with their speed_m_s). Tables of the folder replace built-in ones of the
-/// same name. Errors: no folder, a table that cannot be read or lacks a column or rows, a folder with none of the
-/// tables.
-Result<GaitReference> read_gait_reference(const std::optional<std::filesystem::path>& folder);
+/// Returns the tables in the program for a person of that age and, with a folder, those of Winter, which cannot be
+/// redistributed. These are winter_joint_angles.csv, winter_joint_moments.csv, winter_grf.csv and
+/// com_vertical_excursion_computed.csv (rows winter_slow, winter_natural, winter_fast with their speed_m_s). Tables of
+/// the folder replace built-in ones of the same name. Errors: no folder, a table that cannot be read or lacks a column
+/// or rows, a folder with none of the tables.
+Result<GaitReference> read_gait_reference(const std::optional<std::filesystem::path>& folder,
+                                          double age_y = static_cast<double>(usual_age_y));
 
 }  // namespace mobil

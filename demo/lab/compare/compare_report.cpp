@@ -200,7 +200,7 @@ std::string comparison_text(const Comparison& comparison, const std::vector<Verd
   }
   text += "\ncentre of mass and steps\n";
   for (const auto& walk : comparison.walks) {
-    const auto norm = excursion_at(reference, walk.speed_m_s);
+    const auto norm = excursion_of(reference, walk.stride);
     fmt::format_to(out,
                    "{:<34} rises {:.1f} mm (measured {:.0f} +- {:.0f}), lowest at {:.0f} %, highest at {:.0f} %, steps "
                    "of {:.3f} m, {:.0f} a minute\n",

@@ -107,12 +107,8 @@ void judge_angles(const Comparison& comparison, const ComparedWalk& walk, const 
   }
 }
 
-void judge_forces(const Comparison& comparison, const ComparedWalk& walk, const std::string& name, Verdicts& verdicts) {
-  if (!walk.stride.forces) {
-    verdicts.not_simulated(name + ": ground reaction");
-    verdicts.not_simulated(name + ": joint moments");
-    return;
-  }
+void judge_ground_reaction(const Comparison& comparison, const ComparedWalk& walk, const std::string& name,
+                           Verdicts& verdicts) {
   const auto vertical = examine(walk, comparison.reference, GaitQuantity::vertical);
   const auto fore_aft = examine(walk, comparison.reference, GaitQuantity::fore_aft);
   verdicts.at_least(name + ": humps of the vertical force over its valley", humps(*vertical), 0.005, "body weights");
@@ -124,6 +120,16 @@ void judge_forces(const Comparison& comparison, const ComparedWalk& walk, const 
                     "1");
   verdicts.within(name + ": mean vertical force of both feet", walk.stride.forces->mean_weights, 1 - weight_bound,
                   1 + weight_bound, "body weights");
+}
+
+void judge_forces(const Comparison& comparison, const ComparedWalk& walk, const std::string& name, Verdicts& verdicts) {
+  if (!walk.stride.forces) {
+    verdicts.not_simulated(name + ": ground reaction");
+    verdicts.not_simulated(name + ": joint moments");
+    return;
+  }
+  if (comparison.reference.sets[walk.set].measured[walk.speed_class][index(GaitQuantity::vertical)])
+    judge_ground_reaction(comparison, walk, name, verdicts);
   for (const auto quantity : moment_quantities) {
     const auto finding = examine(walk, comparison.reference, quantity);
     const std::string of = fmt::format("{}: {}, ", name, gait_quantity_name[index(quantity)]);
@@ -143,7 +149,7 @@ void judge_centre_of_mass(const Comparison& comparison, const ComparedWalk& walk
   const double lowest = walk.stride.com_lowest_percent;
   verdicts.within(name + ": centre of mass lowest", lowest > 49.5 ? lowest - 50 : lowest, -0.5, double_support,
                   "% of the cycle");
-  const auto norm = excursion_at(comparison.reference, walk.speed_m_s);
+  const auto norm = excursion_of(comparison.reference, walk.stride);
   verdicts.within(name + ": centre of mass, excursion", 1000 * (walk.stride.com_highest_m - walk.stride.com_lowest_m),
                   1000 * (norm.mean_m - norm.sd_m), 1000 * (norm.mean_m + norm.sd_m), "mm");
 }
@@ -181,7 +187,7 @@ std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReferenc
   CurveFinding finding{};
   std::vector<MeasuredCurve> measured;
   for (std::size_t s = 0; s < reference.sets.size(); ++s) {
-    if (!reference.sets[s].measured[walk.speed_class]) continue;
+    if (!reference.sets[s].measured[walk.speed_class][index(quantity)]) continue;
     finding.set.push_back(s);
     measured.push_back(reference.sets[s].scaled(walk.speed_class, quantity, walk.stride.leg_m));
   }
@@ -205,7 +211,8 @@ std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReferenc
   finding.rms_nearer_set = std::ranges::min(finding.rms);
   finding.rms_nearer_point = rms_to_nearer_mean(pairs);
   finding.best_correlation = std::ranges::max(finding.correlation);
-  const auto own = static_cast<std::size_t>(std::ranges::find(finding.set, walk.set) - finding.set.begin());
+  auto own = static_cast<std::size_t>(std::ranges::find(finding.set, walk.set) - finding.set.begin());
+  if (own == finding.set.size()) own = 0;  // measured at that speed by others
   finding.rate_ratio = fastest_change(*pairs[own].ours) / fastest;
   const double least = is_moment(quantity) ? min_moment_peak : 0;
   for (const auto& window : peaks_of(quantity)) finding.peaks.push_back(examine_peak(pairs, own, window, scale, least));
@@ -221,6 +228,12 @@ ExcursionNorm excursion_at(const GaitReference& reference, double speed_m_s) {
   const double t = (speed - norms[i].speed_m_s) / (norms[i + 1].speed_m_s - norms[i].speed_m_s);
   return {speed_m_s, norms[i].mean_m + t * (norms[i + 1].mean_m - norms[i].mean_m),
           norms[i].sd_m + t * (norms[i + 1].sd_m - norms[i].sd_m)};
+}
+
+ExcursionNorm excursion_of(const GaitReference& reference, const WalkedStride& stride) {
+  const double ratio = stride.leg_m / reference.excursion_leg_m;
+  const ExcursionNorm norm = excursion_at(reference, stride.speed_m_s / std::sqrt(ratio));
+  return {stride.speed_m_s, ratio * norm.mean_m, ratio * norm.sd_m};
 }
 
 std::string walk_name(const Comparison& comparison, const ComparedWalk& walk) {

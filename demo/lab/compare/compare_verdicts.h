@@ -45,6 +45,9 @@ std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReferenc
 /// fastest, theirs.
 ExcursionNorm excursion_at(const GaitReference& reference, double speed_m_s);
 
+/// Returns the excursion of a person with such a leg who walks alike.
+ExcursionNorm excursion_of(const GaitReference& reference, const WalkedStride& stride);
+
 /// A stride with a varied body or gait: step lengths, heights, masses.
 struct VariedWalk {
   double value;  // the varied quantity

@@ -10,6 +10,7 @@ REFERENCE_TABLE(bovi2011_emg);
 REFERENCE_TABLE(centre_of_mass_excursion);
 REFERENCE_TABLE(lencioni2019_steps);
 REFERENCE_TABLE(muscle_lengths);
+REFERENCE_TABLE(pinzone2014);
 REFERENCE_TABLE(santuz_emg);
 REFERENCE_TABLE(schwartz2008_angles);
 REFERENCE_TABLE(schwartz2008_angles_extremes);
@@ -35,6 +36,7 @@ const ReferenceTable tables[] = {
     REFERENCE_ROW(centre_of_mass_excursion),
     REFERENCE_ROW(lencioni2019_steps),
     REFERENCE_ROW(muscle_lengths),
+    REFERENCE_ROW(pinzone2014),
     REFERENCE_ROW(santuz_emg),
     REFERENCE_ROW(schwartz2008_angles),
     REFERENCE_ROW(schwartz2008_angles_extremes),

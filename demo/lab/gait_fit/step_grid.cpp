@@ -256,7 +256,7 @@ std::vector<StepNode> fit_grid(const FitData& data, const Jobs& jobs,
     });
     if (!gained) break;
   }
-  for (std::size_t away = 1; away <= usual; ++away) {
+  for (std::size_t away = 1; away < std::max(usual + 1, length_count - usual); ++away) {
     stage("shorter and longer steps", true, [&](std::size_t, std::size_t l) {
       if (l + away == usual) return Others{{0, 1}};
       return l == usual + away ? Others{{0, -1}} : Others{};

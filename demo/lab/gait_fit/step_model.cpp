@@ -1,6 +1,6 @@
-
 #include <numbers>
 
+#include "assets/gait/leg_model.h"
 #include "demo/lab/compare/compare_reference.h"
 #include "demo/lab/gait_fit/step_curves.h"
 #include "demo/lab/gait_fit/upper_body.h"
@@ -11,12 +11,9 @@ namespace {
 constexpr double pi = std::numbers::pi, gravity = gravity_m_s2;
 constexpr std::size_t n = cycle_samples, half_cycle = n / 2;
 
-/// Centres of mass of thigh and shank, of their lengths.
-constexpr double rod_centre = 0.433;
 /// Usual foot flat and heel rise, fractions of the cycle; the fraction in which the heel's pad yields.
 constexpr double usual_flat = 0.09, usual_rise = 0.30, pad_part = 0.05;
-/// Height of the point toward which the feet's forces lean, relative to the centre of mass.
-constexpr double pivot_height = 1.4;
+constexpr auto pivot_height = static_cast<double>(forces::pivot_height);
 
 /// Places over the cycle: forward, up, and outward on the leg's own side.
 struct Track {
@@ -247,7 +244,7 @@ double Model::second(const Samples& q, std::size_t i, double travel) const {
 /// Places knee, ankle and the centres of mass of thigh, shank and foot, from the hip down.
 void Model::place_masses() {
   const StepBody& b = t_.body;
-  const double foot_on = 0.35 * b.ball_forward, foot_down = -0.5 * b.ankle_height;
+  const double foot_on = forces::foot_centre.z * b.height, foot_down = forces::foot_centre.y * b.height;
   for (std::size_t i = 0; i < n; ++i) {
     const double ts = std::sin(c_.thigh[i]), tc = std::cos(c_.thigh[i]);
     const double ss = std::sin(c_.shank[i]), sc = std::cos(c_.shank[i]);
@@ -258,9 +255,9 @@ void Model::place_masses() {
       to.x[i] = from.x[i] + length * cosine * ls;
     };
     along(hip_, b.thigh, ts, tc, knee_);
-    along(hip_, rod_centre * b.thigh, ts, tc, centre_[0]);
+    along(hip_, static_cast<double>(forces::thigh.centre) * b.thigh, ts, tc, centre_[0]);
     along(knee_, b.shank, ss, sc, ankle_);
-    along(knee_, rod_centre * b.shank, ss, sc, centre_[1]);
+    along(knee_, static_cast<double>(forces::shank.centre) * b.shank, ss, sc, centre_[1]);
     const double ps = std::sin(c_.pitch[i]), pc = std::cos(c_.pitch[i]);
     centre_[2].z[i] = ankle_.z[i] + foot_on * pc - foot_down * ps;
     centre_[2].y[i] = ankle_.y[i] + foot_on * ps + foot_down * pc;
@@ -273,12 +270,12 @@ void Model::accelerate_leg() {
   const StepBody& b = t_.body;
   const double stride = 2 * t_.step_length_m;
   const double masses[3] = {b.thigh_mass, b.shank_mass, b.foot_mass};
-  const auto gyration = [&](const de_leva::Part& part) {
-    return part.x * part.length_m / de_leva::stature_m * b.height;
+  const auto spin_of = [](double mass, const forces::Rod& rod, double length) {
+    return mass * std::pow(static_cast<double>(rod.gyration) * length, 2);
   };
-  const double inertia[3] = {b.thigh_mass * std::pow(gyration(de_leva::thigh), 2),
-                             b.shank_mass * std::pow(gyration(de_leva::shank), 2),
-                             b.foot_mass * std::pow(foot_gyration * b.ball_forward, 2)};
+  const double inertia[3] = {
+      spin_of(b.thigh_mass, forces::thigh, b.thigh), spin_of(b.shank_mass, forces::shank, b.shank),
+      spin_of(b.foot_mass, forces::foot, std::hypot(b.ball_forward, b.ankle_height - b.toe_joint_height))};
   const Samples* angle[3] = {&c_.thigh, &c_.shank, &c_.pitch};
   for (std::size_t i = 0; i < n; ++i) {
     LegLoad sum;

@@ -8,6 +8,11 @@
 
 REFERENCE_TABLE(bovi2011_emg);
 REFERENCE_TABLE(centre_of_mass_excursion);
+REFERENCE_TABLE(fukuchi2017_running_angles);
+REFERENCE_TABLE(fukuchi2017_running_grf);
+REFERENCE_TABLE(fukuchi2017_running_hip_height);
+REFERENCE_TABLE(fukuchi2017_running_moments);
+REFERENCE_TABLE(fukuchi2017_running_spatiotemporal);
 REFERENCE_TABLE(lencioni2019_steps);
 REFERENCE_TABLE(muscle_lengths);
 REFERENCE_TABLE(pinzone2014);
@@ -34,6 +39,11 @@ namespace {
 const ReferenceTable tables[] = {
     REFERENCE_ROW(bovi2011_emg),
     REFERENCE_ROW(centre_of_mass_excursion),
+    REFERENCE_ROW(fukuchi2017_running_angles),
+    REFERENCE_ROW(fukuchi2017_running_grf),
+    REFERENCE_ROW(fukuchi2017_running_hip_height),
+    REFERENCE_ROW(fukuchi2017_running_moments),
+    REFERENCE_ROW(fukuchi2017_running_spatiotemporal),
     REFERENCE_ROW(lencioni2019_steps),
     REFERENCE_ROW(muscle_lengths),
     REFERENCE_ROW(pinzone2014),

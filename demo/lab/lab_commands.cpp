@@ -7,7 +7,7 @@ namespace mobil {
 
 std::vector<Subcommand> lab_commands() {
   return {body_command(),       muscle_command(),     bench_command(),   compare_command(),  robustness_command(),
-          paper_command(),      frontier_command(),   effects_command(), gait_fit_command(), fit_accuracy_command(),
+          paper_command(),      frontier_command(),   effects_command(), gait_fit_command(), run_fit_command(), fit_accuracy_command(),
           fit_shapes_command(), completion_command(), man_command()};
 }
 

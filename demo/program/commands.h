@@ -44,6 +44,7 @@ Subcommand paper_command();
 Subcommand frontier_command();
 Subcommand effects_command();
 Subcommand gait_fit_command();
+Subcommand run_fit_command();
 Subcommand fit_accuracy_command();
 Subcommand fit_shapes_command();
 Subcommand completion_command();

@@ -24,6 +24,7 @@ constexpr SubcommandRow subcommands[] = {
     {"frontier", lab, "Measure error and time of every way to deform a muscle"},
     {"effects", lab, "List the effects that can be simulated, and measure the cost of each"},
     {"fit-gait", lab, "Fit the table of steps to measured walking, and write it as source code"},
+    {"fit-run", lab, "Fit the table of running steps to measured running, and write it as source code"},
     {"fit-accuracy", lab, "Measure the errors and costs used to choose methods, and write them as source code"},
     {"fit-shapes", lab, "Solve muscle shapes at finite strain, and write them as source code"},
     {"completion", lab, "Print a completion script for a shell"},

@@ -144,12 +144,12 @@ const std::map<std::string, Floors> order = {
       {no_folder},
       {"surfaces", "saving", "cluster"},
       {"c"}}},
-    {"demo",
-     {{"examples"},     {"scene"},     {"lab/reference"}, {"program"},      {"measure"},        {"pictures"},
-      {"walk"},         {"anatomy"},   {"lab/rivals"},    {"lab/body"},     {"lab/muscle"},     {"lab/compare"},
-      {"lab/gait_fit"}, {"lab/paper"}, {"bake"},          {"crowd"},        {"town"},           {"view"},
-      {"schedule"},     {"lab/bench"}, {"lab/effects"},   {"lab/frontier"}, {"lab/robustness"}, {"lab/completion"},
-      {"lab/man"},      {"lab"}}},
+    {"demo", {{"examples"},   {"scene"},       {"lab/reference"}, {"program"},        {"measure"},
+              {"pictures"},   {"walk"},        {"anatomy"},       {"lab/rivals"},     {"lab/body"},
+              {"lab/muscle"}, {"lab/compare"}, {"lab/gait_fit"},  {"lab/run_fit"},    {"lab/paper"},
+              {"bake"},       {"crowd"},       {"town"},          {"view"},           {"schedule"},
+              {"lab/bench"},  {"lab/effects"}, {"lab/frontier"},  {"lab/robustness"}, {"lab/completion"},
+              {"lab/man"},    {"lab"}}},
 };
 
 /// Folders of systems/ that do not use each other. Modules and the facade can use them all.

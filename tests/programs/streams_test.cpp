@@ -61,6 +61,7 @@ const std::vector<Row> rows = {
     {"frontier --short --long", Product::none},
     {"effects --people 0", Product::none},
     {"fit-gait --styles --without 1", Product::none},
+    {"fit-run --nothing", Product::none},
     {"fit-accuracy --nothing", Product::none},
     {"fit-shapes --nothing", Product::none},
     {"completion bash", Product::output},

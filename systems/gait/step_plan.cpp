@@ -82,6 +82,7 @@ HWY_NOINLINE void next_strike(const BodySize<Lanes<float>>& size, const Gait<Lan
   r.height = height;
   r.mass = load(size.mass_kg);
   r.stature = load(size.height_m);
+  r.stoop = load(size.stoop_rad);
   r.woman = load(size.woman);
   r.child = load(size.child);
   r.speed = select(fresh, aim, select(to_stand, stopping, walking));

@@ -317,7 +317,8 @@ TEST(Balance, WalksTurnStopLimpAndStepAsideWithinTheirSoles) {
                            usual(typical_body(Sex::man, 6)),
                            usual(typical_body(Sex::man, 12)),
                            usual(typical_body(Sex::man, 72)),
-                           {typical_body(Sex::woman, 85), usual_style(typical_body(Sex::woman, 85)), 1.6}};
+                           usual(typical_body(Sex::man, 95)),
+                           {typical_body(Sex::woman, 85), usual_style(typical_body(Sex::woman, 85)), 1.12}};
   for (const auto& [body, style, times] : people) {
     const auto scenes = walk_balance_scenes(body, style);
     ASSERT_EQ(scenes.size(), std::size(bounds));

@@ -24,7 +24,7 @@ struct CurveColumn {
   std::string_view mean, sd;
 };
 
-/// Differences between the tables of sets. A quantity without a column was not measured.
+/// Differences between the tables of sets. Quantities without a file were not measured.
 struct SetLayout {
   std::array<std::string_view, 3> file;  // angles, ground reaction, moments
   std::string_view class_column;
@@ -43,17 +43,8 @@ constexpr SetLayout schwartz_layout = {{"schwartz2008_angles", "schwartz2008_grf
                                          {2, "hip_extensor_Nm_kg", "hip_moment_sd"},
                                          {2, "knee_extensor_Nm_kg", "knee_moment_sd"},
                                          {2, "ankle_plantarflexor_Nm_kg", "ankle_moment_sd"}}}};
-constexpr SetLayout pinzone_layout = {{"pinzone2014", "pinzone2014", "pinzone2014"},
-                                      "speed_class",
-                                      {"", "", "free", "", ""},
-                                      {{{0, "hip_flexion_deg", "hip_flexion_sd"},
-                                        {0, "knee_flexion_deg", "knee_flexion_sd"},
-                                        {0, "ankle_dorsiflexion_deg", "ankle_dorsiflexion_sd"},
-                                        {1, "", ""},
-                                        {1, "", ""},
-                                        {2, "hip_extensor_Nm_kg", "hip_moment_sd"},
-                                        {2, "knee_extensor_Nm_kg", "knee_moment_sd"},
-                                        {2, "ankle_plantarflexor_Nm_kg", "ankle_moment_sd"}}}};
+constexpr SetLayout pinzone_layout = {
+    {"pinzone2014", "", "pinzone2014"}, "speed_class", {"", "", "free", "", ""}, schwartz_layout.column};
 constexpr SetLayout winter_layout = {{"winter_joint_angles", "winter_grf", "winter_joint_moments"},
                                      "cadence_class",
                                      {"", "slow", "natural", "fast", ""},
@@ -134,16 +125,17 @@ std::vector<std::size_t> rows_of_class(const CsvTable& table, std::string_view c
 
 void read_curves(const Tables& tables, const SetLayout& layout, MeasuredSet& set) {
   for (std::size_t f = 0; f < layout.file.size(); ++f) {
+    if (layout.file[f].empty()) continue;
     std::vector<std::string_view> required = {layout.class_column, "percent_gait"};
     for (const auto& column : layout.column) {
-      if (column.file == f && !column.mean.empty()) required.insert(required.end(), {column.mean, column.sd});
+      if (column.file == f) required.insert(required.end(), {column.mean, column.sd});
     }
     for (std::size_t c = 0; c < speed_class_count; ++c) {
       if (layout.class_name[c].empty()) continue;
       const auto table = tables.read(table_name(layout.file[f], c), required);
       const auto rows = rows_of_class(table, layout.class_column, layout.class_name[c]);
       for (std::size_t q = 0; q < gait_quantity_count; ++q) {
-        if (layout.column[q].file != f || layout.column[q].mean.empty()) continue;
+        if (layout.column[q].file != f) continue;
         set.measured[c][q] = true;
         set.curve[c][q] = {read_curve(table, rows, layout.column[q].mean),
                            read_curve(table, rows, layout.column[q].sd)};

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <mobil/components/body.h>
 #include <mobil/engine/error.h>
 #include "demo/lab/compare/compare_judge.h"
 

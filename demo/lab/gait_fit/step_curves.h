@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <mobil/components/step_plan.h>
 #include "demo/lab/gait_fit/step_model.h"
@@ -33,6 +34,51 @@ inline double legendre(std::size_t degree, double x) {
     now = next;
   }
   return now;
+}
+
+/// Returns (1 − u)³ times a polynomial that starts with the first number and without slope; 0 from u = 1 on.
+inline double falling(std::span<const double> numbers, double u) {
+  const double left = std::max(1 - u, 0.0);
+  double tail = 0;
+  for (std::size_t i = numbers.size() - 1; i > 0; --i) tail = u * (numbers[i] + tail);
+  return left * left * left * (numbers[0] * (1 + u * (3 + 6 * u)) + tail);
+}
+
+/// Returns the start of a falling curve over `span` of the cycle, with derivatives by the cycle.
+inline Moving falling_start(std::span<const double> numbers, double span) {
+  return {numbers[0], numbers[1] / span, (2 * numbers[2] - 6 * numbers[1]) / (span * span)};
+}
+
+/// Returns the pitch from heel rise on, for u from 0 to 1 at toe-off: heel up, negative.
+inline double heel_rise(std::span<const double> numbers, double u) {
+  double sum = 0;
+  for (std::size_t i = numbers.size(); i > 0; --i) sum = numbers[i - 1] + u * sum;
+  return -u * u * u * sum;
+}
+
+/// Returns the end of a heel rise over `span` of the cycle, with derivatives by the cycle.
+inline Moving heel_rise_end(std::span<const double> numbers, double span) {
+  double sum = 0, slope = 0, bend = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double k = static_cast<double>(i + 3), v = numbers[i];
+    sum -= v;
+    slope -= k * v;
+    bend -= k * (k - 1) * v;
+  }
+  return {sum, slope / span, bend / (span * span)};
+}
+
+/// Returns 64 (u (1 − u))³ times Legendre polynomials.
+inline double bumps(std::span<const double> numbers, double u) {
+  double sum = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) sum += numbers[i] * legendre(i, 2 * u - 1);
+  const double bump = u * (1 - u);
+  return 64 * bump * bump * bump * sum;
+}
+
+/// Returns derivatives by time of a curve with derivatives by the cycle.
+inline Moving per_second(const Moving& by_cycle, double period_s) {
+  return {by_cycle.value, by_cycle.rate / period_s, by_cycle.bend / (period_s * period_s)};
 }
 
 /// Returns the pitch of the toes, heel up, of a foot whose heel has risen by `heel_up`, with derivatives by `heel_up`.

@@ -284,22 +284,12 @@ std::vector<StepNode> fit_grid(const FitData& data, const Jobs& jobs,
   return nodes;
 }
 
-TabledShape tabled(const StepShape& fitted) {
-  TabledShape out{};
-  for (const ShapePart& part : step_shape::parts) {
-    for (std::size_t i = part.first; i < part.first + part.count; ++i)
-      out[i] = static_cast<float>(part.is_length ? fitted[i] / fitted_height_m : fitted[i]);
-  }
-  return out;
+TabledShape tabled(const StepShape& shape) {
+  return tabled(shape, step_shape::parts);
 }
 
-StepShape fitted(const TabledShape& tabled) {
-  StepShape out{};
-  for (const ShapePart& part : step_shape::parts) {
-    for (std::size_t i = part.first; i < part.first + part.count; ++i)
-      out[i] = static_cast<double>(tabled[i]) * (part.is_length ? fitted_height_m : 1);
-  }
-  return out;
+StepShape fitted(const TabledShape& shape) {
+  return fitted(shape, step_shape::parts);
 }
 
 std::array<double, style_effects.size()> style_values(const StepTask& task, const StepShape& usual_shape,

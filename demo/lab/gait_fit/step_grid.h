@@ -55,7 +55,27 @@ bool fit_node(StepNode& node, const StepShape& from, bool by_angles);
 std::vector<StepNode> fit_grid(const FitData& data, const Jobs& jobs,
                                const std::function<void(const char* stage, double cost)>& progress);
 
-/// Convert between metres of fitted_height_m and a body of height 1.
+/// Convert numbers of these groups between metres of fitted_height_m and a body of height 1.
+template <std::size_t numbers, std::size_t groups>
+std::array<float, numbers> tabled(const std::array<double, numbers>& shape,
+                                  const std::array<ShapePart, groups>& parts) {
+  std::array<float, numbers> out{};
+  for (const ShapePart& part : parts) {
+    for (std::size_t i = part.first; i < part.first + part.count; ++i)
+      out[i] = static_cast<float>(part.is_length ? shape[i] / fitted_height_m : shape[i]);
+  }
+  return out;
+}
+template <std::size_t numbers, std::size_t groups>
+std::array<double, numbers> fitted(const std::array<float, numbers>& shape,
+                                   const std::array<ShapePart, groups>& parts) {
+  std::array<double, numbers> out{};
+  for (const ShapePart& part : parts) {
+    for (std::size_t i = part.first; i < part.first + part.count; ++i)
+      out[i] = static_cast<double>(shape[i]) * (part.is_length ? fitted_height_m : 1);
+  }
+  return out;
+}
 TabledShape tabled(const StepShape& shape);
 StepShape fitted(const TabledShape& shape);
 

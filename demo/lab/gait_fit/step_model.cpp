@@ -1,4 +1,5 @@
 #include <numbers>
+#include <span>
 
 #include "assets/gait/leg_model.h"
 #include "demo/lab/compare/compare_reference.h"
@@ -48,16 +49,10 @@ class Model {
  private:
   double at(const ShapePart& part, std::size_t i) const { return p_[part.first + i]; }
   double harmonics(const ShapePart& part, std::size_t count, double phase) const;
-  double falling(const ShapePart& part, std::size_t more, double u) const;
-  Moving falling_start(const ShapePart& part, double span) const;
-  double bumps(const ShapePart& part, double u) const;
+  std::span<const double> of(const ShapePart& part) const { return std::span(p_).subspan(part.first, part.count); }
   void move_foot();
   void move_leg();
-  Moving per_second(const Moving& by_cycle) const {
-    return {by_cycle.value, by_cycle.rate / period_, by_cycle.bend / (period_ * period_)};
-  }
   double second(const Samples& q, std::size_t i, double travel = 0) const;
-  double rise(double u) const;
   static std::size_t other(std::size_t i) { return (i + half_cycle) % n; }
   /// Returns the elapsed fraction of double support, at `phase` of the cycle after a heel strike.
   double landed(double phase) const { return std::clamp(phase / t_.double_support, 0.0, 1.0); }
@@ -92,48 +87,16 @@ double Model::harmonics(const ShapePart& part, std::size_t count, double phase) 
   return sum;
 }
 
-/// Returns (1 − u)³ times a polynomial that starts with the part's first number and without slope; 0 from u = 1 on.
-double Model::falling(const ShapePart& part, std::size_t more, double u) const {
-  const double left = std::max(1 - u, 0.0);
-  double tail = 0;
-  for (std::size_t i = more; i > 0; --i) tail = u * (at(part, i) + tail);
-  return left * left * left * (at(part, 0) * (1 + u * (3 + 6 * u)) + tail);
-}
-
-Moving Model::falling_start(const ShapePart& part, double span) const {
-  return per_second({at(part, 0), at(part, 1) / span, (2 * at(part, 2) - 6 * at(part, 1)) / (span * span)});
-}
-
-/// Returns 64 (u (1 − u))³ times Legendre polynomials.
-double Model::bumps(const ShapePart& part, double u) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < part.count; ++i) sum += at(part, i) * legendre(i, 2 * u - 1);
-  const double bump = u * (1 - u);
-  return 64 * bump * bump * bump * sum;
-}
-
-/// Returns the pitch from heel rise on, for u from 0 to 1 at toe-off: heel up, negative.
-double Model::rise(double u) const {
-  double sum = 0;
-  for (std::size_t i = step_shape::rise.count; i > 0; --i) sum = at(step_shape::rise, i - 1) + u * sum;
-  return -u * u * u * sum;
-}
-
 void Model::move_foot() {
   const double flat = usual_flat + at(step_shape::times, 0), lift = usual_rise + at(step_shape::times, 1);
   const double rising = off_ - lift, swing_part = 1 - off_, span = swing_part * period_;
   // State of the foot at toe-off and at the next strike.
-  double sum = 0, slope = 0, bend = 0;
-  for (std::size_t i = 0; i < step_shape::rise.count; ++i) {
-    const double k = static_cast<double>(i + 3), v = at(step_shape::rise, i);
-    sum -= v;
-    slope -= k * v;
-    bend -= k * (k - 1) * v;
-  }
-  const Moving leaving = per_second({sum, slope / rising, bend / (rising * rising)});
-  const Moving landing = falling_start(step_shape::strike, flat);
-  const Moving pad_up = falling_start(step_shape::pad_up, pad_part),
-               pad_on = falling_start(step_shape::pad_forward, pad_part);
+  const Moving leaving = per_second(heel_rise_end(of(step_shape::rise), rising), period_);
+  const auto starts = [&](const ShapePart& part, double over) {
+    return per_second(falling_start(of(part), over), period_);
+  };
+  const Moving landing = starts(step_shape::strike, flat);
+  const Moving pad_up = starts(step_shape::pad_up, pad_part), pad_on = starts(step_shape::pad_forward, pad_part);
   const auto place = [](Moving a, const Moving& b, double on) {
     return Moving{a.value + b.value + on, a.rate + b.rate, a.bend + b.bend};
   };
@@ -146,17 +109,17 @@ void Model::move_foot() {
   };
   for (std::size_t i = 0; i < n; ++i) {
     const double phase = static_cast<double>(i) / n;
-    c_.stance_pitch[i] = (phase < flat ? falling(step_shape::strike, 3, phase / flat) : 0) +
-                         rise(std::clamp((phase - lift) / rising, 0.0, 1.0));
-    c_.pad_up[i] = falling(step_shape::pad_up, 2, phase / pad_part);
-    c_.pad_forward[i] = falling(step_shape::pad_forward, 2, phase / pad_part);
+    c_.stance_pitch[i] = (phase < flat ? falling(of(step_shape::strike), phase / flat) : 0) +
+                         heel_rise(of(step_shape::rise), std::clamp((phase - lift) / rising, 0.0, 1.0));
+    c_.pad_up[i] = falling(of(step_shape::pad_up), phase / pad_part);
+    c_.pad_forward[i] = falling(of(step_shape::pad_forward), phase / pad_part);
     c_.swings[i] = phase >= off_;
     const double u = c_.swung[i] = std::clamp((phase - off_) / swing_part, 0.0, 1.0);
     if (c_.swings[i]) {
-      c_.pitch[i] = quintic(u, leaving, landing, span) + bumps(step_shape::swing_pitch, u);
+      c_.pitch[i] = quintic(u, leaving, landing, span) + bumps(of(step_shape::swing_pitch), u);
       c_.ankle_forward[i] = quintic(u, on_ground(off_on, out_c, 0), on_ground(land_on, out_c, stride), span) +
-                            bumps(step_shape::swing_forward, u);
-      c_.ankle_up[i] = quintic(u, off_up, land_up, span) + bumps(step_shape::swing_up, u);
+                            bumps(of(step_shape::swing_forward), u);
+      c_.ankle_up[i] = quintic(u, off_up, land_up, span) + bumps(of(step_shape::swing_up), u);
       c_.ankle_out[i] =
           quintic(u, on_ground(off_on, out_s, t_.half_width_m), on_ground(land_on, out_s, t_.half_width_m), span);
     } else {

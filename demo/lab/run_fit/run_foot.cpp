@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "assets/gait/run_curves.h"
 #include "demo/lab/gait_fit/step_curves.h"
@@ -20,32 +21,22 @@ class FootCurves {
       : b_(task.body.size), p_(shape), duty_(task.duty), period_(2 / task.frequency_hz) {
     flat_ = run_curve::usual_flat + at(run_shape::times, 0);
     lift_ = run_curve::usual_rise + at(run_shape::times, 1);
-    const double rising = duty_ - lift_;
-    double sum = 0, slope = 0, bend = 0;
-    for (std::size_t i = 0; i < run_shape::rise.count; ++i) {
-      const double k = static_cast<double>(i + 3), v = at(run_shape::rise, i);
-      sum -= v;
-      slope -= k * v;
-      bend -= k * (k - 1) * v;
-    }
-    leaving_ = per_second({sum, slope / rising, bend / (rising * rising)});
-    landing_ = falling_start(run_shape::strike, flat_);
+    leaving_ = per_second(heel_rise_end(of(run_shape::rise), duty_ - lift_), period_);
+    landing_ = starts(run_shape::strike, flat_);
     off_ = {rolled(b_, leaving_, false), rolled(b_, leaving_, true)};
     land_ = {rolled(b_, landing_, false), rolled(b_, landing_, true)};
-    add(falling_start(run_shape::pad_forward, run_curve::pad_part), land_.ahead);
-    add(falling_start(run_shape::pad_up, run_curve::pad_part), land_.up);
+    add(starts(run_shape::pad_forward, run_curve::pad_part), land_.ahead);
+    add(starts(run_shape::pad_up, run_curve::pad_part), land_.up);
   }
 
   double stance_pitch(double phase) const {
     const double u = std::clamp((phase - lift_) / (duty_ - lift_), 0.0, 1.0);
-    double sum = 0;
-    for (std::size_t i = run_shape::rise.count; i > 0; --i) sum = at(run_shape::rise, i - 1) + u * sum;
-    return (phase < flat_ ? falling(run_shape::strike, phase / flat_) : 0) - u * u * u * sum;
+    return (phase < flat_ ? falling(of(run_shape::strike), phase / flat_) : 0) + heel_rise(of(run_shape::rise), u);
   }
-  double pad(const ShapePart& part, double phase) const { return falling(part, phase / run_curve::pad_part); }
+  double pad(const ShapePart& part, double phase) const { return falling(of(part), phase / run_curve::pad_part); }
   double swung(double phase) const { return std::clamp((phase - duty_) / (1 - duty_), 0.0, 1.0); }
   double swing_pitch(double u) const {
-    return quintic(u, leaving_, landing_, span()) + bumps(run_shape::swing_pitch, u);
+    return quintic(u, leaving_, landing_, span()) + bumps(of(run_shape::swing_pitch), u);
   }
   /// Returns the ankle ahead of the foothold, along the foot's line, and the next foothold at `stride` along it.
   double swing_ahead(double u, double along, double stride) const {
@@ -54,34 +45,16 @@ class FootCurves {
     };
     return quintic(u, scaled_by(off_.ahead, 0), scaled_by(land_.ahead, stride), span());
   }
-  double forward_bumps(double u) const { return bumps(run_shape::swing_forward, u); }
-  double swing_up(double u) const { return quintic(u, off_.up, land_.up, span()) + bumps(run_shape::swing_up, u); }
+  double forward_bumps(double u) const { return bumps(of(run_shape::swing_forward), u); }
+  double swing_up(double u) const { return quintic(u, off_.up, land_.up, span()) + bumps(of(run_shape::swing_up), u); }
 
  private:
   double at(const ShapePart& part, std::size_t i) const { return p_[part.first + i]; }
   double span() const { return (1 - duty_) * period_; }
-  Moving per_second(const Moving& by_cycle) const {
-    return {by_cycle.value, by_cycle.rate / period_, by_cycle.bend / (period_ * period_)};
-  }
+  std::span<const double> of(const ShapePart& part) const { return std::span(p_).subspan(part.first, part.count); }
+  Moving starts(const ShapePart& part, double over) const { return per_second(falling_start(of(part), over), period_); }
   static void add(const Moving& more, Moving& to) {
     to = {to.value + more.value, to.rate + more.rate, to.bend + more.bend};
-  }
-  /// Returns (1 − u)³ times a polynomial that starts with the part's first number and no slope; 0 from u = 1.
-  double falling(const ShapePart& part, double u) const {
-    const double left = std::max(1 - u, 0.0);
-    double tail = 0;
-    for (std::size_t i = part.count - 1; i > 0; --i) tail = u * (at(part, i) + tail);
-    return left * left * left * (at(part, 0) * (1 + u * (3 + 6 * u)) + tail);
-  }
-  Moving falling_start(const ShapePart& part, double part_span) const {
-    return per_second(
-        {at(part, 0), at(part, 1) / part_span, (2 * at(part, 2) - 6 * at(part, 1)) / (part_span * part_span)});
-  }
-  double bumps(const ShapePart& part, double u) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < part.count; ++i) sum += at(part, i) * legendre(i, 2 * u - 1);
-    const double bump = u * (1 - u);
-    return 64 * bump * bump * bump * sum;
   }
 
   const StepBody& b_;

@@ -48,12 +48,8 @@ void lower_until(double slack_m, const RunTask& task, RunShape& shape) {
 /// the nearest one to the three step lengths.
 RunShape between_neighbours(const std::vector<RunFitNode>& nodes, std::size_t i) {
   const std::size_t s = i / length_count, l = i % length_count;
-  const std::size_t low = s == 0                 ? 1
-                          : s + 1 == speed_count ? s - 2
-                                                 : s - 1,
-                    high = s == 0                 ? 2
-                           : s + 1 == speed_count ? s - 1
-                                                  : s + 1;
+  const bool at_end = s == 0 || s + 1 == speed_count;
+  const std::size_t low = s == 0 ? 1 : s - (at_end ? 2 : 1), high = low + (at_end ? 1 : 2);
   const double part = (speed[s] - speed[low]) / (speed[high] - speed[low]);
   const auto at = [&](std::size_t speed_number, std::size_t length_number) -> const RunShape& {
     return nodes[speed_number * length_count + length_number].shape;
@@ -197,22 +193,12 @@ std::vector<RunFitNode> fit_runs(const Jobs& jobs, const RunProgress& progress) 
   return nodes;
 }
 
-std::array<float, run_shape::size> tabled(const RunShape& fitted) {
-  std::array<float, run_shape::size> out{};
-  for (const ShapePart& part : run_shape::parts) {
-    for (std::size_t i = part.first; i < part.first + part.count; ++i)
-      out[i] = static_cast<float>(part.is_length ? fitted[i] / fitted_height_m : fitted[i]);
-  }
-  return out;
+std::array<float, run_shape::size> tabled(const RunShape& shape) {
+  return tabled(shape, run_shape::parts);
 }
 
-RunShape fitted(const std::array<float, run_shape::size>& tabled) {
-  RunShape out{};
-  for (const ShapePart& part : run_shape::parts) {
-    for (std::size_t i = part.first; i < part.first + part.count; ++i)
-      out[i] = static_cast<double>(tabled[i]) * (part.is_length ? fitted_height_m : 1);
-  }
-  return out;
+RunShape fitted(const std::array<float, run_shape::size>& shape) {
+  return fitted(shape, run_shape::parts);
 }
 
 RunNode table_node(const RunFitNode& node) {

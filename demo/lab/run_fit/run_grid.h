@@ -7,6 +7,7 @@
 
 #include <mobil/engine/jobs.h>
 #include "assets/gait/run_lookup.h"
+#include "demo/lab/gait_fit/step_grid.h"
 #include "demo/lab/run_fit/run_quality.h"
 
 namespace mobil {
